@@ -113,6 +113,11 @@ void PeriodComparison::pass(int phase, const PeriodicValues& values) {
   known_ = std::min<std::int64_t>(known_ + 1, 2 * phases);
 }
 
+void PeriodComparison::share(const Communicator& processes) {
+  for (auto* part : {&extremes_.difference, &extremes_.range, &extremes_.size})
+    for (double& value : *part) value = processes.largest(value);
+}
+
 void PeriodComparison::keep(Memory& memory) {
   if (!memory.recalls() && !begun_) return;
   const auto columns = static_cast<std::size_t>(phases);

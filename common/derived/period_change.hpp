@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "parallel/communicator.hpp"
 #include "time/memory.hpp"
 
 namespace fsi {
@@ -56,6 +57,9 @@ class PeriodComparison {
     return period_ * static_cast<double>(ended);
   }
 
+  /// Takes in what other processes have seen of the period so far, each of its own values: before keep(), where there are
+  /// several. All have to call it.
+  void share(const Communicator& processes);
   /// What a restart needs to go on bit for bit. An earlier run without, or of another period, does not serve: then periods
   /// are compared from there on, which is said.
   void keep(Memory& memory);

@@ -21,6 +21,7 @@ namespace fsi {
 template <class Element>
 class ElementPacks {
  public:
+  using ElementType = Element;
   static constexpr int nodes = Element::nodes;
   using Lanes = std::array<int, pack_width>;
 

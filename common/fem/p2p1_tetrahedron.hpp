@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem/p1_tetrahedron.hpp"
 #include "fem/point_geometry.hpp"
 #include "fem/quadratic_simplex.hpp"
 #include "fem/simplex_rule.hpp"
@@ -11,6 +12,7 @@ namespace fsi {
 /// (u . grad u) . v among them, and has positive weights.
 struct P2P1Tetrahedron {
   using Shapes = QuadraticSimplex<3>;
+  using OnVertices = P1Tetrahedron;
   static constexpr int dim = 3;
   static constexpr int order = 2;
   static constexpr int nodes = Shapes::nodes;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem/p1_triangle.hpp"
 #include "fem/point_geometry.hpp"
 #include "fem/quadratic_simplex.hpp"
 #include "fem/simplex_rule.hpp"
@@ -14,6 +15,7 @@ namespace fsi {
 template <class Body>
 struct P2P1Triangle {
   using Shapes = QuadraticSimplex<2>;
+  using OnVertices = P1Triangle<Body>;
   static constexpr int dim = 2;
   static constexpr int order = 2;
   static constexpr int nodes = Shapes::nodes;

@@ -163,15 +163,8 @@ void HarmonicExtension<n>::set_up(Group& group) {
   group.offset = {0};
   for (std::size_t k = 1; k < group.components.size() && !group.mixed; ++k)
     group.offset.push_back(static_cast<std::size_t>(group.components[k] - group.components[0]));
-  const int rows = static_cast<int>(group.entry.size());
-  const int nodes = group.mixed ? rows / static_cast<int>(group.components.size()) : rows;
-  group.iterative = nodes >= options_.iterative_from.value_or(HarmonicExtensionOptions::standard_iterative_from(n));
-  if (!group.iterative) {
-    if (rows > 0) factorise(group);
-    return;
-  }
-  CsrMatrix<double>& a = group.matrix;
-  a.columns = rows;
+  CsrMatrix<double> a, reduced;
+  a.columns = static_cast<int>(group.entry.size());
   for (std::size_t row = 0; row < group.entry.size(); ++row) {
     for_row(group, row, [&](int column, double value) {
       a.indices.push_back(column);
@@ -179,25 +172,29 @@ void HarmonicExtension<n>::set_up(Group& group) {
     });
     a.offsets.push_back(static_cast<int>(a.indices.size()));
   }
+  group.followers = FollowerElimination(a, reduced);
+  const int rows = reduced.rows();
+  const int nodes = group.mixed ? rows / static_cast<int>(group.components.size()) : rows;
+  group.iterative = nodes >= options_.iterative_from.value_or(HarmonicExtensionOptions::standard_iterative_from(n));
+  if (!group.iterative) {
+    if (rows > 0) factorise(group, reduced);
+    return;
+  }
+  group.matrix = std::move(reduced);
   ScalarMultigrid::Options options;
   options.post_smoothing = true;  // conjugate gradients want a symmetric cycle
-  group.multigrid.set_up(a, options);
+  group.multigrid.set_up(group.matrix, options);
 }
 
 template <int n>
-void HarmonicExtension<n>::factorise(Group& group) {
+void HarmonicExtension<n>::factorise(Group& group, const CsrMatrix<double>& a) {
   // The matrix is symmetric: its rows serve as columns.
-  SparseMatrix a;
-  a.offsets = {0};
-  for (std::size_t row = 0; row < group.entry.size(); ++row) {
-    for_row(group, row, [&](int column, double value) {
-      a.rows.push_back(column);
-      a.values.push_back(value);
-    });
-    a.offsets.push_back(static_cast<std::int64_t>(a.rows.size()));
-  }
-  group.solver.factorise(a);
-  if (options_.single_precision) group.solver.reduce_precision(a);
+  SparseMatrix columns;
+  columns.offsets.assign(a.offsets.begin(), a.offsets.end());
+  columns.rows.assign(a.indices.begin(), a.indices.end());
+  columns.values = a.values;
+  group.solver.factorise(columns);
+  if (options_.single_precision) group.solver.reduce_precision(columns);
 }
 
 template <int n>
@@ -216,7 +213,7 @@ void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<d
                              : count == 2 ? iterate<2>(group, right, field, tolerance)
                                           : iterate<3>(group, right, field, tolerance);
       if (converged) continue;
-      if (!group.solver.factorised()) factorise(group);
+      if (!group.solver.factorised()) factorise(group, group.matrix);
     }
     for (std::size_t c = 0; c < group.offset.size(); ++c)
       for (const std::size_t entry : group.entry) field[entry + group.offset[c]] = 0;
@@ -249,8 +246,7 @@ void HarmonicExtension<n>::apply_operator_to_given() {
 }
 
 template <int n>
-void HarmonicExtension<n>::add_solution(const Group& group, const std::vector<double>& right,
-                                        std::vector<double>& field) {
+void HarmonicExtension<n>::take(const Group& group, const std::vector<double>& right) {
   const std::size_t rows = group.entry.size(), count = group.offset.size();
   right_.resize(rows * count);
   for (std::size_t c = 0; c < count; ++c)
@@ -258,7 +254,16 @@ void HarmonicExtension<n>::add_solution(const Group& group, const std::vector<do
       const std::size_t entry = group.entry[i] + group.offset[c];
       right_[c * rows + i] = right[entry] - rows_[entry];
     }
-  group.solver.solve(right_, static_cast<int>(count), solution_);
+}
+
+template <int n>
+void HarmonicExtension<n>::add_solution(const Group& group, const std::vector<double>& right,
+                                        std::vector<double>& field) {
+  const std::size_t rows = group.entry.size(), count = group.offset.size();
+  take(group, right);
+  group.followers.reduce(right_, static_cast<int>(count), right_of_kept_);
+  if (!right_of_kept_.empty()) group.solver.solve(right_of_kept_, static_cast<int>(count), kept_);
+  group.followers.complete(right_, kept_, static_cast<int>(count), solution_);
   for (std::size_t c = 0; c < count; ++c)
     for (std::size_t i = 0; i < rows; ++i) field[group.entry[i] + group.offset[c]] += solution_[c * rows + i];
 }
@@ -299,15 +304,17 @@ template <int m>
 bool HarmonicExtension<n>::iterate(Group& group, const std::vector<double>& right, std::vector<double>& field,
                                    double tolerance) {
   constexpr int lanes = m == 1 ? 1 : padded<m>;
-  const int rows = static_cast<int>(group.entry.size());
+  const auto& kept = group.followers.kept();
+  const int rows = static_cast<int>(kept.size());
   const std::size_t size = static_cast<std::size_t>(rows) * m;
   std::vector<double> x(size), r(size), z(size), p(size, 0.0), q(size);
   std::vector<float> single_r(static_cast<std::size_t>(rows) * lanes, 0.0f), single_z(single_r);
+  take(group, right);
+  group.followers.reduce(right_, m, right_of_kept_);
   for (int i = 0; i < rows; ++i)
     for (int k = 0; k < m; ++k) {
-      const std::size_t entry = group.entry[i] + group.offset[k];
-      x[static_cast<std::size_t>(i) * m + k] = field[entry];
-      r[static_cast<std::size_t>(i) * m + k] = right[entry] - rows_[entry];
+      x[static_cast<std::size_t>(i) * m + k] = field[group.entry[kept[i]] + group.offset[k]];
+      r[static_cast<std::size_t>(i) * m + k] = right_of_kept_[static_cast<std::size_t>(k) * rows + i];
     }
   const auto reference = dots<m>(r, r);
   multiply_each<m>(group.matrix, x, q);
@@ -359,8 +366,13 @@ bool HarmonicExtension<n>::iterate(Group& group, const std::vector<double>& righ
   }
   iterations_ = std::max(iterations_, iteration);
   if (!done()) return false;
+  kept_.resize(size);
   for (int i = 0; i < rows; ++i)
-    for (int k = 0; k < m; ++k) field[group.entry[i] + group.offset[k]] = x[static_cast<std::size_t>(i) * m + k];
+    for (int k = 0; k < m; ++k) kept_[static_cast<std::size_t>(k) * rows + i] = x[static_cast<std::size_t>(i) * m + k];
+  group.followers.complete(right_, kept_, m, solution_);
+  const std::size_t all = group.entry.size();
+  for (std::size_t i = 0; i < all; ++i)
+    for (int k = 0; k < m; ++k) field[group.entry[i] + group.offset[k]] = solution_[k * all + i];
   return true;
 }
 
@@ -374,7 +386,8 @@ template <int n>
 double HarmonicExtension<n>::memory_mib() const {
   double bytes = 0;
   for (const Group& group : groups_)
-    bytes += group.solver.bytes() + static_cast<double>(group.matrix.bytes() + group.multigrid.bytes());
+    bytes += group.solver.bytes() +
+             static_cast<double>(group.followers.bytes() + group.matrix.bytes() + group.multigrid.bytes());
   return bytes / (1 << 20);
 }
 

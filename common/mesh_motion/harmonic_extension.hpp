@@ -7,6 +7,7 @@
 #include "algebra/cholesky_solver.hpp"
 #include "algebra/csr_matrix.hpp"
 #include "fem/nodal_frames.hpp"
+#include "mesh_motion/follower_elimination.hpp"
 #include "mesh_motion/mesh_extension.hpp"
 #include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
 
@@ -21,7 +22,7 @@ struct HarmonicExtensionOptions {
   /// Factors are kept in single precision, where they serve: for who asks for a few digits. More are reached by corrections.
   bool single_precision = false;
 
-  /// Inner nodes from which the iteration takes the place of the factor. To three digits both take the same time at
+  /// Inner nodes, without followers, from which the iteration takes the place of the factor. To three digits both take the same time at
   /// 18,000 inner nodes of an even mesh; on a graded one of 12,000 the factor is three times as quick. The factor's memory
   /// grows faster than the mesh, so that it ends somewhere: larger ones were not measured. Those of a plane graph hardly
   /// fill in.
@@ -31,7 +32,8 @@ struct HarmonicExtensionOptions {
 
 /// The mesh motion's equations. Components do not couple: each distinct one has a scalar matrix, whose components are
 /// solved at once, by a factorisation or, where that is large, by conjugate gradients in double precision around a
-/// V-cycle of smoothed aggregation in single precision. Components that frames of nodes mix have one matrix together.
+/// V-cycle of smoothed aggregation in single precision. Nodes that follow two others at most, as those in the middle of
+/// edges, are eliminated before. Components that frames of nodes mix have one matrix together.
 /// Results do not depend on the number of threads.
 /// \tparam n  components of a node
 template <int n>
@@ -68,7 +70,8 @@ class HarmonicExtension : public MeshExtension<n> {
     std::vector<int> row;             ///< per entry of the vector layout; -1 where the value is given
     std::vector<std::size_t> entry;   ///< per row, of the first of its vectors
     std::vector<std::size_t> offset;  ///< from there to the entry of each of its vectors
-    CsrMatrix<double> matrix;         ///< of the iteration
+    FollowerElimination followers;    ///< what is solved for is without them
+    CsrMatrix<double> matrix;         ///< of what is kept, for the iteration
     ScalarMultigrid multigrid;        ///< its preconditioner
     CholeskySolver solver;
     bool iterative = false;
@@ -83,13 +86,16 @@ class HarmonicExtension : public MeshExtension<n> {
   /// Calls visit(column, value) for the entries of a row of the group's matrix, columns ascending.
   template <class Visit>
   void for_row(const Group& group, std::size_t row, Visit visit) const;
-  void factorise(Group& group);
+  /// \param a  of what is kept
+  void factorise(Group& group, const CsrMatrix<double>& a);
   /// Fills beside_given_ and what goes with it, but for numbers.
   void find_couplings_to_given();
   /// rows_ = A values_, in the frames.
   void apply_operator();
   /// The same where inner values are zero.
   void apply_operator_to_given();
+  /// right_ = right - rows_ in the group's rows, one component behind the other.
+  void take(const Group& group, const std::vector<double>& right);
   /// Inner values of `field` in the group's rows += those that solve for right - rows_.
   void add_solution(const Group& group, const std::vector<double>& right, std::vector<double>& field);
   /// Corrects what factors in single precision have solved until the residual is as small as is demanded, or all that is
@@ -116,7 +122,7 @@ class HarmonicExtension : public MeshExtension<n> {
   std::vector<Coupling> couplings_;
   std::vector<int> blocks_;  ///< of the matrix, that these are copies of
   int iterations_ = 0;
-  std::vector<double> values_, rows_, right_, solution_;
+  std::vector<double> values_, rows_, right_, right_of_kept_, kept_, solution_;
 };
 
 }  // namespace fsi

@@ -9,7 +9,7 @@ namespace fsi {
 
 template <class Element>
 void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<Element::components>& matrix,
-                          const std::vector<double>& stiffness) {
+                          const std::vector<double>& stiffness, std::vector<double>* diagonals) {
   constexpr int n = Element::components;
   matrix.set_zero();
   for_each_thread(packs, serial_jacobian_elements, [&](int, const auto& mine) {
@@ -18,6 +18,8 @@ void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<E
     ElementRows<Element, Dual<n>> rows;
     for (const auto& pack : mine) {
       const Pack k_of_cells = stiffness_of(stiffness, pack.cell);
+      Pack diagonal[n];
+      for (Pack& sum : diagonal) sum = Pack(0.0);
       for (int b = 0; b < Element::nodes; ++b) {
         integrate(
             rows, pack.geometry,
@@ -29,7 +31,12 @@ void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<E
             if (position < 0) continue;
             for (int k = 0; k < n; ++k) matrix.block(position)[k] += rows.at[a][k].slope[k].lanes[lane];
           }
+        for (int k = 0; k < n; ++k) diagonal[k] += rows.at[b][k].slope[k];
       }
+      if (!diagonals || !pack.counted_here()) continue;
+      for (int lane = 0; lane < pack.filled; ++lane)
+        for (int k = 0; k < n; ++k)
+          (*diagonals)[static_cast<std::size_t>(pack.cell[lane]) * n + k] = diagonal[k][lane] / Element::nodes;
     }
   });
 }
@@ -48,11 +55,15 @@ AssemblyResult smallest_volume_ratio(const ElementPacks<Element>& packs, const s
   return reduced(results);
 }
 
-#define FSI_INSTANTIATE(Element)                                                                           \
-  template void assemble_mesh_motion(const ElementPacks<Element>&, MeshMotionMatrix<Element::components>&, \
-                                     const std::vector<double>&);                                          \
+#define FSI_INSTANTIATE(Element) \
   template AssemblyResult smallest_volume_ratio(const ElementPacks<Element>&, const std::vector<double>&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+#define FSI_INSTANTIATE(Element)                                                                           \
+  template void assemble_mesh_motion(const ElementPacks<Element>&, MeshMotionMatrix<Element::components>&, \
+                                     const std::vector<double>&, std::vector<double>*);
+FSI_FOR_EACH_LINEAR_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 
 }  // namespace fsi

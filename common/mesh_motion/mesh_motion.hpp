@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,8 @@ template <int n>
 class MeshMotion {
  public:
   virtual ~MeshMotion() = default;
+  /// That the operator is stored on.
+  virtual std::shared_ptr<const NodeGraph> graph() const = 0;
   /// Overwrites the operator, without boundary conditions.
   virtual void assemble(MeshMotionMatrix<n>& matrix) const = 0;
   /// The smallest J of a mesh displacement, in the vector layout, and where it is.
@@ -27,30 +30,37 @@ class MeshMotion {
 };
 
 /// Assembles the operator of the harmonic mesh motion, without boundary conditions.
-/// \param stiffness  k of each cell (stiffening.hpp); empty: 1
+/// \tparam Element    a linear one
+/// \param stiffness   k of each cell (stiffening.hpp); empty: 1
+/// \param diagonals   n numbers a cell, set to the mean of the diagonal entries that its vertices get from it; null: not
+///                    wanted
 template <class Element>
 void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<Element::components>& matrix,
-                          const std::vector<double>& stiffness = {});
+                          const std::vector<double>& stiffness = {}, std::vector<double>* diagonals = nullptr);
 
 /// The smallest J of a mesh displacement at a quadrature point.
 template <class Element>
 AssemblyResult smallest_volume_ratio(const ElementPacks<Element>& packs, const std::vector<double>& mesh);
 
-/// Harmonic mesh motion, plain or stiffened, on the elements of the fluid, which must outlive it.
+/// Harmonic mesh motion, plain or stiffened, on linear elements of the fluid, which must outlive it.
 template <class Element>
-class MeshMotionOfElements : public MeshMotion<Element::components> {
+class MotionOfAllNodes : public MeshMotion<Element::components> {
  public:
-  explicit MeshMotionOfElements(const ElementPacks<Element>& packs, std::vector<double> stiffness = {})
-      : packs_(packs), stiffness_(std::move(stiffness)) {}
-  void assemble(MeshMotionMatrix<Element::components>& matrix) const override {
-    assemble_mesh_motion(packs_, matrix, stiffness_);
-  }
+  static constexpr int n = Element::components;
+
+  /// \param graph  of nodes that share a cell
+  MotionOfAllNodes(const ElementPacks<Element>& packs, std::shared_ptr<const NodeGraph> graph,
+                   std::vector<double> stiffness = {})
+      : packs_(packs), graph_(std::move(graph)), stiffness_(std::move(stiffness)) {}
+  std::shared_ptr<const NodeGraph> graph() const override { return graph_; }
+  void assemble(MeshMotionMatrix<n>& matrix) const override { assemble_mesh_motion(packs_, matrix, stiffness_); }
   AssemblyResult smallest_volume_ratio(const std::vector<double>& mesh) const override {
     return fsi::smallest_volume_ratio(packs_, mesh);
   }
 
  private:
   const ElementPacks<Element>& packs_;
+  std::shared_ptr<const NodeGraph> graph_;
   std::vector<double> stiffness_;
 };
 

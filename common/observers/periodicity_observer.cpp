@@ -58,6 +58,7 @@ class PeriodicityObserver : public Observer {
   }
 
   void keep(Memory& memory) override {
+    if (!memory.recalls()) comparison_.share(scene_.processes());
     comparison_.keep(memory);
     if (!memory.wants({"changes"})) return;
     std::vector<double> numbers;

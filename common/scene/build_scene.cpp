@@ -11,6 +11,7 @@
 #include "fluid/fluid_problem.hpp"
 #include "materials/viscosity_law.hpp"
 #include "mesh/group_names.hpp"
+#include "mesh_motion/motion_of_vertices.hpp"
 #include "scene/rigid_motion.hpp"
 #include "scene/time_scheme.hpp"
 #include "scene/varying_materials.hpp"
@@ -47,7 +48,8 @@ void build_mesh_motion(const MeshMotionOptions& options, const FluidProblem<Elem
     scene.nonlinear_mesh_motion = std::make_unique<ElasticMeshMotion<Element>>(
         fluid.packs(), fluid.space().graph(), PseudoSolid::of_poisson(options.poisson), std::move(stiffness));
   else
-    scene.mesh_motion_problem = std::make_unique<MeshMotionOfElements<Element>>(fluid.packs(), std::move(stiffness));
+    scene.mesh_motion_problem =
+        harmonic_mesh_motion<Element>(fluid.part(), fluid.packs(), fluid.space().graph(), std::move(stiffness));
 }
 
 /// How many cells of these regions the part has, of all processes.

@@ -92,7 +92,7 @@ class Scene {
   /// Assembles the mesh motion's operator; its storage stays in place.
   void assemble_mesh_motion() {
     const auto phase = profile.phase("assembly: mesh motion");
-    if (mesh_motion.values.empty()) mesh_motion = MeshMotionMatrix<n>(fluid->graph());
+    if (mesh_motion.values.empty()) mesh_motion = MeshMotionMatrix<n>(mesh_motion_problem->graph());
     mesh_motion_problem->assemble(mesh_motion);
     ++mesh_motion_assemblies;
   }

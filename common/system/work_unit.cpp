@@ -65,9 +65,11 @@ void CoupledProduct<n>::multiply() {
       if (scene_.nonlinear_mesh_motion)
         multiply_by<n, n>(graph, values, mesh_, mesh_rows_, false);
       else
-        detail::for_each_component_row<n, n>(graph, values.data(), mesh_.data(), [&](int row, const double* sum) {
-          for (int k = 0; k < n; ++k) mesh_rows_[static_cast<std::size_t>(row) * n + k] = sum[k];
-        });
+        detail::for_each_component_row<n, n>(*scene_.mesh_motion.graph, values.data(), mesh_.data(),
+                                             [&](int row, const double* sum) {
+                                               for (int k = 0; k < n; ++k)
+                                                 mesh_rows_[static_cast<std::size_t>(row) * n + k] = sum[k];
+                                             });
     }
   }
   if (scene_.wall) {
@@ -81,9 +83,11 @@ std::int64_t CoupledProduct<n>::entries() const {
   constexpr std::int64_t mixed = MixedLayout<n>::entries;
   std::int64_t entries = 0;
   if (scene_.fluid) {
-    const std::int64_t mesh = scene_.nonlinear_mesh_motion ? n * n : n;
-    const std::int64_t of_pair = mixed * mixed + (scene_.coupled() ? mixed * n + mesh : 0);
-    entries += of_pair * own_blocks(*scene_.fluid->graph(), scene_.fluid->nodes());
+    const PartNodes& nodes = scene_.fluid->nodes();
+    const std::int64_t elastic_mesh = scene_.nonlinear_mesh_motion ? n * n : 0;
+    const std::int64_t of_pair = mixed * mixed + (scene_.coupled() ? mixed * n + elastic_mesh : 0);
+    entries += of_pair * own_blocks(*scene_.fluid->graph(), nodes);
+    if (scene_.mesh_motion_problem) entries += n * own_blocks(*scene_.mesh_motion.graph, nodes);
   }
   if (scene_.wall) entries += mixed * mixed * own_blocks(*scene_.wall->graph(), scene_.wall->nodes());
   return scene_.processes().sum(entries);

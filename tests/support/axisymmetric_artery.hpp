@@ -8,6 +8,7 @@
 
 #include "fem/p1_triangle.hpp"
 #include "fluid/fluid_problem.hpp"
+#include "mesh_motion/motion_of_vertices.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "scene/wave_speed.hpp"
 #include "system/newton_stepper.hpp"
@@ -139,7 +140,8 @@ class AxisymmetricArtery {
     std::vector<OpenBoundary<2>> open{open_boundary<Element>("inlet", fluid.nodes, inlet),
                                       open_boundary<Element>("outlet", fluid.nodes, outlet)};
     auto problem = std::make_unique<FluidProblem<Element>>(std::move(fluid), AleFluid{1.0, 3.5e-3}, std::move(open));
-    scene_->mesh_motion_problem = std::make_unique<MeshMotionOfElements<Element>>(problem->packs());
+    scene_->mesh_motion_problem =
+        harmonic_mesh_motion<Element>(problem->part(), problem->packs(), problem->space().graph());
     scene_->fluid = std::move(problem);
     scene_->assemble_mesh_motion();
   }

@@ -14,7 +14,7 @@
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh_motion/harmonic_extension.hpp"
 #include "mesh_motion/mesh_follower.hpp"
-#include "mesh_motion/mesh_motion.hpp"
+#include "mesh_motion/motion_of_vertices.hpp"
 #include "mesh_motion/stiffening.hpp"
 #include "support/meshes.hpp"
 
@@ -137,6 +137,17 @@ PrescribedMotion<Element> bulging_tube(int boxes) {
   return problem;
 }
 
+/// Gives the nodes in the middles of all edges the mean of their ends.
+/// \param field  n numbers a node
+template <int Dim>
+void follow_edges(const Submesh<Dim, 2>& part, int n, std::vector<double>& field) {
+  const auto& edges = SimplexEdges<Dim>::vertices;
+  for (const auto& cell : part.cells)
+    for (std::size_t e = 0; e < edges.size(); ++e)
+      for (int k = 0; k < n; ++k)
+        field[n * cell[Dim + 1 + e] + k] = 0.5 * (field[n * cell[edges[e][0]] + k] + field[n * cell[edges[e][1]] + k]);
+}
+
 /// A mesh motion by name, on its own.
 template <class Element>
 class MovedMesh {
@@ -155,8 +166,9 @@ class MovedMesh {
     if (options.method == MeshMotionMethod::nonlinear_elastic) {
       follower = std::make_unique<MeshFollower<n>>(elastic_, inner);
     } else {
-      operator_ = MeshMotionMatrix<n>(space_.graph());
-      assemble_mesh_motion(packs_, operator_, stiffness_);
+      const auto motion = harmonic_mesh_motion<Element>(problem.part, packs_, space_.graph(), stiffness_);
+      operator_ = MeshMotionMatrix<n>(motion->graph());
+      motion->assemble(operator_);
       extension_ = std::make_unique<HarmonicExtension<n>>(operator_, inner);
     }
   }

@@ -133,6 +133,16 @@ class SteppedRing {
   /// Of the mesh, mm.
   double mesh_displacement(double big_r) const { return mesh_radius(big_r, last()) - big_r; }
 
+  /// R of the mesh point that is at radius r, mm.
+  double reference_radius(double r) const {
+    double big_r = r;
+    for (int k = 0; k < 20; ++k) {
+      const double beyond = mesh_radius(big_r, last()) - r;
+      big_r -= beyond / mesh_radius_slope(big_r, last());
+      if (std::abs(beyond) < 1e-14) break;
+    }
+    return big_r;
+  }
   /// kPa, where the mesh point of reference radius R is.
   double fluid_pressure(double big_r) const {
     const double r0 = ring_.porous_radius;

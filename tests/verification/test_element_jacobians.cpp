@@ -3,11 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <type_traits>
+
 #include "fem/elements.hpp"
 #include "fem/function_space.hpp"
+#include "mesh_motion/motion_of_vertices.hpp"
 #include "sub_problem_jacobians.hpp"
 #include "support/element_meshes.hpp"
 #include "support/every_element.hpp"
+#include "support/mesh_motion_problems.hpp"
 
 namespace fsi::test {
 
@@ -71,6 +76,7 @@ TYPED_TEST(EveryElement, WallJacobianIsTheDerivativeOfTheResidualForEveryMateria
   }
 }
 
+/// Of quadratic elements: the weak form of linear ones on their vertices, where nodes in the middles of edges follow.
 TYPED_TEST(EveryElement, MeshMotionsOperatorIsTheDerivativeOfItsWeakForm) {
   using Element = TypeParam;
   constexpr int n = Element::components;
@@ -78,14 +84,31 @@ TYPED_TEST(EveryElement, MeshMotionsOperatorIsTheDerivativeOfItsWeakForm) {
   const auto part = whole(mesh);
   const auto space = function_space<Element>(part);
   const ElementPacks<Element> packs(part.nodes, part.cells, all_cells(part), *space.graph());
-  MeshMotionMatrix<n> matrix(space.graph());
-  assemble_mesh_motion(packs, matrix);
-  const auto state = random_field(mesh.nodes, n, 0.3, 0.1, 41), direction = random_field(mesh.nodes, n, 0.3, 0.1, 42);
-  std::vector<double> product(direction.size());
-  multiply_mesh_motion<n>(matrix, direction, product);
-  expect_exact(central_differences(
-      "mesh motion", [&](double t) { return mesh_motion_residual<Element>(packs, moved(state, t, direction)); },
-      product));
+  const auto motion = harmonic_mesh_motion<Element>(part, packs, space.graph());
+  MeshMotionMatrix<n> matrix(motion->graph());
+  motion->assemble(matrix);
+  const auto state = random_field(mesh.nodes, n, 0.3, 0.1, 41);
+  auto direction = random_field(mesh.nodes, n, 0.3, 0.1, 42);
+  const auto compare = [&](const auto& linear_packs) {
+    using Linear = std::decay_t<decltype(linear_packs)>;
+    std::vector<double> product(direction.size());
+    multiply_mesh_motion<n>(matrix, direction, product);
+    expect_exact(central_differences(
+        "mesh motion",
+        [&](double t) {
+          return mesh_motion_residual<typename Linear::ElementType>(linear_packs, moved(state, t, direction));
+        },
+        product));
+  };
+  if constexpr (Element::order == 1) {
+    compare(packs);
+  } else {
+    std::vector<std::array<int, Element::scalar_nodes>> cells(part.cells.size());
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      for (int a = 0; a < Element::scalar_nodes; ++a) cells[c][a] = part.cells[c][a];
+    follow_edges(part, n, direction);
+    compare(ElementPacks<typename Element::OnVertices>(part.nodes, cells, all_cells(part), *motion->graph()));
+  }
 }
 
 }  // namespace

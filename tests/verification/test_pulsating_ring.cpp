@@ -1,6 +1,7 @@
 // The pulsating ring of docs/theory.md, section 13.2: an exact solution of fluid, wall and moving mesh together at
 // finite strain. Computations are held against the ring as the same time scheme steps it, so that their error is that
-// of space alone.
+// of space alone: but for what the error of a step owes to the mesh, whose vertices are off the harmonic motion by h^2. So
+// steps are short with quadratic elements. Fluid is compared where its mesh is.
 
 #include <gtest/gtest.h>
 
@@ -104,8 +105,8 @@ std::vector<double> ring_errors(int material, const RingCells& cells, double hei
                                      [&](double r) { return exact.fluid_pressure(r); });
   add_errors<Element>(
       dynamic_cast<const FluidProblem<Element>&>(*scene->fluid).part(), mesh.region_index("fluid"), state.now.fluid,
-      [&](const Point& x) { return radial(x, exact.velocity(radius(x))); },
-      [&](const Point& x) { return fluid_pressure(radius(x)); }, u, fluid_p);
+      [&](const Point& x) { return radial(x, exact.velocity(exact.reference_radius(radius(x)))); },
+      [&](const Point& x) { return fluid_pressure(exact.reference_radius(radius(x))); }, u, fluid_p, &state.now.mesh);
   for (std::size_t layer = 0; layer < 2; ++layer) {
     const auto& data = ring.tube.layers[layer];
     const PolynomialFit pressure(data.inner, data.outer, 12, [&](double r) { return exact.wall_pressure(layer, r); });
@@ -147,12 +148,12 @@ INSTANTIATE_TEST_SUITE_P(Materials, PulsatingRingScene, testing::Values(0, 1, 2)
 });
 
 TEST_P(PulsatingRingScene, PlaneTaylorHoodIsOfThirdOrder) {
-  expect_taylor_hood_orders(ring_table<P2P1PlaneTriangle>("plane", GetParam(), {1, 2, 4}, {6, 1, 1, 4}, 0, 0.5, 4),
+  expect_taylor_hood_orders(ring_table<P2P1PlaneTriangle>("plane", GetParam(), {1, 2, 4}, {6, 1, 1, 4}, 0, 0.0625, 16),
                             5e-6);
 }
 TEST_P(PulsatingRingScene, AxisymmetricTaylorHoodIsOfThirdOrder) {
   expect_taylor_hood_orders(
-      ring_table<P2P1AxisymmetricTriangle>("axisymmetric", GetParam(), {1, 2, 4}, {6, 1, 1, 1}, 0.4, 0.5, 4), 3e-6);
+      ring_table<P2P1AxisymmetricTriangle>("axisymmetric", GetParam(), {1, 2, 4}, {6, 1, 1, 1}, 0.4, 0.0625, 16), 3e-6);
 }
 
 TEST(PulsatingRing, LinearTrianglesAreOfSecondOrder) {
@@ -174,8 +175,8 @@ TEST(PulsatingRing, OnePressureForBothLayersCostsMoreThanAnOrder) {
 }
 
 TEST(PulsatingRing, TaylorHoodTetrahedraBetweenSymmetryPlanesAreOfThirdOrder) {
-  expect_taylor_hood_orders(ring_table<P2P1Tetrahedron>("three-dimensional", 0, {1, 2, 3}, {3, 1, 1, 4}, 0.4, 1, 2),
-                            1.2e-5);
+  expect_taylor_hood_orders(
+      ring_table<P2P1Tetrahedron>("three-dimensional", 0, {1, 2, 3}, {3, 1, 1, 4}, 0.4, 0.125, 16), 1.2e-5);
 }
 
 }  // namespace

@@ -9,10 +9,8 @@
 #include "fem/p1_tetrahedron.hpp"
 #include "fem/p2p1_tetrahedron.hpp"
 #include "mesh/boundary.hpp"
-#include "mesh_motion/mesh_motion.hpp"
 #include "support/meshes.hpp"
 #include "support/nodal_arrays.hpp"
-#include "support/problems.hpp"
 
 namespace fsi::test {
 
@@ -143,30 +141,6 @@ TEST(FunctionSpace, KnowsWhichNodesCarryScalars) {
   EXPECT_EQ(space.node_count(), static_cast<int>(mesh.nodes.size()));
   const auto equal_order = function_space<P1Tetrahedron>(whole(linear));
   for (int a = 0; a < equal_order.node_count(); ++a) EXPECT_TRUE(equal_order.carries_scalar(a));
-}
-
-// Element packs, assembly and scatter with ten nodes: quadratic harmonic functions are solutions of the discrete
-// equations of mesh motion.
-TEST(MeshMotionPatch, QuadraticHarmonicDisplacementIsReproducedByQuadraticElements) {
-  const auto mesh = with_mid_edge_nodes(irregular_cube(3, 0.2));
-  const auto part = whole(mesh);
-  const auto space = function_space<TaylorHood>(part);
-  const ElementPacks<TaylorHood> packs(part.nodes, part.cells, all_cells(part), *space.graph());
-  MeshMotionMatrix<3> matrix(space.graph());
-  assemble_mesh_motion(packs, matrix);
-  const auto boundary = [&](int a) {
-    const auto& x = mesh.nodes[a];
-    return std::any_of(x.begin(), x.end(), [](double c) { return c < 1e-12 || c > 1 - 1e-12; });
-  };
-  MeshMotionEquilibrium<TaylorHood> problem(matrix, [&](int a, int) { return boundary(a); });
-  std::vector<double> exact;
-  for (const auto& x : mesh.nodes)
-    for (double value : {x[0] * x[0] - x[1] * x[1], x[0] * x[2] + 0.3, 2 * x[2] * x[2] - x[0] * x[0] - x[1] * x[1]})
-      exact.push_back(value);
-  for (std::size_t i = 0; i < exact.size(); ++i) problem.solution[i] = boundary(static_cast<int>(i / 3)) ? exact[i] : 0;
-  EXPECT_GT(largest(difference(problem.solution, exact)), 0.1);
-  newton(problem, {});
-  EXPECT_LT(largest(difference(problem.solution, exact)), 1e-12);
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "algebra/csr_matrix.hpp"
+
+namespace fsi {
+
+/// Unknowns of a symmetric matrix that follow two others at most, taken out of it: nodes in the middle of edges, where the
+/// mesh motion has them follow their ends. With f the followers and k the kept ones
+///   (A_kk - A_kf A_ff^-1 A_fk) x_k = b_k - A_kf A_ff^-1 b_f,   x_f = A_ff^-1 (b_f - A_fk x_k),
+/// A_ff being diagonal. Where ends are neighbours anyway nothing fills in.
+class FollowerElimination {
+ public:
+  FollowerElimination() = default;
+  /// \param a        symmetric, both halves stored
+  /// \param reduced  set to the matrix of what is kept
+  FollowerElimination(const CsrMatrix<double>& a, CsrMatrix<double>& reduced);
+
+  /// Rows of A that are kept, ascending.
+  const std::vector<int>& kept() const { return kept_; }
+
+  /// What `count` right-hand sides of A come to for the kept ones, one behind the other in both.
+  void reduce(const std::vector<double>& b, int count, std::vector<double>& of_kept) const;
+  /// The whole solution from that of the kept ones.
+  /// \param b  of the whole
+  /// \param x  the whole one, overwritten
+  void complete(const std::vector<double>& b, const std::vector<double>& of_kept, int count,
+                std::vector<double>& x) const;
+
+  std::size_t bytes() const;
+
+ private:
+  std::vector<int> kept_, followers_;
+  std::vector<double> inverse_diagonal_;  ///< per follower
+  CsrMatrix<double> shares_;              ///< A_ff^-1 A_fk
+  CsrMatrix<double> transposed_shares_;
+};
+
+}  // namespace fsi
