@@ -12,7 +12,7 @@ struct FastOptions {
   std::optional<std::int64_t> direct_below;
   int max_iterations = 400;  ///< of GMRES in one solve, before the preconditioner is strengthened
   int restart = 50;          ///< iterations between two residuals in double precision, at most
-  int momentum_sweeps = 0;   ///< symmetric Gauss-Seidel sweeps on the momentum equations; 0: chosen
+  int momentum_sweeps = 1;   ///< symmetric Gauss-Seidel sweeps on the momentum equations
   int strong_sweeps = 8;     ///< the same when the preconditioner is strengthened
 
   /// Unknowns below which a sparse factorisation is quicker: factors of a plane graph hardly fill in.

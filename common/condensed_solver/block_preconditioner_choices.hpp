@@ -5,11 +5,13 @@ namespace fsi {
 /// What a block preconditioner of velocities and pressures does, decided by the matrix alone, so that a restart decides
 /// the same. Defaults by measurement (docs/solvers.md).
 struct BlockPreconditionerChoices {
-  /// Symmetric Gauss-Seidel sweeps in place of A^-1, or before and after its coarse levels. 0: two where the wall's
-  /// stiffness over its mass (diagonal over lumped diagonal) is at least `two_sweeps_from` and there are no coarse
-  /// levels, else one.
-  int momentum_sweeps = 0;
-  double two_sweeps_from = 14;
+  /// Symmetric Gauss-Seidel sweeps in place of A^-1, or before and after its coarse levels.
+  int momentum_sweeps = 1;
+  /// Relaxation of these sweeps, 1 but where the wall's inertia exceeds its stiffness: diagonal over lumped diagonal below
+  /// `damped_below`. A consistent mass matrix is as much neighbours as diagonal.
+  double damping = 0.7, damped_below = 1;
+  /// D = diagonal of A + that part of its lumped diagonal, where this is positive.
+  static constexpr double lumped_share = 0.2;
   /// The wall's momentum gets coarse levels from this stiffness over mass. Below, their set-up costs more than they
   /// save (fine artery, 0.125 ms).
   double coarse_from = 39;
@@ -27,9 +29,7 @@ struct BlockPreconditionerChoices {
   /// \param stiffness  MomentumDiagonals::stiffness()
   bool has_coarse_levels(double stiffness) const { return stiffness >= coarse_from; }
   bool smooths_aggregates(double stiffness) const { return stiffness >= smoothed_from; }
-  int sweeps(double stiffness, bool coarse_levels) const {
-    return momentum_sweeps > 0 ? momentum_sweeps : !coarse_levels && stiffness >= two_sweeps_from ? 2 : 1;
-  }
+  double relaxation(double stiffness) const { return stiffness < damped_below ? damping : 1; }
   /// Of the diagonal of S in the wall.
   double wall_diagonal_factor(double stiffness, bool few_pressures) const {
     return few_pressures && stiffness >= added_from ? 1 + added_diagonal : 1;

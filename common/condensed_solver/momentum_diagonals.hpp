@@ -4,14 +4,16 @@
 #include <algorithm>
 #include <vector>
 
+#include "condensed_solver/block_preconditioner_choices.hpp"
 #include "condensed_solver/velocity_pressure_blocks.hpp"
 #include "parallel/communicator.hpp"
 
 namespace fsi {
 
 /// What a block preconditioner knows of the momentum's matrix A without its other entries: the diagonal D that stands for
-/// it in the Schur complement, and how stiff the wall is. In the fluid, which the mass matrix dominates, D is A's lumped
-/// form, in the wall and on the interface its diagonal.
+/// it in the Schur complement, and how stiff the wall is. Of a mass matrix, a smooth velocity feels the lumped diagonal and a
+/// rough one less than the diagonal, of a stiffness the smooth one feels nothing: D lies between, a fifth of the lumped
+/// diagonal above the diagonal, by measurement (docs/tried.md).
 template <int n>
 class MomentumDiagonals {
  public:
@@ -25,7 +27,7 @@ class MomentumDiagonals {
   void fill(const VelocityPressureBlocks<n>& blocks, bool few_pressures, Visit visit, const std::vector<char>& own = {},
             const Communicator& processes = Communicator::alone()) {
     const auto& layout = blocks.layout();
-    inverse_lumped_.resize(layout.velocity_size());
+    inverse_.resize(layout.velocity_size());
     std::vector<double> diagonals(layout.velocities, 0.0), lumped_diagonals(layout.velocities, 0.0);
 #pragma omp parallel for schedule(static) if (layout.velocities > 500)
     for (int v = 0; v < layout.velocities; ++v) {
@@ -40,12 +42,9 @@ class MomentumDiagonals {
         }
       });
       visit(v, diagonal);
-      const bool in_fluid = layout.wall_of_velocity[v] < 0;
-      for (int k = 0; k < n; ++k) {
-        // Viscosity drops out of the lumped sum: where it dominates, the diagonal is larger.
-        const double d = in_fluid ? std::max(lumped[k], diagonal(k, k)) : diagonal(k, k);
-        inverse_lumped_[VectorLayout<n>::vector(v, k)] = 1 / d;
-      }
+      for (int k = 0; k < n; ++k)
+        inverse_[VectorLayout<n>::vector(v, k)] =
+            1 / (diagonal(k, k) + BlockPreconditionerChoices::lumped_share * std::max(lumped[k], 0.0));
       if (layout.fluid_of_velocity[v] < 0) {
         int k = 0;  // a component that can move
         while (k < n - 1 && !layout.is_free(v, k)) ++k;
@@ -58,8 +57,8 @@ class MomentumDiagonals {
   }
 
   /// D^-1, n numbers a velocity node; of those without rows here anything.
-  const std::vector<double>& inverse_lumped() const {
-    return inverse_lumped_;
+  const std::vector<double>& inverse() const {
+    return inverse_;
   }
   /// Diagonal over lumped diagonal of the wall's momentum: how far stiffness exceeds inertia.
   double stiffness() const {
@@ -96,7 +95,7 @@ class MomentumDiagonals {
     return sums[0] > 0 ? bounded_ratio(sums[0], sums[1]) : 1;
   }
 
-  std::vector<double> inverse_lumped_;
+  std::vector<double> inverse_;
   double stiffness_ = 1;
 };
 

@@ -85,16 +85,21 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     float* rows = y.data() + velocity_size();
 #pragma omp parallel for schedule(static) if (layout_.pressures > 500)
     for (int p = 0; p < layout_.pressures; ++p) {
-      Nodal sums{};
-      float sum = 0;
-      for (int at = continuity_offsets_[p]; at < continuity_offsets_[p + 1]; ++at) {
-        sums += load(divergence_.data() + static_cast<std::size_t>(at) * lanes) *
-                load(x.data() + static_cast<std::size_t>(continuity_velocities_[at]) * lanes);
+      float sum = divergence_product(p, x.data());
+      for (int at = continuity_offsets_[p]; at < continuity_offsets_[p + 1]; ++at)
         sum += compressibility_[at] * pressure[continuity_pressures_[at]];
-      }
-      for (int i = 0; i < n; ++i) sum += sums[i];
       rows[p] = sum;
     }
+  }
+  /// B x of a pressure, of the velocities alone.
+  float divergence_product(int p, const float* x) const {
+    Nodal sums{};
+    for (int at = continuity_offsets_[p]; at < continuity_offsets_[p + 1]; ++at)
+      sums += load(divergence_.data() + static_cast<std::size_t>(at) * lanes) *
+              load(x + static_cast<std::size_t>(continuity_velocities_[at]) * lanes);
+    float sum = 0;
+    for (int i = 0; i < n; ++i) sum += sums[i];
+    return sum;
   }
 
   /// y = F x without shape derivatives, in double precision and not padded, as far as single precision goes.

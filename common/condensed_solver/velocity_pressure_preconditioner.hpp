@@ -15,12 +15,11 @@
 
 namespace fsi {
 
-/// Upper block-triangular preconditioner of F = [A G; B C] over both media, mesh motion left out, in single precision:
-///   p = S^-1 r_p,  v = A^-1 (r_v - G p),
-/// A^-1 by a symmetric Gauss-Seidel sweep over n x n node blocks, around coarse levels where the wall is stiff
-/// (WallCoarseCorrection), S^-1 by one multigrid cycle on S = C - B D^-1 G. In
-/// the fluid the mass matrix dominates A, and D is its lumped form; in the wall and on the interface D is A's diagonal,
-/// since there the stiffness has the same weight. One scalar problem holds the pressures of fluid and wall: they meet
+/// Block preconditioner of F = [A G; B C] over both media, mesh motion left out, in single precision:
+///   p = S^-1 (r_p - B D^-1 r_v),  v = A^-1 (r_v - G p),
+/// F's block factors with the diagonal D (MomentumDiagonals) in place of A where pressures are sought, A^-1 by a symmetric
+/// Gauss-Seidel sweep over n x n node blocks, around coarse levels where the wall is stiff (WallCoarseCorrection), S^-1 by
+/// one multigrid cycle on S = C - B D^-1 G. One scalar problem holds the pressures of fluid and wall: they meet
 /// through the interface velocity, which carries the added mass.
 ///
 /// Taylor-Hood elements have far fewer pressures than velocities. There a cycle on S costs little beside a momentum
@@ -46,7 +45,7 @@ class VelocityPressurePreconditioner {
         chunks_(matrix.momentum_offsets(), matrix.momentum_columns()) {
     make_pressure_pattern();
     inverse_diagonal_.resize(static_cast<std::size_t>(layout_.velocities) * n * lanes);
-    for (auto* x : {&velocity_residual_, &velocity_, &sweep_, &sweep_residual_, &upper_part_})
+    for (auto* x : {&velocity_residual_, &velocity_, &sweep_, &sweep_residual_, &upper_part_, &inverse_lumped_})
       x->resize(matrix.velocity_size());
     pressure_residual_.resize(layout_.pressures);
     pressure_.resize(layout_.pressures);
@@ -70,7 +69,7 @@ class VelocityPressurePreconditioner {
       if (!coarse_) coarse_ = std::make_unique<WallCoarseCorrection<n>>(matrix_);
       coarse_->set_up(options_.wall);
     }
-    sweeps_ = options_.sweeps(wall_stiffness(), coarse_ != nullptr);
+    relaxation_ = static_cast<float>(options_.relaxation(wall_stiffness()));
     fill_schur_complement();
     if (const double factor = options_.wall_diagonal_factor(wall_stiffness(), has_few_pressures()); factor != 1)
       scale_wall_diagonal(factor);
@@ -82,8 +81,11 @@ class VelocityPressurePreconditioner {
   /// z = P^-1 r
   void apply(const std::vector<float>& r, std::vector<float>& z) {
     const float* pressure_rows = r.data() + matrix_.velocity_size();
+    for (std::size_t i = 0; i < sweep_.size(); ++i) sweep_[i] = inverse_lumped_[i] * r[i];
+#pragma omp parallel for schedule(static) if (layout_.pressures > 500)
     for (int p = 0; p < layout_.pressures; ++p)
-      pressure_residual_[p] = static_cast<float>(layout_.row_scale(p)) * pressure_rows[p];
+      pressure_residual_[p] =
+          static_cast<float>(layout_.row_scale(p)) * (pressure_rows[p] - matrix_.divergence_product(p, sweep_.data()));
     multigrid_.cycle(pressure_residual_, pressure_);
 #pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
     for (int v = 0; v < layout_.velocities; ++v) {
@@ -100,7 +102,7 @@ class VelocityPressurePreconditioner {
   /// A times what was there before that sweep is known from the residual which it answers to ([Eisenstat1981]).
   void apply(const std::vector<float>& r, std::vector<float>& z, std::vector<float>& product) {
     apply(r, z);
-    const bool once = sweeps_ == 1 && !coarse_;
+    const bool once = options_.momentum_sweeps == 1 && !coarse_;
     const std::vector<float>&x = once ? velocity_ : sweep_, &left = once ? velocity_residual_ : sweep_residual_;
 #pragma omp parallel for schedule(static) if (layout_.velocities > 500)
     for (int v = 0; v < layout_.velocities; ++v) {
@@ -118,7 +120,7 @@ class VelocityPressurePreconditioner {
     return multigrid_;
   }
   std::size_t bytes() const {
-    return sizeof(float) * (inverse_diagonal_.size() + 5 * velocity_.size()) + 8 * diagonals_.inverse_lumped().size() +
+    return sizeof(float) * (inverse_diagonal_.size() + 6 * velocity_.size()) + 8 * diagonals_.inverse().size() +
            schur_.bytes() + multigrid_.bytes() + (coarse_ ? coarse_->bytes() : 0);
   }
 
@@ -168,6 +170,10 @@ class VelocityPressurePreconditioner {
       for (int k = 0; k < n; ++k)
         for (int i = 0; i < lanes; ++i) to[k * lanes + i] = i < n ? static_cast<float>(inverse(i, k)) : 0.0f;
     });
+    for (int v = 0; v < layout_.velocities; ++v)
+      for (int k = 0; k < n; ++k)
+        inverse_lumped_[static_cast<std::size_t>(v) * lanes + k] =
+            static_cast<float>(diagonals_.inverse()[VectorLayout<n>::vector(v, k)]);
   }
 
   /// S = C - B D^-1 G
@@ -190,7 +196,7 @@ class VelocityPressurePreconditioner {
                                      double divergence[n];  // a row of B D^-1
                                      for (int k = 0; k < n; ++k)
                                        divergence[k] = scale * factor * block[MixedLayout<n>::in_block(n, k)] *
-                                                       diagonals_.inverse_lumped()[VectorLayout<n>::vector(v, k)];
+                                                       diagonals_.inverse()[VectorLayout<n>::vector(v, k)];
                                      for (int at = matrix_.gradient_offsets()[v];
                                           at < matrix_.gradient_offsets()[v + 1]; ++at) {
                                        const float* g = matrix_.gradient(at);
@@ -213,15 +219,15 @@ class VelocityPressurePreconditioner {
     }
   }
 
-  /// velocity_ = approximate A^-1 velocity_residual_: sweeps of (D + U)^-1 D (D + L)^-1, and where the wall is stiff
-  /// its coarse correction and sweeps again.
+  /// velocity_ = approximate A^-1 velocity_residual_: symmetric sweeps, and where the wall is stiff its coarse correction
+  /// and sweeps again.
   void solve_momentum() {
     symmetric_sweep(velocity_residual_, velocity_);
-    for (int sweep = 1; sweep < sweeps_; ++sweep) sweep_again();
+    for (int sweep = 1; sweep < options_.momentum_sweeps; ++sweep) sweep_again();
     if (!coarse_) return;
     find_sweep_residual();
     coarse_->add(sweep_residual_, velocity_);
-    for (int sweep = 0; sweep < sweeps_; ++sweep) sweep_again();
+    for (int sweep = 0; sweep < options_.momentum_sweeps; ++sweep) sweep_again();
   }
 
   void sweep_again() {
@@ -240,20 +246,22 @@ class VelocityPressurePreconditioner {
     }
   }
 
-  /// x = (D + U)^-1 D (D + L)^-1 r within chunks, upper_part_ = U x.
+  /// x = (D/w + U)^-1 (2/w - 1) D (D/w + L)^-1 r within chunks, w being the relaxation and D the diagonal blocks;
+  /// upper_part_ = U x.
   void symmetric_sweep(const std::vector<float>& r, std::vector<float>& x) {
 #pragma omp parallel for schedule(static) if (chunks_.chunks() > 1)
     for (int c = 0; c < chunks_.chunks(); ++c) {
-      for (int v = chunks_.begin[c]; v < chunks_.begin[c + 1]; ++v) {  // x = (D + L)^-1 r
+      for (int v = chunks_.begin[c]; v < chunks_.begin[c + 1]; ++v) {  // x = (D/w + L)^-1 r
         const std::size_t at = static_cast<std::size_t>(v) * lanes;
         const Nodal before = matrix_.momentum_product(chunks_.first[v], chunks_.diagonal[v], x.data());
-        Matrix::store(solve_diagonal(v, Matrix::load(r.data() + at) - before), x.data() + at);
+        Matrix::store(relaxation_ * solve_diagonal(v, Matrix::load(r.data() + at) - before), x.data() + at);
       }
-      for (int v = chunks_.begin[c + 1] - 1; v >= chunks_.begin[c]; --v) {  // x -= D^-1 U x
+      for (int v = chunks_.begin[c + 1] - 1; v >= chunks_.begin[c]; --v) {  // x = (2 - w) x - w D^-1 U x
         const std::size_t at = static_cast<std::size_t>(v) * lanes;
         const Nodal after = matrix_.momentum_product(chunks_.diagonal[v] + 1, chunks_.last[v], x.data());
         Matrix::store(after, upper_part_.data() + at);
-        Matrix::store(Matrix::load(x.data() + at) - solve_diagonal(v, after), x.data() + at);
+        Matrix::store((2 - relaxation_) * Matrix::load(x.data() + at) - relaxation_ * solve_diagonal(v, after),
+                      x.data() + at);
       }
     }
   }
@@ -268,11 +276,12 @@ class VelocityPressurePreconditioner {
   const Matrix& matrix_;
   const VelocityPressureLayout<n>& layout_;
   Options options_;
-  int sweeps_ = 1;
+  float relaxation_ = 1;
   std::unique_ptr<WallCoarseCorrection<n>> coarse_;  ///< null where sweeps do
   SweepChunks chunks_;
   std::vector<float> inverse_diagonal_;  ///< n columns of `lanes` numbers a node
   MomentumDiagonals<n> diagonals_;       ///< D^-1
+  std::vector<float> inverse_lumped_;    ///< the same in this layout
   CsrMatrix<double> schur_;
   ScalarMultigrid multigrid_;
   std::vector<float> velocity_residual_, velocity_, sweep_, sweep_residual_, pressure_residual_, pressure_;

@@ -23,6 +23,7 @@ PetscExtension<n>::PetscExtension(const BlockMatrix<1, n>& laplacian, std::vecto
       part_(part),
       communicator_(petsc_communicator(part.processes())),
       inner_(std::move(inner)) {
+  find_followers();
   number_entries(central_below);
   components_apart_ = !part.processes().any(frames_ != nullptr);
   PetscExtension<n>::update();
@@ -36,11 +37,112 @@ PetscExtension<n>::PetscExtension(const MeshMotionTangent<n>& tangent, std::vect
 }
 
 template <int n>
+template <class Visit>
+void PetscExtension<n>::for_sought_neighbours(std::size_t entry, Visit visit) const {
+  const NodeGraph& graph = *laplacian_->graph;
+  const int node = static_cast<int>(entry / n), component = static_cast<int>(entry % n);
+  for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at) {
+    const int other = graph.columns[at];
+    const std::size_t beside = VectorLayout<n>::vector(other, component);
+    const double number = laplacian_->block(at)[component];
+    if (other != node && number != 0 && sought_[beside] != 0) visit(other, beside, number);
+  }
+}
+
+template <int n>
+double PetscExtension<n>::diagonal(std::size_t entry) const {
+  const int node = static_cast<int>(entry / n);
+  return laplacian_->block(laplacian_->graph->find(node, node))[entry % n];
+}
+
+/// Decided by the couplings alone, and alike by all processes: who has two at most, and none of these with another such.
+template <int n>
+void PetscExtension<n>::find_followers() {
+  constexpr double most_leaders = 2, many = 100;
+  const auto update = [&](std::vector<double>& field) {
+    if (part_.share) part_.share->template update<VectorLayout<n>>(field);
+  };
+  sought_.assign(inner_.size(), 0.0);
+  for (std::size_t i = 0; i < inner_.size(); ++i) sought_[i] = part_.owns(static_cast<int>(i / n)) && inner_[i] ? 1 : 0;
+  update(sought_);
+  const NodeGraph& graph = *laplacian_->graph;
+  std::vector<double> leaders(inner_.size(), many);
+  const auto framed = [&](int node) { return frames_ && frames_->at(node); };
+  for (std::size_t i = 0; i < inner_.size(); ++i) {
+    const int node = static_cast<int>(i / n);
+    if (sought_[i] == 0 || !part_.owns(node) || framed(node)) continue;
+    std::vector<int> beside;
+    bool eliminable = true;
+    for_sought_neighbours(i, [&](int other, std::size_t, double) {
+      eliminable = eliminable && !framed(other);
+      beside.push_back(other);
+    });
+    if (beside.size() == 2) eliminable = eliminable && graph.find(beside[0], beside[1]) >= 0;
+    if (eliminable) leaders[i] = static_cast<double>(beside.size());
+  }
+  update(leaders);
+  follows_.assign(inner_.size(), 0.0);
+  for (std::size_t i = 0; i < inner_.size(); ++i) {
+    if (leaders[i] > most_leaders || !part_.owns(static_cast<int>(i / n))) continue;
+    follows_[i] = 1;
+    for_sought_neighbours(i, [&](int, std::size_t other, double) {
+      if (leaders[other] <= most_leaders) follows_[i] = 0;
+    });
+  }
+  update(follows_);
+  reduced_ = *laplacian_;
+}
+
+/// Rows of copies are whole where they couple with an own node, and the others are not read.
+template <int n>
+void PetscExtension<n>::eliminate_followers() {
+  reduced_.values = laplacian_->values;
+  const NodeGraph& graph = *laplacian_->graph;
+  for (std::size_t i = 0; i < inner_.size(); ++i) {
+    if (follows_[i] == 0) continue;
+    std::vector<std::pair<int, double>> leaders;
+    for_sought_neighbours(i, [&](int other, std::size_t, double number) { leaders.emplace_back(other, number); });
+    const double own = diagonal(i);
+    for (const auto& [row, of_row] : leaders)
+      for (const auto& [column, of_column] : leaders)
+        if (const int at = graph.find(row, column); at >= 0 && own != 0)
+          reduced_.block(at)[i % n] -= of_row * of_column / own;
+  }
+}
+
+template <int n>
+void PetscExtension<n>::reduce_right() {
+  if (part_.share) part_.share->template update<VectorLayout<n>>(right_rows_);
+  for (std::size_t row = 0; row < entry_.size(); ++row) {
+    double sum = right_rows_[entry_[row]];
+    if (!follows_.empty())
+      for_sought_neighbours(entry_[row], [&](int, std::size_t other, double number) {
+        if (follows_[other] != 0) sum -= number / diagonal(other) * right_rows_[other];
+      });
+    right_[row] = sum;
+  }
+}
+
+template <int n>
+void PetscExtension<n>::complete_followers(std::vector<double>& field) const {
+  for (std::size_t i = 0; i < inner_.size(); ++i) {
+    if (inner_[i] != 3) continue;
+    double sum = right_rows_[i];
+    for_sought_neighbours(i, [&](int, std::size_t other, double number) { sum -= number * field[other]; });
+    field[i] = sum / diagonal(i);
+  }
+  if (part_.share) part_.share->template update<VectorLayout<n>>(field);
+}
+
+template <int n>
 void PetscExtension<n>::number_entries(std::int64_t central_below) {
   assert(inner_.size() == VectorLayout<n>::size(part_.node_count()));
   for (std::size_t i = 0; i < inner_.size(); ++i) {
     if (!part_.owns(static_cast<int>(i / n))) inner_[i] = 0;
-    if (inner_[i]) entry_.push_back(i);
+    if (inner_[i] && !follows_.empty() && follows_[i] != 0)
+      inner_[i] = 3;
+    else if (inner_[i])
+      entry_.push_back(i);
   }
   const auto own = static_cast<std::int64_t>(entry_.size());
   first_ = part_.processes().sum_before(own);
@@ -54,9 +156,9 @@ void PetscExtension<n>::number_entries(std::int64_t central_below) {
   columns_.resize(inner_.size());
   for (std::size_t i = 0; i < inner_.size(); ++i) {
     columns_[i].index = static_cast<std::int64_t>(numbers[i]);
-    if (inner_[i])
+    if (inner_[i] == 1)
       rows_[i] = columns_[i];
-    else if (columns_[i].index >= 0)
+    else if (columns_[i].index >= 0 || (!follows_.empty() && follows_[i] != 0 && inner_[i] == 0))
       inner_[i] = 2;  // sought, by another process
   }
   given_.resize(inner_.size());
@@ -71,7 +173,7 @@ void PetscExtension<n>::gather(Builder& builder, const UnknownMap& rows, const U
   if (tangent_)
     gather_blocks(builder, *tangent_, rows, columns);
   else
-    gather_diagonal_blocks(builder, *laplacian_, rows, columns, frames_);
+    gather_diagonal_blocks(builder, reduced_, rows, columns, frames_);
 }
 
 template <int n>
@@ -102,6 +204,7 @@ PetscGatheredMatrix PetscExtension<n>::gather(bool whole) const {
 template <int n>
 void PetscExtension<n>::update() {
   const OneDenseThread same_bits_for_any_number;
+  if (!follows_.empty()) eliminate_followers();
   if (central_) {
     if (!at_first_.factorised()) at_first_ = gather_at_first();
     at_first_.update();
@@ -170,10 +273,10 @@ void PetscExtension<n>::solve(const std::vector<double>& right, std::vector<doub
   multiply_given();
   right_.resize(entry_.size());
   solution_.resize(entry_.size());
-  for (std::size_t row = 0; row < entry_.size(); ++row) {
-    right_[row] = right[entry_[row]] - given_rows_[entry_[row]];
-    solution_[row] = field[entry_[row]];
-  }
+  right_rows_.resize(right.size());
+  for (std::size_t i = 0; i < right.size(); ++i) right_rows_[i] = right[i] - given_rows_[i];
+  reduce_right();
+  for (std::size_t row = 0; row < entry_.size(); ++row) solution_[row] = field[entry_[row]];
   if (central_) {
     at_first_.solve(right_, of_all_);
     std::copy_n(of_all_.begin() + first_, entry_.size(), solution_.begin());
@@ -182,6 +285,7 @@ void PetscExtension<n>::solve(const std::vector<double>& right, std::vector<doub
   }
   for (std::size_t row = 0; row < entry_.size(); ++row) field[entry_[row]] = solution_[row];
   if (part_.share) part_.share->template update<VectorLayout<n>>(field);
+  if (!follows_.empty()) complete_followers(field);
 }
 
 /// solution_ is the first guess.
@@ -219,7 +323,9 @@ bool PetscExtension<n>::iterate(double tolerance) {
 template <int n>
 double PetscExtension<n>::memory_mib() const {
   if (central_) return at_first_.memory_mib();
-  return (petsc_bytes(matrix_.matrix()) + petsc_bytes(of_components_.matrix())) / (1 << 20);
+  return (petsc_bytes(matrix_.matrix()) + petsc_bytes(of_components_.matrix()) +
+          8.0 * static_cast<double>(reduced_.values.size())) /
+         (1 << 20);
 }
 
 #define FSI_INSTANTIATE(n) template class PetscExtension<n>;

@@ -40,6 +40,16 @@ class PetscExtension : public MeshExtension<n> {
  private:
   static constexpr int most_iterations = 200;  ///< of conjugate gradients; a solve that needs more is factorised
 
+  /// Entries that follow two others at most, each without a frame, are eliminated: FollowerElimination of several processes.
+  void find_followers();
+  void eliminate_followers();
+  /// Calls visit(node, entry, number) for the sought entries that an entry's row couples with, itself left out.
+  template <class Visit>
+  void for_sought_neighbours(std::size_t entry, Visit visit) const;
+  double diagonal(std::size_t entry) const;
+  /// right_rows_, of all local entries, to right_.
+  void reduce_right();
+  void complete_followers(std::vector<double>& field) const;
   void number_entries(std::int64_t central_below);
   template <class Builder>
   void gather(Builder& builder, const UnknownMap& rows, const UnknownMap& columns) const;
@@ -57,7 +67,11 @@ class PetscExtension : public MeshExtension<n> {
   const NodalFrames<n>* frames_ = nullptr;
   const PartNodes& part_;
   MPI_Comm communicator_;
-  std::vector<char> inner_;
+  std::vector<char> inner_;      ///< per entry: own and sought, 1; by another process, 2; a follower, 3
+  std::vector<double> follows_;  ///< per entry, also of copies: 1 of followers; empty where nothing is eliminated
+  std::vector<double> sought_;   ///< per entry, also of copies: 1 where it is
+  BlockMatrix<1, n> reduced_;    ///< the Laplacian without followers
+  std::vector<double> right_rows_;
   UnknownMap rows_, columns_;       ///< by numbers among all processes' ones; rows of own nodes
   std::vector<std::size_t> entry_;  ///< per own unknown
   PetscGatheredMatrix matrix_, of_components_;

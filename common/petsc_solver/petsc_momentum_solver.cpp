@@ -25,7 +25,7 @@ void PetscMomentumSolver<n>::set_up(const BlockPreconditionerChoices& choices) {
     petsc_check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(sweep), PCSOR, &is_sweep));
     PetscBool set = PETSC_FALSE;
     petsc_check(PetscOptionsHasName(nullptr, "fsi_velocity_", "-pc_sor_its", &set));
-    if (is_sweep && !set) petsc_check(PCSORSetIterations(sweep, choices.sweeps(stiffness, wall_levels), 1));
+    if (is_sweep && !set) petsc_check(PCSORSetIterations(sweep, choices.momentum_sweeps, 1));
   }
   petsc_check(KSPSetOperators(solver_, system_.momentum(), system_.momentum()));
   petsc_check(KSPSetUp(solver_));

@@ -73,7 +73,7 @@ struct PetscSolver<n>::Iterative {
     petsc_check(PCSetType(pc, PCSHELL));
     petsc_check(PCShellSetContext(pc, this));
     petsc_check(PCShellSetApply(pc, precondition));
-    petsc_check(PCShellSetName(pc, "upper block-triangular, velocities and pressures"));
+    petsc_check(PCShellSetName(pc, "block factors, velocities and pressures"));
     petsc_check(KSPSetFromOptions(krylov));
   }
 
@@ -130,7 +130,7 @@ struct PetscSolver<n>::Iterative {
     using Parts = typename VelocityPressureSystem<n>::Parts;
     const Parts of_in(system, in_velocities, in_pressures, in, false),
         of_out(system, out_velocities, out_pressures, out, true);
-    petsc_check(VecPointwiseMult(pressure_residual, in_pressures, system.scale_of_rows()));
+    system.reduce(in, pressure_residual);
     petsc_check(KSPSolve(pressure, pressure_residual, out_pressures));
     petsc_check(MatMult(system.gradient(), out_pressures, velocity_residual));
     petsc_check(VecAYPX(velocity_residual, -1, in_velocities));

@@ -10,8 +10,8 @@ namespace fsi {
 
 /// `petsc`: what FastSolver does, with matrices, Krylov method and preconditioners of PETSc, on any number of processes.
 /// The outer iteration is the same (CondensedIteration). The inner one is FGMRES for F = [A G; B C] of velocities and
-/// pressures with the upper block-triangular preconditioner
-///   p = S^-1 r_p,  v = A^-1 (r_v - G p),
+/// pressures with the block preconditioner
+///   p = S^-1 (r_p - B D^-1 r_v),  v = A^-1 (r_v - G p),
 /// S^-1 by a cycle of algebraic multigrid, A^-1 by PetscMomentumSolver. What defeats it gets more sweeps and coarse
 /// levels, then a factorisation by MUMPS. Options: [petsc] options of the case, see petsc_options.hpp.
 template <int n>

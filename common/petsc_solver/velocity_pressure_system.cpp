@@ -149,7 +149,7 @@ void VelocityPressureSystem<n>::fill_gradient() {
       });
   };
   gradient_.fill([&](auto add) { for_entries([&](int, int, double g) { add(g); }); });
-  const auto& inverse = diagonals_.inverse_lumped();
+  const auto& inverse = diagonals_.inverse();
   scaled_gradient_.fill([&](auto add) {
     for_entries([&](int v, int k, double g) { add(-inverse[VectorLayout<n>::vector(v) + k] * g); });
     for (std::size_t i = 0; i < shared_.own_pressures.size(); ++i) add(1.0);
@@ -190,6 +190,27 @@ void VelocityPressureSystem<n>::make_schur_complement(double wall_diagonal_facto
     if (layout_.wall_pressure[shared_.own_pressures[i]]) d[i] *= wall_diagonal_factor;
   petsc_check(VecRestoreArray(diagonal, &d));
   petsc_check(MatDiagonalSet(schur_, diagonal, INSERT_VALUES));
+}
+
+template <int n>
+void VelocityPressureSystem<n>::reduce(Vec rows, Vec of_pressures) {
+  if (!predicted_) predicted_ = petsc_vector(communicator_, shared_.rows());
+  const double* from = nullptr;
+  double* to = nullptr;
+  petsc_check(VecGetArrayRead(rows, &from));
+  petsc_check(VecGetArrayWrite(predicted_, &to));
+  const auto& inverse = diagonals_.inverse();
+  std::size_t at = 0;
+  for (const int v : shared_.own_velocities)
+    for (int k = 0; k < n; ++k, ++at) to[at] = inverse[VectorLayout<n>::vector(v, k)] * from[at];
+  std::fill_n(to + at, shared_.own_pressures.size(), 0.0);
+  petsc_check(VecRestoreArrayWrite(predicted_, &to));
+  petsc_check(MatMult(continuity_, predicted_, of_pressures));
+  petsc_check(VecGetArray(of_pressures, &to));
+  for (std::size_t i = 0; i < shared_.own_pressures.size(); ++i)
+    to[i] = layout_.row_scale(shared_.own_pressures[i]) * (from[at + i] - to[i]);
+  petsc_check(VecRestoreArray(of_pressures, &to));
+  petsc_check(VecRestoreArrayRead(rows, &from));
 }
 
 template <int n>

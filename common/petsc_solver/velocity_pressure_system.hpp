@@ -33,11 +33,12 @@ class VelocityPressureSystem {
   MPI_Comm communicator() const { return communicator_; }
   Mat momentum() const { return momentum_; }  ///< A
   Mat gradient() const { return gradient_; }  ///< G
-  /// S, with the wall's rows scaled as scale_of_rows() says and, where that is asked for, a larger diagonal.
+  /// S, with the wall's rows scaled and, where that is asked for, a larger diagonal.
   /// \param wall_diagonal_factor  of the diagonal in the wall
   void make_schur_complement(double wall_diagonal_factor);
   Mat schur() const { return schur_; }
-  Vec scale_of_rows() const { return row_scale_; }
+  /// of_pressures = r_p - B D^-1 r_v of the rows (r_v, r_p), scaled as S.
+  void reduce(Vec rows, Vec of_pressures);
 
   /// Of the wall: its velocities among this process's own, their places at rest, and A's rows and columns of these.
   struct WallMomentum {
@@ -91,7 +92,7 @@ class VelocityPressureSystem {
   ListedMatrix gradient_;
   ListedMatrix continuity_;       ///< [B C], columns in the rows of both
   ListedMatrix scaled_gradient_;  ///< [-D^-1 G; 1]: S = [B C] times this
-  OwnedVec row_scale_;
+  OwnedVec row_scale_, predicted_;
   std::vector<std::size_t> block_at_;  ///< of A's blocks in the arrays of the part with own columns, then of the other
   OwnedVec x_velocities_, x_pressures_, y_velocities_, y_pressures_;
 };
