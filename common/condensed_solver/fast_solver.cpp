@@ -89,18 +89,36 @@ DirectSolver::Options precision(const JacobianBlocks<n>& blocks) {
 template <int n>
 FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options)
     : blocks_(blocks), options_(options) {
-  if (blocks.numbering.size < options.direct_below.value_or(FastOptions::standard_direct_below(n)))
+  const std::int64_t size = blocks.numbering.size;
+  if (size >= options.direct_below.value_or(FastOptions::standard_direct_below(n))) return;
+  if (n == 2 && !options.direct_below && blocks.coupled() && size >= FastOptions::judged_from)
+    judge_ = std::make_unique<InertiaJudge<n>>(blocks);
+  else
     direct_ = std::make_unique<DirectLinearSolver<n>>(blocks, precision(blocks));
 }
 
 template <int n>
 const char* FastSolver<n>::preparation() const {
+  if (judge_) return judge_->inertia_prevails() ? LinearSolver::preparation() : "factorisation";
   return direct_ && !iterative_ ? direct_->preparation() : LinearSolver::preparation();
 }
 
 template <int n>
+void FastSolver<n>::choose() {
+  if (judge_->inertia_prevails()) {
+    direct_.reset();
+    return;
+  }
+  if (std::exchange(iterative_, nullptr)) direct_.reset();  // it came of a rescue
+  if (!direct_) direct_ = std::make_unique<DirectLinearSolver<n>>(blocks_, precision(blocks_));
+}
+
+template <int n>
 void FastSolver<n>::update() {
-  if (iterative_) direct_.reset();
+  if (judge_)
+    choose();
+  else if (iterative_)
+    direct_.reset();
   if (direct_) {
     const OneDenseThread same_bits_for_any_number;
     direct_->update();

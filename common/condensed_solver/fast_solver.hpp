@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "case/fast_options.hpp"
+#include "condensed_solver/inertia_judge.hpp"
 #include "system/direct_linear_solver.hpp"
 #include "system/linear_solver.hpp"
 
@@ -15,7 +16,8 @@ namespace fsi {
 /// factorised once. An outer iteration computes residuals of the whole system in double precision; corrections come
 /// from GMRES in single precision for velocities and pressures of both media without shape derivatives,
 /// preconditioned by VelocityPressurePreconditioner. The shape derivatives, small against the rest, come back through
-/// the residual. Small systems are factorised; so is one that defeats the iteration.
+/// the residual. Small systems are factorised; so is one that defeats the iteration, and a larger one in two dimensions
+/// whose wall is stiff.
 template <int n>
 class FastSolver : public LinearSolver {
  public:
@@ -46,6 +48,9 @@ class FastSolver : public LinearSolver {
 
   struct Iterative;
 
+  /// Sets up what the present Jacobian is solved by, where that depends on its numbers.
+  void choose();
+
   /// In the run's profile.
   void count(const char* event) const;
 
@@ -53,6 +58,7 @@ class FastSolver : public LinearSolver {
 
   JacobianBlocks<n> blocks_;
   FastOptions options_;
+  std::unique_ptr<InertiaJudge<n>> judge_;  ///< null where size alone decides
   std::unique_ptr<Iterative> iterative_;
   std::unique_ptr<DirectLinearSolver<n>> direct_;
   bool ready_ = false;

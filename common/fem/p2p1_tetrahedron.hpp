@@ -28,36 +28,26 @@ struct P2P1Tetrahedron {
   struct Geometry {
     static constexpr Unstabilised metric{}, size_squared{};
     Vec3<Pack> x[nodes];  ///< reference coordinates of the nodes, mm
+    bool straight;        ///< all of its cells are: then what follows holds at all points
+    Pack six_volumes;
+    Vec3<Pack> grad_l[scalar_nodes];  ///< of barycentric coordinates, 1/mm
   };
   static Geometry geometry(const Vec3<Pack> x[nodes]) {
     Geometry g;
     for (int a = 0; a < nodes; ++a) g.x[a] = x[a];
+    g.straight = Shapes::is_straight(x);
+    g.six_volumes = barycentric_gradients(x[1] - x[0], x[2] - x[0], x[3] - x[0], g.grad_l);
     return g;
   }
 
   static PointGeometry<nodes, scalar_nodes> at(const Geometry& g, int q) {
     const auto& l = rule.point[q];
+    if (g.straight) return at(q, g.six_volumes, g.grad_l);
     const Vec3<Pack> t0 = Shapes::tangent(g.x, l, 0);
-    const Vec3<Pack> e1 = Shapes::tangent(g.x, l, 1) - t0, e2 = Shapes::tangent(g.x, l, 2) - t0,
-                     e3 = Shapes::tangent(g.x, l, 3) - t0;
-    const Vec3<Pack> c1 = cross(e2, e3), c2 = cross(e3, e1), c3 = cross(e1, e2);
-    const Pack six_volumes = dot(e1, c1);
-    const Pack inverse = Pack(1.0) / six_volumes;
-    Vec3<Pack> grad_l[4];
-    grad_l[1] = inverse * c1;
-    grad_l[2] = inverse * c2;
-    grad_l[3] = inverse * c3;
-    for (int k = 0; k < 3; ++k) grad_l[0][k] = -(grad_l[1][k] + grad_l[2][k] + grad_l[3][k]);
-
-    PointGeometry<nodes, scalar_nodes> p;
-    p.weight = Pack(rule.weight[q] / 6.0) * six_volumes;
-    for (int a = 0; a < nodes; ++a) p.of_vectors.value[a] = Shapes::shape(l, a);
-    Shapes::gradients(l, grad_l, p.of_vectors.gradient);
-    for (int a = 0; a < scalar_nodes; ++a) {
-      p.of_scalars.value[a] = l[a];
-      p.of_scalars.gradient[a] = grad_l[a];
-    }
-    return p;
+    Vec3<Pack> grad_l[scalar_nodes];
+    const Pack six_volumes = barycentric_gradients(Shapes::tangent(g.x, l, 1) - t0, Shapes::tangent(g.x, l, 2) - t0,
+                                                   Shapes::tangent(g.x, l, 3) - t0, grad_l);
+    return at(q, six_volumes, grad_l);
   }
 
   /// The element's faces: quadratic triangles. The rule is exact for loads (degree 4 on straight edges), the `cubic`
@@ -93,6 +83,33 @@ struct P2P1Tetrahedron {
       return Pack(0.5 * with.weight[q]) * cross(Shapes::tangent(x, l, 1) - t0, Shapes::tangent(x, l, 2) - t0);
     }
   };
+
+ private:
+  /// Gradients of the barycentric coordinates where these move the position by e1, e2, e3. \returns six times the volume
+  static Pack barycentric_gradients(const Vec3<Pack>& e1, const Vec3<Pack>& e2, const Vec3<Pack>& e3,
+                                    Vec3<Pack> grad_l[scalar_nodes]) {
+    const Vec3<Pack> c1 = cross(e2, e3), c2 = cross(e3, e1), c3 = cross(e1, e2);
+    const Pack six_volumes = dot(e1, c1);
+    const Pack inverse = Pack(1.0) / six_volumes;
+    grad_l[1] = inverse * c1;
+    grad_l[2] = inverse * c2;
+    grad_l[3] = inverse * c3;
+    for (int k = 0; k < 3; ++k) grad_l[0][k] = -(grad_l[1][k] + grad_l[2][k] + grad_l[3][k]);
+    return six_volumes;
+  }
+
+  static PointGeometry<nodes, scalar_nodes> at(int q, Pack six_volumes, const Vec3<Pack> grad_l[scalar_nodes]) {
+    const auto& l = rule.point[q];
+    PointGeometry<nodes, scalar_nodes> p;
+    p.weight = Pack(rule.weight[q] / 6.0) * six_volumes;
+    for (int a = 0; a < nodes; ++a) p.of_vectors.value[a] = Shapes::shape(l, a);
+    Shapes::gradients(l, grad_l, p.of_vectors.gradient);
+    for (int a = 0; a < scalar_nodes; ++a) {
+      p.of_scalars.value[a] = l[a];
+      p.of_scalars.gradient[a] = grad_l[a];
+    }
+    return p;
+  }
 };
 
 }  // namespace fsi

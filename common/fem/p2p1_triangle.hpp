@@ -42,43 +42,26 @@ struct P2P1Triangle {
   struct Geometry {
     static constexpr Unstabilised metric{}, size_squared{};
     Vec3<Pack> x[nodes];  ///< reference coordinates of the nodes, mm
+    bool straight;        ///< all of its cells are: then what follows holds at all points
+    Pack two_areas;
+    Vec3<Pack> grad_l[scalar_nodes];  ///< of barycentric coordinates, 1/mm
   };
   static Geometry geometry(const Vec3<Pack> x[nodes]) {
     Geometry g;
     for (int a = 0; a < nodes; ++a) g.x[a] = x[a];
+    g.straight = Shapes::is_straight(x);
+    g.two_areas = barycentric_gradients(x[1] - x[0], x[2] - x[0], g.grad_l);
     return g;
   }
 
   static PointGeometry<nodes, scalar_nodes> at(const Geometry& g, int q) {
-    constexpr int first = axis[0], second = axis[1], third = 3 - first - second;
     const auto& l = rule.point[q];
+    if (g.straight) return at(g, q, g.two_areas, g.grad_l);
     const Vec3<Pack> t0 = Shapes::tangent(g.x, l, 0);
-    const Vec3<Pack> e1 = Shapes::tangent(g.x, l, 1) - t0, e2 = Shapes::tangent(g.x, l, 2) - t0;
-    const Pack two_areas = e1[first] * e2[second] - e2[first] * e1[second];
-    const Pack inverse = Pack(1.0) / two_areas;
-    Vec3<Pack> grad_l[3];
-    grad_l[1][first] = e2[second] * inverse;
-    grad_l[1][second] = -(e2[first] * inverse);
-    grad_l[2][first] = -(e1[second] * inverse);
-    grad_l[2][second] = e1[first] * inverse;
-    grad_l[1][third] = grad_l[2][third] = Pack(0.0);
-    for (int k = 0; k < 3; ++k) grad_l[0][k] = -(grad_l[1][k] + grad_l[2][k]);
-
-    PointGeometry<nodes, scalar_nodes> p;
-    p.weight = Pack(0.5 * rule.weight[q]) * two_areas;
-    for (int a = 0; a < nodes; ++a) p.of_vectors.value[a] = Shapes::shape(l, a);
-    Shapes::gradients(l, grad_l, p.of_vectors.gradient);
-    for (int a = 0; a < scalar_nodes; ++a) {
-      p.of_scalars.value[a] = l[a];
-      p.of_scalars.gradient[a] = grad_l[a];
-    }
-    if constexpr (axisymmetric) {
-      Pack r(0.0);
-      for (int a = 0; a < nodes; ++a) r += p.of_vectors.value[a] * g.x[a][0];
-      p.weight *= Pack(two_pi) * r;
-      for (int a = 0; a < nodes; ++a) p.of_vectors.hoop[a] = p.of_vectors.value[a] / r;
-    }
-    return p;
+    Vec3<Pack> grad_l[scalar_nodes];
+    const Pack two_areas =
+        barycentric_gradients(Shapes::tangent(g.x, l, 1) - t0, Shapes::tangent(g.x, l, 2) - t0, grad_l);
+    return at(g, q, two_areas, grad_l);
   }
 
   /// The element's sides: quadratic strips of unit width, or rings. Its rule is exact for the normal's load, and where
@@ -116,6 +99,42 @@ struct P2P1Triangle {
       return weighted_normal(x, q);
     }
   };
+
+ private:
+  /// Gradients of the barycentric coordinates where these move the position by e1, e2. \returns twice the area
+  static Pack barycentric_gradients(const Vec3<Pack>& e1, const Vec3<Pack>& e2, Vec3<Pack> grad_l[scalar_nodes]) {
+    constexpr int first = axis[0], second = axis[1], third = 3 - first - second;
+    const Pack two_areas = e1[first] * e2[second] - e2[first] * e1[second];
+    const Pack inverse = Pack(1.0) / two_areas;
+    grad_l[1][first] = e2[second] * inverse;
+    grad_l[1][second] = -(e2[first] * inverse);
+    grad_l[2][first] = -(e1[second] * inverse);
+    grad_l[2][second] = e1[first] * inverse;
+    grad_l[1][third] = grad_l[2][third] = Pack(0.0);
+    for (int k = 0; k < 3; ++k) grad_l[0][k] = -(grad_l[1][k] + grad_l[2][k]);
+    return two_areas;
+  }
+
+  static PointGeometry<nodes, scalar_nodes> at(const Geometry& g, int q, Pack two_areas,
+                                               const Vec3<Pack> grad_l[scalar_nodes]) {
+    const auto& l = rule.point[q];
+    PointGeometry<nodes, scalar_nodes> p;
+    p.weight = Pack(0.5 * rule.weight[q]) * two_areas;
+    for (int a = 0; a < nodes; ++a) p.of_vectors.value[a] = Shapes::shape(l, a);
+    Shapes::gradients(l, grad_l, p.of_vectors.gradient);
+    for (int a = 0; a < scalar_nodes; ++a) {
+      p.of_scalars.value[a] = l[a];
+      p.of_scalars.gradient[a] = grad_l[a];
+    }
+    if constexpr (axisymmetric) {
+      Pack r(0.0);
+      for (int a = 0; a < nodes; ++a) r += p.of_vectors.value[a] * g.x[a][0];
+      p.weight *= Pack(two_pi) * r;
+      const Pack inverse_r = Pack(1.0) / r;
+      for (int a = 0; a < nodes; ++a) p.of_vectors.hoop[a] = p.of_vectors.value[a] * inverse_r;
+    }
+    return p;
+  }
 };
 
 using P2P1PlaneTriangle = P2P1Triangle<PlaneStrain>;

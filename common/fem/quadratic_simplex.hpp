@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "fem/simplex_rule.hpp"
 #include "math/tensor.hpp"
 #include "mesh/mid_edge_nodes.hpp"
@@ -26,6 +29,24 @@ struct QuadraticSimplex {
     if (a < vertices) return a == i ? 4 * l[a] - 1 : 0;
     const auto& ends = SimplexEdges<Dim>::vertices[a - vertices];
     return i == ends[0] ? 4 * l[ends[1]] : i == ends[1] ? 4 * l[ends[0]] : 0;
+  }
+
+  /// All edges of all lanes are straight, their nodes in the middle: up to rounding, so that gradients are constant in each.
+  static bool is_straight(const Vec3<Pack> x[nodes]) {
+    constexpr double rounding = 1e-13;
+    for (int a = vertices; a < nodes; ++a) {
+      const auto& ends = SimplexEdges<Dim>::vertices[a - vertices];
+      for (int lane = 0; lane < pack_width; ++lane) {
+        double off = 0, length = 0;
+        for (int k = 0; k < 3; ++k) {
+          const double from = x[ends[0]][k][lane], to = x[ends[1]][k][lane];
+          off = std::max(off, std::abs(x[a][k][lane] - 0.5 * (from + to)));
+          length = std::max(length, std::abs(to - from));
+        }
+        if (!(off <= rounding * length)) return false;
+      }
+    }
+    return true;
   }
 
   /// Sum of x_a dN_a / dl_i over the nodes: where the position moves with l_i alone.
