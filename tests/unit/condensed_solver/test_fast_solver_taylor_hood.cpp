@@ -182,10 +182,10 @@ TEST(FastSolverTaylorHood, RescuesAreCounted) {
   EXPECT_EQ(scene->profile.counters().at("linear solves rescued by factorisation"), 1);
 }
 
-std::unique_ptr<Scene<2>> artery_section() {
+std::unique_ptr<Scene<2>> artery_section(int axial = 36) {
   auto setup = stepped(0.125);
   setup.geometry = Geometry::axisymmetric;
-  ArteryCells few = cells(36);
+  ArteryCells few = cells(axial);
   few.media = few.adventitia = 2;
   return build_scene<P2P1AxisymmetricTriangle>(setup, with_mid_edge_nodes(generate_artery_section(short_tube(), few)));
 }
@@ -205,6 +205,39 @@ TEST(FastSolverTaylorHood, TwoDimensionsAreFactorisedWhereThreeAreNot) {
   FastOptions options;
   options.direct_below = FastOptions::standard_direct_below(3);
   EXPECT_FALSE(FastSolver<2>(system.blocks(), options).uses_factorisation());
+}
+
+/// By the present Jacobian alone, so that what came before does not matter.
+TEST(FastSolverTaylorHood, LargerPlaneSystemsAreIteratedWhereTheWallsInertiaPrevails) {
+  const auto scene = artery_section(300);
+  System<2> system("scene", *scene, number_scene(*scene));
+  ASSERT_GT(system.blocks().numbering.size, FastOptions::judged_from);
+  ASSERT_LT(system.blocks().numbering.size, FastOptions::standard_direct_below(2));
+  FastSolver<2> solver(system.blocks());
+  FastOptions named;
+  named.direct_below = FastOptions::standard_direct_below(2);
+  State state = scene->at_rest();
+  for (const double step : {1e-3, 1.0, 1e-3}) {
+    const bool iterates = step < 0.1;
+    StepData data;
+    data.rates = scene->integrator->rates(state, step);
+    data.opening_pressures = {1.332};
+    system.work_on(state, data);
+    system.evaluate();
+    system.linearise();
+    EXPECT_STREQ(solver.preparation(), iterates ? "set-up" : "factorisation");
+    solver.update();
+    EXPECT_EQ(solver.uses_factorisation(), !iterates) << step << " ms";
+    std::vector<double> expected, x;
+    DirectLinearSolver<2> direct(system.blocks());
+    direct.update();
+    direct.solve(system.residual(), 0, expected);
+    EXPECT_TRUE(solver.solve(system.residual(), 1e-8, x).converged);
+    EXPECT_LT(relative_difference(x, expected), 1e-4);
+    FastSolver<2> asked(system.blocks(), named);
+    asked.update();
+    EXPECT_TRUE(asked.uses_factorisation()) << "a case that names a limit gets it";
+  }
 }
 
 }  // namespace
