@@ -18,8 +18,8 @@ struct FastOptions {
   /// Unknowns below which a sparse factorisation is quicker: factors of a plane graph hardly fill in. In two dimensions a
   /// coupled system of `judged_from` unknowns or more is iterated all the same where its wall's inertia exceeds its
   /// stiffness: as quick then, without the seconds and the memory of factors.
-  /// \param dimension  components of a velocity
   static constexpr std::int64_t judged_from = 10000;
+  /// \param dimension  components of a velocity
   static constexpr std::int64_t standard_direct_below(int dimension) { return dimension == 2 ? 200000 : 2000; }
 };
 

@@ -83,7 +83,10 @@ std::vector<CaseKey<MonolithicData>> monolithic_keys() {
            number(at(&M::newton, &NewtonOptions::linear_tolerance), tolerance_or_none)),
       leaf("max_linear_iterations", optional, "iterations of each linear solve, default {}",
            whole(at(&M::krylov, &KrylovOptions::max_iterations), 1, most_iterations)),
-      leaf("direct_below", optional, "unknowns below which fast factorises the matrix, " + direct_below_standards(),
+      leaf("direct_below", optional,
+           "unknowns below which fast factorises the matrix, " + direct_below_standards() +
+               fmt::format(", but from {} on not where the wall's inertia exceeds its stiffness",
+                           FastOptions::judged_from),
            whole(at(&M::fast, &FastOptions::direct_below), 0, most_unknowns)),
       leaf("krylov_restart", optional, "directions that GMRES and FGMRES keep, default {}",
            whole(at(&M::krylov, &KrylovOptions::restart), 1, most_directions)),

@@ -29,7 +29,9 @@ struct BlockPreconditionerChoices {
   /// \param stiffness  MomentumDiagonals::stiffness()
   bool has_coarse_levels(double stiffness) const { return stiffness >= coarse_from; }
   bool smooths_aggregates(double stiffness) const { return stiffness >= smoothed_from; }
-  double relaxation(double stiffness) const { return stiffness < damped_below ? damping : 1; }
+  /// Of the wall.
+  bool inertia_prevails(double stiffness) const { return stiffness < damped_below; }
+  double relaxation(double stiffness) const { return inertia_prevails(stiffness) ? damping : 1; }
   /// Of the diagonal of S in the wall.
   double wall_diagonal_factor(double stiffness, bool few_pressures) const {
     return few_pressures && stiffness >= added_from ? 1 + added_diagonal : 1;

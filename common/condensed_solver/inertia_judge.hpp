@@ -6,7 +6,7 @@
 namespace fsi {
 
 /// Whether the wall's inertia exceeds its stiffness, as in short steps: by the present values of a coupled Jacobian alone, so
-/// that a restart decides the same. Where it does, a cycle of VelocityPressurePreconditioner leaves a tenth and less.
+/// that a restart decides the same.
 template <int n>
 class InertiaJudge {
  public:
@@ -17,7 +17,7 @@ class InertiaJudge {
     const BlockPreconditionerChoices choices;
     diagonals_.fill(blocks_, BlockPreconditionerChoices::has_few_pressures(layout_.pressures, layout_.velocities),
                     [](int, const auto&) {});
-    return diagonals_.stiffness() < choices.damped_below;
+    return choices.inertia_prevails(diagonals_.stiffness());
   }
 
  private:

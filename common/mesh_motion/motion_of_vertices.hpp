@@ -9,9 +9,9 @@
 
 namespace fsi {
 
-/// Harmonic mesh motion, plain or stiffened, on quadratic elements of the fluid: vertices move as those of linear elements on them would, and a node in the middle of
-/// an edge by the mean of its ends, so that it keeps its distance from the straight edge; on the boundary it is given like
-/// any other node. An eighth of the unknowns of a quadratic motion, which would be no better: the mesh needs no accuracy of
+/// Harmonic mesh motion, plain or stiffened, on quadratic elements of the fluid (docs/theory.md, section 6): vertices move as
+/// those of linear elements on them would, and a node in the middle of an edge by the mean of its ends, so that it keeps its
+/// distance from the straight edge; on the boundary it is given like any other node. An eighth of the unknowns of a quadratic motion, which would be no better: the mesh needs no accuracy of
 /// its own. The edges' rows come from 1/2 w |d_e - (d_a + d_b)/2|^2, w > 0: the operator is symmetric, and what is sought
 /// does not depend on w.
 template <class Element>
