@@ -817,8 +817,7 @@ TEST(CouplingStepper, GoesOnAfterAStepThatFailed) {
 }
 
 TEST(CouplingStepper, KeepsDifferencesThroughAChangeOfStep) {
-  // A fourth step half as long, with and without what the first three taught.
-  std::array<int, 2> all{};
+  // A fifth step half as long, with and without what the first four taught. Three hold little but the pulse's beginning.
   for (const char* scheme : {"iqn-ils", "iqn-imvj", "robin-neumann-iqn", "robin-neumann-imvj"}) {
     Case setup = short_pulse(scheme, 1e-6, "midpoint"), shorter = setup;
     shorter.time->step = 0.03125;
@@ -826,7 +825,7 @@ TEST(CouplingStepper, KeepsDifferencesThroughAChangeOfStep) {
     const Loads loads(setup);
     CouplingStepper<2> stepper(*scene, loads, setup);
     State state = scene->at_rest();
-    for (int n = 0; n < 3; ++n) stepper.advance(state);
+    for (int n = 0; n < 4; ++n) stepper.advance(state);
     const WrittenMemory memory = memory_of(stepper);
     std::array<int, 2> passes{};
     for (const bool kept : {false, true}) {
@@ -843,11 +842,8 @@ TEST(CouplingStepper, KeepsDifferencesThroughAChangeOfStep) {
       passes[kept ? 1 : 0] = next.advance(copy).outer_iterations;
       EXPECT_DOUBLE_EQ(copy.time, state.time + 0.03125);
     }
-    fmt::print("{}: {} passes without, {} with differences\n", scheme, passes[0], passes[1]);
-    EXPECT_LE(passes[1], passes[0] + 2) << scheme;  // it is a single step, and `iqn-ils` takes 14 in place of 12 here
-    for (const int kept : {0, 1}) all[kept] += passes[kept];
+    EXPECT_LT(passes[1], passes[0]) << scheme;
   }
-  EXPECT_LT(all[1], 0.9 * all[0]);
 }
 
 }  // namespace
