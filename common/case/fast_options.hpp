@@ -16,8 +16,8 @@ struct FastOptions {
   int strong_sweeps = 8;     ///< the same when the preconditioner is strengthened
 
   /// Unknowns below which a sparse factorisation is quicker: factors of a plane graph hardly fill in. In two dimensions a
-  /// coupled system of `judged_from` unknowns or more is iterated all the same where its wall's inertia exceeds its
-  /// stiffness: as quick then, without the seconds and the memory of factors.
+  /// coupled system of `judged_from` unknowns or more is iterated all the same where its wall's stiffness is
+  /// below twice its inertia: as quick then, without the seconds and the memory of factors.
   static constexpr std::int64_t judged_from = 10000;
   /// \param dimension  components of a velocity
   static constexpr std::int64_t standard_direct_below(int dimension) { return dimension == 2 ? 200000 : 2000; }

@@ -85,7 +85,7 @@ std::vector<CaseKey<MonolithicData>> monolithic_keys() {
            whole(at(&M::krylov, &KrylovOptions::max_iterations), 1, most_iterations)),
       leaf("direct_below", optional,
            "unknowns below which fast factorises the matrix, " + direct_below_standards() +
-               fmt::format(", but from {} on not where the wall's inertia exceeds its stiffness",
+               fmt::format(", but from {} on not where the wall's stiffness is below twice its inertia",
                            FastOptions::judged_from),
            whole(at(&M::fast, &FastOptions::direct_below), 0, most_unknowns)),
       leaf("krylov_restart", optional, "directions that GMRES and FGMRES keep, default {}",

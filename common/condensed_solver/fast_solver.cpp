@@ -92,20 +92,20 @@ FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& op
   const std::int64_t size = blocks.numbering.size;
   if (size >= options.direct_below.value_or(FastOptions::standard_direct_below(n))) return;
   if (n == 2 && !options.direct_below && blocks.coupled() && size >= FastOptions::judged_from)
-    judge_ = std::make_unique<InertiaJudge<n>>(blocks);
+    judge_ = std::make_unique<PlaneJudge<n>>(blocks);
   else
     direct_ = std::make_unique<DirectLinearSolver<n>>(blocks, precision(blocks));
 }
 
 template <int n>
 const char* FastSolver<n>::preparation() const {
-  if (judge_) return judge_->inertia_prevails() ? LinearSolver::preparation() : "factorisation";
+  if (judge_) return judge_->iterates() ? LinearSolver::preparation() : "factorisation";
   return direct_ && !iterative_ ? direct_->preparation() : LinearSolver::preparation();
 }
 
 template <int n>
 void FastSolver<n>::choose() {
-  if (judge_->inertia_prevails()) {
+  if (judge_->iterates()) {
     direct_.reset();
     return;
   }

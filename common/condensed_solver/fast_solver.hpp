@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "case/fast_options.hpp"
-#include "condensed_solver/inertia_judge.hpp"
+#include "condensed_solver/plane_judge.hpp"
 #include "system/direct_linear_solver.hpp"
 #include "system/linear_solver.hpp"
 
@@ -58,7 +58,7 @@ class FastSolver : public LinearSolver {
 
   JacobianBlocks<n> blocks_;
   FastOptions options_;
-  std::unique_ptr<InertiaJudge<n>> judge_;  ///< null where size alone decides
+  std::unique_ptr<PlaneJudge<n>> judge_;  ///< null where size alone decides
   std::unique_ptr<Iterative> iterative_;
   std::unique_ptr<DirectLinearSolver<n>> direct_;
   bool ready_ = false;

@@ -17,12 +17,14 @@ double weighted(const std::vector<double>& volumes, const std::vector<double>& f
   return sum;
 }
 
-/// What an increment moves a field by.
-std::vector<double> moved(const UnknownMap& map, const std::vector<double>& increment) {
-  std::vector<double> field(map.size());
-  for (std::size_t i = 0; i < map.size(); ++i)
-    if (map[i].index >= 0) field[i] = map[i].factor * increment[map[i].index];
-  return field;
+/// What an increment moves an entry of a field by.
+double moved(const Unknown& unknown, const std::vector<double>& increment) {
+  return unknown.index >= 0 ? unknown.factor * increment[unknown.index] : 0;
+}
+
+void find_moves(const UnknownMap& map, const std::vector<double>& increment, std::vector<double>& field) {
+  field.resize(map.size());
+  for (std::size_t i = 0; i < map.size(); ++i) field[i] = moved(map[i], increment);
 }
 
 }  // namespace
@@ -73,16 +75,14 @@ bool FieldNorms<n>::negligible(const std::vector<double>& increment, const Solut
   std::vector<double> sums;  // of each field of vectors and of scalars: squares of increment and size
   const auto measure = [&](const UnknownMap& map, const std::vector<double>& volumes, const std::vector<double>& field,
                            int entries) {
-    const std::vector<double> change = moved(map, increment);
-    for (const bool scalar : {false, true}) {
-      double changed = 0, size = 0;
-      for (std::size_t i = 0; i < map.size(); ++i) {
-        if ((static_cast<int>(i % entries) == n) != scalar) continue;
-        changed += volumes[i / entries] * change[i] * change[i];
-        size += volumes[i / entries] * field[i] * field[i];
+    double changed[2] = {}, size[2] = {};
+    for (std::size_t i = 0, a = 0; i < map.size(); ++a)
+      for (int entry = 0; entry < entries; ++entry, ++i) {
+        const double change = moved(map[i], increment);
+        changed[entry == n] += volumes[a] * change * change;
+        size[entry == n] += volumes[a] * field[i] * field[i];
       }
-      sums.insert(sums.end(), {changed, size});
-    }
+    sums.insert(sums.end(), {changed[0], size[0], changed[1], size[1]});
   };
   measure(numbering_.mesh, mesh_volumes_, now.mesh, Vector::entries);
   measure(numbering_.fluid, fluid_volumes_, now.fluid, Mixed::entries);
@@ -97,8 +97,9 @@ bool FieldNorms<n>::negligible(const std::vector<double>& increment, const Solut
 template <int n>
 double FieldNorms<n>::relative_to_change(const std::vector<double>& increment, const State& state,
                                          const StepData& data) const {
-  const std::vector<double> fluid = moved(numbering_.fluid, increment), wall = moved(numbering_.wall, increment);
-  return relative_to_step<n>(state, data, {fluid_volumes_, fluid}, {wall_volumes_, wall}, processes());
+  find_moves(numbering_.fluid, increment, fluid_);
+  find_moves(numbering_.wall, increment, wall_);
+  return relative_to_step<n>(state, data, {fluid_volumes_, fluid_}, {wall_volumes_, wall_}, processes());
 }
 
 template <int n>

@@ -45,6 +45,7 @@ class FieldNorms {
   const Numbering& numbering_;
   std::vector<double> mesh_volumes_, fluid_volumes_, wall_volumes_;  ///< per node; zero at ghosts
   std::vector<double> weights_;                                      ///< per unknown, of the squared norm of increments
+  mutable std::vector<double> fluid_, wall_;                         ///< storage
 };
 
 }  // namespace fsi

@@ -23,17 +23,15 @@ double relative_to_step(const State& state, const StepData& data, const FieldDif
   std::vector<double> sums;  // of each field of vectors and of scalars: squares of difference, change and size
   const auto measure = [&](const FieldDifference& medium, const std::vector<double>& now,
                            const std::vector<double>& old) {
-    for (const bool scalar : {false, true}) {
-      double difference = 0, change = 0, size = 0;
-      for (std::size_t i = 0; i < medium.difference.size(); ++i) {
-        if ((i % entries == n) != scalar) continue;
-        const double volume = medium.volumes[i / entries];
-        difference += volume * medium.difference[i] * medium.difference[i];
-        change += volume * (now[i] - old[i]) * (now[i] - old[i]);
-        size += volume * now[i] * now[i];
+    double difference[2] = {}, change[2] = {}, size[2] = {};
+    for (std::size_t i = 0, a = 0; i < medium.difference.size(); ++a)
+      for (int entry = 0; entry < entries; ++entry, ++i) {
+        const double volume = medium.volumes[a];
+        difference[entry == n] += volume * medium.difference[i] * medium.difference[i];
+        change[entry == n] += volume * (now[i] - old[i]) * (now[i] - old[i]);
+        size[entry == n] += volume * now[i] * now[i];
       }
-      sums.insert(sums.end(), {difference, change, size});
-    }
+    for (const int kind : {0, 1}) sums.insert(sums.end(), {difference[kind], change[kind], size[kind]});
   };
   measure(fluid, state.now.fluid, before.fluid);
   measure(wall, state.now.wall, before.wall);

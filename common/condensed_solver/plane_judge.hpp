@@ -5,19 +5,19 @@
 
 namespace fsi {
 
-/// Whether the wall's inertia exceeds its stiffness, as in short steps: by the present values of a coupled Jacobian alone, so
-/// that a restart decides the same.
+/// Whether a coupled plane system is iterated, for its wall is light to solve in short steps: by the present values of a
+/// Jacobian alone, so that a restart decides the same.
 template <int n>
-class InertiaJudge {
+class PlaneJudge {
  public:
-  explicit InertiaJudge(const JacobianBlocks<n>& blocks) : layout_(blocks), blocks_(blocks, layout_) {}
+  explicit PlaneJudge(const JacobianBlocks<n>& blocks) : layout_(blocks), blocks_(blocks, layout_) {}
 
-  bool inertia_prevails() {
+  bool iterates() {
     layout_.update();
     const BlockPreconditionerChoices choices;
     diagonals_.fill(blocks_, BlockPreconditionerChoices::has_few_pressures(layout_.pressures, layout_.velocities),
                     [](int, const auto&) {});
-    return choices.inertia_prevails(diagonals_.stiffness());
+    return choices.iterates_plane(diagonals_.stiffness());
   }
 
  private:
