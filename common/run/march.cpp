@@ -18,6 +18,18 @@ namespace {
 constexpr double first_share = 1.0 / 32, largest_share = 1;
 constexpr double its_tolerance = 0.01;  // of the first step, which goes with the root of the tolerance
 
+/// While it lives a stepper takes steps by its slower way where the usual one fails.
+class Persistence {
+ public:
+  explicit Persistence(Stepper& stepper) : stepper_(stepper) { stepper_.persist(true); }
+  Persistence(const Persistence&) = delete;
+  Persistence& operator=(const Persistence&) = delete;
+  ~Persistence() { stepper_.persist(false); }
+
+ private:
+  Stepper& stepper_;
+};
+
 }  // namespace
 
 // Accelerations are differences over the step's square, and the linear solver's numbers are in single precision.
@@ -107,6 +119,7 @@ StepReport March<n>::step(State& state) {
     spent.linear_iterations += report.linear_iterations;
   };
   std::optional<ConvergenceError> first_failure;
+  std::optional<Persistence> persistence;
   for (int failures = 0;;) {
     if (controller_) loads_.axis().choose(step, state.time, controller_->wanted());
     const double length = loads_.step_length(step);
@@ -126,9 +139,15 @@ StepReport March<n>::step(State& state) {
     } catch (const ConvergenceError& failure) {
       ++attempts_.failed;
       if (!first_failure) first_failure = failure;
-      if (!shrink(step, ++failures)) {
+      const bool last_try = persistence.has_value(), may_shrink = setup_.time && setup_.time->retries > 0;
+      if (last_try || !shrink(step, ++failures)) {
         loads_.axis().drop_insertions_after(state.step);
-        throw ConvergenceError(*first_failure);
+        if (last_try) throw;
+        if (controller_ || may_shrink || !stepper_.can_persist()) throw ConvergenceError(*first_failure);
+        persistence.emplace(stepper_);
+        add(stepper_.report());
+        say_(fmt::format("{}; again from solutions of shorter steps", failure.what()));
+        continue;
       }
       add(stepper_.report());
       const double next = controller_ ? controller_->wanted() : loads_.step_length(step);

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
 #include "system/level_check.hpp"
+#include "system/step_continuation.hpp"
 #include "time/predictor.hpp"
 
 namespace fsi {
@@ -23,6 +24,7 @@ void append_history(const NewtonReport& report, std::vector<std::string>& lines,
 namespace {
 
 constexpr std::size_t most_openings = 100000;
+constexpr double way_tolerance = 1e-4;  // of solutions that only lead to others
 
 /// All of it, or nothing. \returns whether there is such a point
 bool keep(const std::string& name, LinearisationPoint& point, Memory& memory) {
@@ -119,6 +121,11 @@ void NewtonMarch<n>::advance_stage(State& state, StepData& data) {
     report_.history.push_back(solved.failure + "; again from the last time level");
     solved = solve(state, data, 0);
   }
+  if (!solved.converged && this->persists_) {
+    abandon();
+    report_.history.push_back(solved.failure + "; again from solutions of shorter steps");
+    solved = solve_slowly(state, data);
+  }
   if (solved.converged) return finish_stage(state, data);
   abandon();
   const std::string valve = scene_.openings.joined().complaint();
@@ -145,10 +152,41 @@ std::string NewtonMarch<n>::remedy(const NewtonReport& failed) const {
 template <int n>
 NewtonReport NewtonMarch<n>::solve(State& state, StepData& data, int predictor) {
   scene_.integrator->predict(state, predictor, data);
+  return solve_from_there(state, data, options_);
+}
+
+template <int n>
+NewtonReport NewtonMarch<n>::solve_slowly(State& state, StepData& data) {
+  scene_.integrator->predict(state, 0, data);
+  NewtonReport solved;
+  const StepWalk walk = walk_to_step(state.now, [&](double share) {
+    if (share == 1) {
+      solved = solve_from_there(state, data, options_);
+    } else {
+      StepData part = data;
+      part.rates = scene_.integrator->rates(state, share * data.rates.step, data.rates.stage);
+      NewtonOptions options = options_;
+      options.tolerance = std::max(options.tolerance, way_tolerance);
+      solved = solve_from_there(state, part, options);
+    }
+    report_.history.push_back(fmt::format("a step of {:g} ms, {:.4g} of the length: {}", share * data.rates.step, share,
+                                          solved.converged ? "solved" : solved.failure));
+    if (!solved.converged) abandon();
+    return solved.converged;
+  });
+  if (!solved.converged && walk.solved > 0)
+    solved.failure +=
+        fmt::format("; with this load and start a step of {:.4g} ms has a solution, none of {:.4g} ms was found",
+                    walk.solved * data.rates.step, walk.failed * data.rates.step);
+  return solved;
+}
+
+template <int n>
+NewtonReport NewtonMarch<n>::solve_from_there(State& state, StepData& data, const NewtonOptions& options) {
   scene_.impose_conditions(state.now);
   scene_.impose_inflows(state, data);
   scene_.impose_interface(state, data.rates);
-  NewtonReport solved = newton(equations(state, data), options_);
+  NewtonReport solved = newton(equations(state, data), options);
   scene_.impose_interface(state, data.rates);  // exactly, not to the rounding of the increments
   report_.newton_iterations += solved.count();
   report_.linear_iterations += solved.linear_iterations();

@@ -25,6 +25,8 @@ template <int n>
 class NewtonMarch : public Stepper {
  public:
   StepReport advance(State& state) override;
+  /// A step that Newton's method does not reach is walked to from shorter ones (walk_to_step()).
+  bool can_persist() const override { return !scene_.is_static(); }
 
  protected:
   NewtonMarch(Scene<n>& scene, const Loads& loads, NewtonOptions options);
@@ -52,6 +54,10 @@ class NewtonMarch : public Stepper {
 
   /// \param predictor  order of the extrapolated start
   NewtonReport solve(State& state, StepData& data, int predictor);
+  /// From state.now.
+  NewtonReport solve_from_there(State& state, StepData& data, const NewtonOptions& options);
+  /// By solutions of shorter steps.
+  NewtonReport solve_slowly(State& state, StepData& data);
 
   State spare_;  ///< storage
   const Loads& loads_;

@@ -68,6 +68,10 @@ class Stepper {
   /// Who may refuse the solution of a step from now on, not owned; null: nobody. A step that was refused, or that failed,
   /// can be taken again with another length.
   void judge_by(StepJudge* judge) { judge_ = judge; }
+  /// Whether it has a slower way to the solution of a step that failed.
+  virtual bool can_persist() const { return false; }
+  /// Steps are taken by that way where the usual one fails.
+  void persist(bool persist) { persists_ = persist; }
   /// Whether a step that failed may succeed with a smaller length.
   virtual bool can_retry() const { return true; }
   /// Whether the steps' reports have a coupling part.
@@ -93,7 +97,7 @@ class Stepper {
     return report_.rejected;
   }
 
-  bool keep_balances_ = false;
+  bool keep_balances_ = false, persists_ = false;
   StepReport report_;
 
  private:

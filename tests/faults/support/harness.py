@@ -82,6 +82,13 @@ def is_one_message(text, program):
     return text.startswith(f"{program}: error: ") and text.count("\n") == 1 and text[:-1].isprintable()
 
 
+def is_message(text, program):
+    """Whether standard error holds such a line, behind lines of warnings or none."""
+    lines = text.splitlines(keepends=True)
+    errors = [line for line in lines if not (line.startswith(f"{program}: warning: ") and line[:-1].isprintable())]
+    return is_one_message("".join(errors), program)
+
+
 def summary(folder):
     """summary.json of a result folder, {} where there is none that can be read."""
     try:

@@ -86,6 +86,51 @@ TEST(NewtonStepper, AnImpossibleStepThrowsAndLeavesTheFinishedLevels) {
   EXPECT_EQ(state.before[0].wall, start.before[0].wall);
 }
 
+// A load that Newton's method follows from the start in many iterations, and through shorter steps in few each.
+TEST(NewtonStepper, WalksToAStepThatItDoesNotReachAtOnce) {
+  auto setup = coupled_case("neo-hookean");
+  setup.fluid.reset();
+  setup.inlet.reset();
+  setup.load = PressureTable{{{0, 20}}};
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  const auto stepper_of = [&](int most_iterations) {
+    NewtonOptions newton = options();
+    newton.mode = NewtonMode::full;
+    newton.max_iterations = most_iterations;
+    return NewtonStepper<3>(*scene, loads, newton, number_scene(*scene));
+  };
+  State at_once = scene->at_rest(), walked = at_once;
+  auto patient = stepper_of(30);
+  const int iterations = patient.advance(at_once).newton_iterations;
+  auto hasty = stepper_of(iterations - 1);
+  EXPECT_THROW(hasty.advance(walked), ConvergenceError);
+  hasty.persist(true);
+  const StepReport report = hasty.advance(walked);
+  EXPECT_EQ(walked.step, 1);
+  EXPECT_GT(report.newton_iterations, iterations);
+  EXPECT_LT(norm(difference(walked.now.wall, at_once.now.wall)), 1e-9 * norm(at_once.now.wall));
+}
+
+TEST(NewtonStepper, SaysHowLongAStepHasASolution) {
+  auto setup = coupled_case("neo-hookean");
+  setup.fluid.reset();
+  setup.inlet.reset();
+  setup.load = PressureTable{{{0, 1e4}}};
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  NewtonStepper<3> stepper(*scene, loads, options(), number_scene(*scene));
+  stepper.persist(true);
+  State state = scene->at_rest();
+  try {
+    stepper.advance(state);
+    FAIL() << "no such step";
+  } catch (const ConvergenceError& failure) {
+    EXPECT_NE(std::string(failure.what()).find("ms has a solution, none of"), std::string::npos) << failure.what();
+  }
+  EXPECT_EQ(state.step, 0);
+}
+
 TEST(NewtonStepper, RecallsItsJacobianBitForBit) {
   const auto setup = coupled_case("artery");
   const auto mesh = fluid_and_wall_box(2);
