@@ -178,6 +178,7 @@ struct MonolithicData {
   /// Of error_tolerance in a run of fixed steps that names neither this nor newton_tolerance: leaves a tenth of the
   /// discretisation's error at most (docs/evidence.md).
   static constexpr double standard_error_tolerance = 3e-3;
+  static constexpr double wall_error_tolerance = 3e-4;  ///< the same of a wall without fluid
   /// Elsewhere.
   static NewtonOptions standard_newton() {
     NewtonOptions options;

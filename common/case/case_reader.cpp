@@ -150,12 +150,14 @@ void warn_of_wall_density(const CaseEntry& whole_case, const Case& scene) {
 }
 
 /// Steps of a given length forgive what the solver leaves of one, as long as it is little beside what they change: the next
-/// ones see it. A load step's state is the result, and where errors choose the steps, the solver's must not be seen.
+/// ones see it. A wall alone swings undamped, so that what its steps leave adds up. A load step's state is the result, and where
+/// errors choose the steps, the solver's must not be seen.
 void choose_newton_stop(const CaseEntry& whole_case, Case& scene) {
   if (!scene.time || scene.time->adaptive) return;
   const CaseEntry monolithic = whole_case.child("monolithic");
   if (monolithic.has("newton_tolerance") || monolithic.has("error_tolerance")) return;
-  scene.monolithic.newton.error_tolerance = MonolithicData::standard_error_tolerance;
+  scene.monolithic.newton.error_tolerance =
+      scene.fluid ? MonolithicData::standard_error_tolerance : MonolithicData::wall_error_tolerance;
 }
 
 std::string contents_of(const std::filesystem::path& file) {

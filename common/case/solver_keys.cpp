@@ -101,8 +101,8 @@ std::vector<CaseKey<MonolithicData>> monolithic_keys() {
       leaf("error_tolerance", optional,
            fmt::format(
                "estimated error of a step, relative to what it changes, in place of newton_tolerance; default {} in "
-               "runs of fixed steps that name neither, else 0: not demanded",
-               text_for_people(M::standard_error_tolerance)),
+               "runs of fixed steps that name neither, {} without fluid, else 0: not demanded",
+               text_for_people(M::standard_error_tolerance), text_for_people(M::wall_error_tolerance)),
            number(at(&M::newton, &NewtonOptions::error_tolerance), tolerance_or_none)),
       leaf("residual_tolerance", optional, "residual relative to the first of the step, default {}: not demanded",
            number(at(&M::newton, &NewtonOptions::residual_tolerance), tolerance_or_none)),

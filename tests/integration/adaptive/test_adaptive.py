@@ -110,12 +110,24 @@ class FailedSteps(Small):
         self.assertGreater(failed, 0)
         self.assertEqual((folder / "run.log").read_text().count("; again with "), failed)
 
-    def test_end_the_run_without_retries(self):
+    def test_are_walked_to_where_they_may_not_be_halved(self):
+        """Each step through solutions of shorter ones: the levels are those of whole steps, and so is what they hold."""
+        settings = (self.mesh, *self.settings, "time.retries=0")
+        walked = run(MONOLITHIC, NEO_HOOKEAN, self.base / "walked", *settings)
+        at_once = run(MONOLITHIC, NEO_HOOKEAN, self.base / "at_once", *settings, "monolithic.max_iterations=30")
+        self.assertIn("; again from solutions of shorter steps", (walked / "run.log").read_text())
+        self.assertNotIn("; again", (at_once / "run.log").read_text())
+        self.assertEqual(summary(walked)["totals"]["steps"], summary(at_once)["totals"]["steps"])
+        one, other = (table(folder, "wall_displacement.csv") for folder in (walked, at_once))
+        self.assertEqual(one.shape, other.shape)
+        self.assertLess(np.abs(one - other).max(), 1e-6 * np.abs(other).max())
+
+    def test_end_the_run_where_no_way_leads_to_them(self):
         process = attempt(
             MONOLITHIC,
             NEO_HOOKEAN,
             folder=self.base / "given_up",
-            settings=(self.mesh, *self.settings, "time.retries=0"),
+            settings=(self.mesh, *self.settings, "time.retries=0", "monolithic.max_iterations=1"),
         )
         self.assertEqual(process.returncode, 2, process.stderr)
 

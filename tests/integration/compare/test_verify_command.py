@@ -21,6 +21,9 @@ element = "p2p1"
 geometry = "plane"
 [mesh]
 file = "tube.msh"
+[fluid]
+density = 1.0
+viscosity = 1.0
 [time]
 step = 0.5
 end = 8.0

@@ -31,6 +31,7 @@ from fsi_compare.studies.verify.tolerances import (
     ERROR_TOLERANCE,
     GAP_TOLERANCE,
     NEWTON_TOLERANCE,
+    WALL_ERROR_TOLERANCE,
     governing,
 )
 from fsi_compare.studies.verify.verdict import NOT_IN_RANGE, Value, bar_of
@@ -241,7 +242,9 @@ class Tolerances(unittest.TestCase):
 
     def test_case_without_a_tolerance_stops_by_its_error_in_fixed_steps(self):
         for program in self.BOTH:
-            self.assertEqual(governing(program, {"time": {"step": 0.5}}), {"monolithic.error_tolerance": 3e-3})
+            self.assertEqual(governing(program, {"time": {"step": 0.5}}), {"monolithic.error_tolerance": 3e-4})
+            flow = {"time": {"step": 0.5}, "fluid": {"density": 1}}
+            self.assertEqual(governing(program, flow), {"monolithic.error_tolerance": 3e-3})
             self.assertEqual(governing(program, {"time": {"step": "adaptive"}}), {"monolithic.newton_tolerance": 1e-3})
             named = {"time": {"step": 0.5}, "monolithic": {"newton_tolerance": 1e-5}}
             self.assertEqual(governing(program, named), {"monolithic.newton_tolerance": 1e-5})
@@ -277,9 +280,9 @@ class Tolerances(unittest.TestCase):
         newton = re.search(r"standard_newton\(\) \{\s*NewtonOptions options;\s*options\.tolerance = (\S+);", data)
         gap = re.search(r" standard_tolerance = (\S+);", data)
         error = re.search(r"standard_error_tolerance = (\S+);", data)
-        self.assertEqual(
-            (float(error[1]), float(newton[1]), float(gap[1])), (ERROR_TOLERANCE, NEWTON_TOLERANCE, GAP_TOLERANCE)
-        )
+        wall = re.search(r"wall_error_tolerance = (\S+);", data)
+        self.assertEqual((float(error[1]), float(wall[1])), (ERROR_TOLERANCE, WALL_ERROR_TOLERANCE))
+        self.assertEqual((float(newton[1]), float(gap[1])), (NEWTON_TOLERANCE, GAP_TOLERANCE))
         choice = (SOURCES / "partitioned/scheme_choice.cpp").read_text()
         self.assertIn(f'return {{"{DEFAULT_SCHEME}", "the case names none"}};', choice)
 

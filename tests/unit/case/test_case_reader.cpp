@@ -245,6 +245,11 @@ TEST(CaseReader, ChoosesWhenAStepIsSolved) {
   EXPECT_EQ(demanded("step = 0.5\n[monolithic]\nerror_tolerance = 0.1\n"), 0.1);
   EXPECT_EQ(demanded("step = 0.5\n[monolithic]\nerror_tolerance = 0\n"), 0);
   EXPECT_EQ(demanded("step = \"adaptive\"\n"), 0);
+  const auto wall = parse_case(
+      "mesh.level = 'coarse'\nload.pressure = 2.0\ntime = { step = 0.5, end = 1 }\n"
+      "structure = { density = 1, bulk_modulus = 10, layers.w = { material = 'neo-hookean', c10 = 1 } }\n",
+      "case.toml");
+  EXPECT_EQ(wall.monolithic.newton.error_tolerance, MonolithicData::wall_error_tolerance);
   EXPECT_EQ(read_case(fs::path(FSI_CASE_FILES) / "neo-hookean.toml").monolithic.newton.error_tolerance, 0);
 }
 

@@ -10,6 +10,7 @@
 from typing import Any, Dict, Mapping
 
 ERROR_TOLERANCE = 3e-3  # unless a case names one: as common/case/case.hpp has it
+WALL_ERROR_TOLERANCE = 3e-4  # likewise, without fluid
 NEWTON_TOLERANCE = 1e-3  # the same
 GAP_TOLERANCE = 1e-6  # the same
 DEFAULT_SCHEME = "block-newton"
@@ -28,7 +29,7 @@ def governing(program: str, entries: Mapping[str, Any]) -> Dict[str, float]:
             return {**error, **_demanded("monolithic", newton, "residual_tolerance")}
     found = _demanded("monolithic", newton, "error_tolerance")
     if not found and not {"error_tolerance", "newton_tolerance"} & set(newton) and _has_fixed_steps(entries):
-        found = {"monolithic.error_tolerance": ERROR_TOLERANCE}
+        found = {"monolithic.error_tolerance": ERROR_TOLERANCE if "fluid" in entries else WALL_ERROR_TOLERANCE}
     if not found:
         found = {"monolithic.newton_tolerance": float(newton.get("newton_tolerance", NEWTON_TOLERANCE))}
     return {**found, **_demanded("monolithic", newton, "residual_tolerance")}
