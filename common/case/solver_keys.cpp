@@ -85,8 +85,8 @@ std::vector<CaseKey<MonolithicData>> monolithic_keys() {
            whole(at(&M::krylov, &KrylovOptions::max_iterations), 1, most_iterations)),
       leaf("direct_below", optional,
            "unknowns below which fast factorises the matrix, " + direct_below_standards() +
-               fmt::format(", but from {} on not where the wall's stiffness is below twice its inertia",
-                           FastOptions::judged_from),
+               fmt::format(", but from {} on not where the wall's stiffness is below {:g} times its inertia",
+                           FastOptions::judged_from, FastOptions::judged_below),
            whole(at(&M::fast, &FastOptions::direct_below), 0, most_unknowns)),
       leaf("krylov_restart", optional, "directions that GMRES and FGMRES keep, default {}",
            whole(at(&M::krylov, &KrylovOptions::restart), 1, most_directions)),

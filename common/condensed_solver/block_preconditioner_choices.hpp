@@ -10,9 +10,6 @@ struct BlockPreconditionerChoices {
   /// Relaxation of these sweeps, 1 but where the wall's inertia exceeds its stiffness: diagonal over lumped diagonal below
   /// `damped_below`. A consistent mass matrix is as much neighbours as diagonal.
   double damping = 0.7, damped_below = 1;
-  /// A plane system of some size is iterated up to this stiffness over mass. Beyond it the iteration takes longer than solves
-  /// by kept factors (2.7: 1.5 times as long, 1.8: 0.8 times).
-  double plane_below = 2;
   /// D = diagonal of A + that part of its lumped diagonal, where this is positive.
   static constexpr double lumped_share = 0.2;
   /// The wall's momentum gets coarse levels from this stiffness over mass. Below, their set-up costs more than they
@@ -33,7 +30,6 @@ struct BlockPreconditionerChoices {
   bool has_coarse_levels(double stiffness) const { return stiffness >= coarse_from; }
   bool smooths_aggregates(double stiffness) const { return stiffness >= smoothed_from; }
   double relaxation(double stiffness) const { return stiffness < damped_below ? damping : 1; }
-  bool iterates_plane(double stiffness) const { return stiffness < plane_below; }
   /// Of the diagonal of S in the wall.
   double wall_diagonal_factor(double stiffness, bool few_pressures) const {
     return few_pressures && stiffness >= added_from ? 1 + added_diagonal : 1;

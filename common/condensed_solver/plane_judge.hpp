@@ -1,5 +1,6 @@
 #pragma once
 
+#include "case/fast_options.hpp"
 #include "condensed_solver/block_preconditioner_choices.hpp"
 #include "condensed_solver/momentum_diagonals.hpp"
 
@@ -14,10 +15,9 @@ class PlaneJudge {
 
   bool iterates() {
     layout_.update();
-    const BlockPreconditionerChoices choices;
     diagonals_.fill(blocks_, BlockPreconditionerChoices::has_few_pressures(layout_.pressures, layout_.velocities),
                     [](int, const auto&) {});
-    return choices.iterates_plane(diagonals_.stiffness());
+    return diagonals_.stiffness() < FastOptions::judged_below;
   }
 
  private:

@@ -18,18 +18,6 @@ namespace {
 constexpr double first_share = 1.0 / 32, largest_share = 1;
 constexpr double its_tolerance = 0.01;  // of the first step, which goes with the root of the tolerance
 
-/// While it lives a stepper takes steps by its slower way where the usual one fails.
-class Persistence {
- public:
-  explicit Persistence(Stepper& stepper) : stepper_(stepper) { stepper_.persist(true); }
-  Persistence(const Persistence&) = delete;
-  Persistence& operator=(const Persistence&) = delete;
-  ~Persistence() { stepper_.persist(false); }
-
- private:
-  Stepper& stepper_;
-};
-
 }  // namespace
 
 // Accelerations are differences over the step's square, and the linear solver's numbers are in single precision.
@@ -48,6 +36,8 @@ template <int n>
 March<n>::March(const Case& setup, const Scene<n>& scene, Stepper& stepper, Loads& loads,
                 std::function<void(const std::string&)> say)
     : setup_(setup), scene_(scene), stepper_(stepper), loads_(loads), say_(std::move(say)) {
+  // A step that may be halved is: quicker, and the message of one that fails comes sooner.
+  stepper_.persist(setup.time && !setup.time->adaptive && setup.time->retries == 0);
   if (!loads.axis().is_adaptive()) return;
   keep_scheme();
   stepper_.judge_by(this);
@@ -119,7 +109,6 @@ StepReport March<n>::step(State& state) {
     spent.linear_iterations += report.linear_iterations;
   };
   std::optional<ConvergenceError> first_failure;
-  std::optional<Persistence> persistence;
   for (int failures = 0;;) {
     if (controller_) loads_.axis().choose(step, state.time, controller_->wanted());
     const double length = loads_.step_length(step);
@@ -139,15 +128,9 @@ StepReport March<n>::step(State& state) {
     } catch (const ConvergenceError& failure) {
       ++attempts_.failed;
       if (!first_failure) first_failure = failure;
-      const bool last_try = persistence.has_value(), may_shrink = setup_.time && setup_.time->retries > 0;
-      if (last_try || !shrink(step, ++failures)) {
+      if (!shrink(step, ++failures)) {
         loads_.axis().drop_insertions_after(state.step);
-        if (last_try) throw;
-        if (controller_ || may_shrink || !stepper_.can_persist()) throw ConvergenceError(*first_failure);
-        persistence.emplace(stepper_);
-        add(stepper_.report());
-        say_(fmt::format("{}; again from solutions of shorter steps", failure.what()));
-        continue;
+        throw ConvergenceError(*first_failure);
       }
       add(stepper_.report());
       const double next = controller_ ? controller_->wanted() : loads_.step_length(step);

@@ -121,12 +121,19 @@ void NewtonMarch<n>::advance_stage(State& state, StepData& data) {
     report_.history.push_back(solved.failure + "; again from the last time level");
     solved = solve(state, data, 0);
   }
-  if (!solved.converged && this->persists_) {
+  if (!solved.converged && this->persists_ && !scene_.is_static()) {
     abandon();
     report_.history.push_back(solved.failure + "; again from solutions of shorter steps");
-    solved = solve_slowly(state, data);
+    const NewtonReport slowly = solve_slowly(state, data);
+    if (slowly.converged)
+      solved = slowly;
+    else
+      solved.failure += slowly.failure;
   }
-  if (solved.converged) return finish_stage(state, data);
+  if (solved.converged) {
+    report_.solver_error = std::max(report_.solver_error, solved.error);
+    return finish_stage(state, data);
+  }
   abandon();
   const std::string valve = scene_.openings.joined().complaint();
   throw ConvergenceError(fmt::format("{}: Newton's method stopped after {} iterations: {}", name_of_step(state, data),
@@ -174,8 +181,10 @@ NewtonReport NewtonMarch<n>::solve_slowly(State& state, StepData& data) {
     if (!solved.converged) abandon();
     return solved.converged;
   });
-  if (!solved.converged && walk.solved > 0)
-    solved.failure +=
+  if (walk.arrived()) return solved;
+  solved.failure.clear();
+  if (walk.solved > 0)
+    solved.failure =
         fmt::format("; with this load and start a step of {:.4g} ms has a solution, none of {:.4g} ms was found",
                     walk.solved * data.rates.step, walk.failed * data.rates.step);
   return solved;
@@ -192,7 +201,6 @@ NewtonReport NewtonMarch<n>::solve_from_there(State& state, StepData& data, cons
   report_.linear_iterations += solved.linear_iterations();
   report_.history.push_back(fmt::format("first residual {:.3e}", solved.first_residual));
   append_history(solved, report_.history);
-  if (solved.converged) report_.solver_error = std::max(report_.solver_error, solved.error);
   return solved;
 }
 

@@ -24,9 +24,8 @@ void keep_linearisation(const std::string& name, System<n>& system, Memory& memo
 template <int n>
 class NewtonMarch : public Stepper {
  public:
+  /// If it persists, a step in time that Newton's method does not reach is walked to from shorter ones (walk_to_step()).
   StepReport advance(State& state) override;
-  /// A step that Newton's method does not reach is walked to from shorter ones (walk_to_step()).
-  bool can_persist() const override { return !scene_.is_static(); }
 
  protected:
   NewtonMarch(Scene<n>& scene, const Loads& loads, NewtonOptions options);
@@ -56,7 +55,7 @@ class NewtonMarch : public Stepper {
   NewtonReport solve(State& state, StepData& data, int predictor);
   /// From state.now.
   NewtonReport solve_from_there(State& state, StepData& data, const NewtonOptions& options);
-  /// By solutions of shorter steps.
+  /// By solutions of shorter steps. The failure of one that does not arrive is what there is to add to that of the usual way.
   NewtonReport solve_slowly(State& state, StepData& data);
 
   State spare_;  ///< storage

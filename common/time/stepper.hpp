@@ -68,9 +68,7 @@ class Stepper {
   /// Who may refuse the solution of a step from now on, not owned; null: nobody. A step that was refused, or that failed,
   /// can be taken again with another length.
   void judge_by(StepJudge* judge) { judge_ = judge; }
-  /// Whether it has a slower way to the solution of a step that failed.
-  virtual bool can_persist() const { return false; }
-  /// Steps are taken by that way where the usual one fails.
+  /// Steps are taken by a slower way, if it has one, where the usual one fails.
   void persist(bool persist) { persists_ = persist; }
   /// Whether a step that failed may succeed with a smaller length.
   virtual bool can_retry() const { return true; }

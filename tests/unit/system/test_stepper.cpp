@@ -20,6 +20,15 @@ NewtonOptions options() {
   return newton;
 }
 
+/// \param pressure  kPa
+Case loaded_wall(double pressure) {
+  Case setup = coupled_case("neo-hookean");
+  setup.fluid.reset();
+  setup.inlet.reset();
+  setup.load = PressureTable{{{0, pressure}}};
+  return setup;
+}
+
 TEST(NewtonStepper, AdvancesTheCoupledSceneAndKeepsItsInterfaceConditions) {
   const auto setup = coupled_case("artery");
   const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
@@ -72,10 +81,7 @@ TEST(NewtonStepper, SceneWithoutLoadStaysAtRest) {
 }
 
 TEST(NewtonStepper, AnImpossibleStepThrowsAndLeavesTheFinishedLevels) {
-  auto setup = coupled_case("neo-hookean");
-  setup.fluid.reset();
-  setup.inlet.reset();
-  setup.load = PressureTable{{{0, 1e7}}};  // kPa: a million times the wall's stiffness
+  const auto setup = loaded_wall(1e7);  // a million times the wall's stiffness
   const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
   NewtonStepper<3> stepper(*scene, loads, options(), number_scene(*scene));
@@ -88,10 +94,7 @@ TEST(NewtonStepper, AnImpossibleStepThrowsAndLeavesTheFinishedLevels) {
 
 // A load that Newton's method follows from the start in many iterations, and through shorter steps in few each.
 TEST(NewtonStepper, WalksToAStepThatItDoesNotReachAtOnce) {
-  auto setup = coupled_case("neo-hookean");
-  setup.fluid.reset();
-  setup.inlet.reset();
-  setup.load = PressureTable{{{0, 20}}};
+  const auto setup = loaded_wall(20);
   const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
   const auto stepper_of = [&](int most_iterations) {
@@ -113,10 +116,7 @@ TEST(NewtonStepper, WalksToAStepThatItDoesNotReachAtOnce) {
 }
 
 TEST(NewtonStepper, SaysHowLongAStepHasASolution) {
-  auto setup = coupled_case("neo-hookean");
-  setup.fluid.reset();
-  setup.inlet.reset();
-  setup.load = PressureTable{{{0, 1e4}}};
+  const auto setup = loaded_wall(1e4);
   const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
   NewtonStepper<3> stepper(*scene, loads, options(), number_scene(*scene));
