@@ -39,6 +39,8 @@ struct CholeskySolver::Implementation {
   cholmod_common common;
   std::optional<SingleCholesky> single;  ///< in place of `factor`
   double residual = 0;                   ///< of its solutions
+  std::vector<std::int64_t> order;       ///< of a matrix with that many entries
+  std::int64_t entries = 0;
   cholmod_factor* factor = nullptr;
   // Storage of solves: solution, and two arrays of CHOLMOD's own.
   mutable cholmod_dense *solution = nullptr, *work = nullptr, *extra = nullptr;
@@ -47,13 +49,22 @@ struct CholeskySolver::Implementation {
     cholmod_l_start(&common);
     common.print = 0;
     common.nmethods = 1;
-    common.method[0].ordering = CHOLMOD_METIS;
-    common.postorder = 1;
     common.final_ll = 1;
   }
   ~Implementation() {
     free_double();
     cholmod_l_finish(&common);
+  }
+  /// A new factor's pattern.
+  void analyse(cholmod_sparse& a) {
+    const bool known = order.size() == a.nrow && entries == static_cast<std::int64_t>(a.nzmax);
+    common.method[0].ordering = known ? CHOLMOD_GIVEN : CHOLMOD_METIS;
+    common.postorder = !known;  // the order found is one already
+    factor = cholmod_l_analyze_p(&a, known ? order.data() : nullptr, nullptr, 0, &common);
+    if (common.status != CHOLMOD_OK) return;
+    const auto* found = static_cast<const std::int64_t*>(factor->Perm);
+    order.assign(found, found + factor->n);
+    entries = static_cast<std::int64_t>(a.nzmax);
   }
   void free_double() {
     cholmod_l_free_dense(&solution, &common);
@@ -132,7 +143,7 @@ void CholeskySolver::factorise(const SparseMatrix& a) {
   view.dtype = CHOLMOD_DOUBLE;
   view.sorted = 1;
   view.packed = 1;
-  my.factor = cholmod_l_analyze(&view, &my.common);
+  my.analyse(view);
   my.check(a.size());
   const double expected = 1.2 * sizeof(double) * my.common.lnz;  // blocks hold some zeros besides
   if (expected > (1 << 20) && will_not_fit(expected, static_cast<double>(available_memory().bytes)))

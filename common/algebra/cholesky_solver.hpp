@@ -18,6 +18,8 @@ class CholeskySolver {
   CholeskySolver(CholeskySolver&&) noexcept;
   CholeskySolver& operator=(CholeskySolver&&) noexcept;
 
+  /// A matrix of as many unknowns and entries as the one before takes over its ordering, which is good where it has its
+  /// pattern, and valid everywhere.
   /// \param a  symmetric, both halves stored, of which one is read
   /// \throws ConvergenceError when it is not positive definite, OutOfMemory before what will not fit
   void factorise(const SparseMatrix& a);

@@ -78,6 +78,7 @@ struct RegisterBlocks {
 
   /// Blocks begin ... end - 1 times x. One accumulator a column keeps the chains of additions short.
   Register<R> product(int begin, int end, const float* x) const {
+    if constexpr (R == 2 && C == 2) return product_of_small(begin, end, x);
     Register<R> parts[C] = {};
     const float* a = values.data() + static_cast<std::size_t>(begin) * stride;
     for (int at = begin; at < end; ++at, a += stride) {
@@ -87,6 +88,23 @@ struct RegisterBlocks {
     Register<R> sum = parts[0];
     for (int k = 1; k < C; ++k) sum += parts[k];
     return sum;
+  }
+  /// The same of 2 x 2 blocks, each a register by itself; every second one has an accumulator of its own.
+  Register<2> product_of_small(int begin, int end, const float* x) const {
+    const float* a = values.data() + static_cast<std::size_t>(begin) * 4;
+    const auto by_columns = [&](int at) {
+      const Register<2> here = load<2>(x + static_cast<std::size_t>(columns[at]) * 2);
+      return __builtin_shufflevector(here, here, 0, 0, 1, 1);
+    };
+    Register<4> even{}, odd{};
+    int at = begin;
+    for (; at + 1 < end; at += 2, a += 8) {
+      even += load<4>(a) * by_columns(at);
+      odd += load<4>(a + 4) * by_columns(at + 1);
+    }
+    if (at < end) even += load<4>(a) * by_columns(at);
+    even += odd;
+    return __builtin_shufflevector(even, even, 0, 1) + __builtin_shufflevector(even, even, 2, 3);
   }
   Register<R> row_product(int row, const float* x) const { return product(offsets[row], offsets[row + 1], x); }
 

@@ -174,8 +174,8 @@ LinearStatistics FastSolver<n>::statistics() const {
                                         iterative_->gmres.bytes()) /
                     (1 << 20);
     if (const auto* extension = iterative_->iteration.extension()) s.memory_mib += extension->memory_mib();
-    s.operator_complexity = iterative_->preconditioner.multigrid().operator_complexity();
-    s.levels = iterative_->preconditioner.multigrid().levels();
+    s.operator_complexity = iterative_->preconditioner.inverse_schur().operator_complexity();
+    s.levels = iterative_->preconditioner.inverse_schur().levels();
   }
   return s;
 }

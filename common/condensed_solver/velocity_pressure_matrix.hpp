@@ -36,7 +36,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     shape_derivatives_ = std::make_unique<InterfaceShapeDerivatives<n>>(blocks, layout, momentum_);
     gradient_.resize(gradient_columns_.size() * lanes);
     divergence_.resize(continuity_velocities_.size() * lanes);
-    compressibility_.resize(continuity_velocities_.size());
+    compressibility_.resize(compressibility_columns_.size());
   }
 
   std::size_t velocity_size() const { return static_cast<std::size_t>(layout_.velocities) * lanes; }
@@ -86,8 +86,8 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
 #pragma omp parallel for schedule(static) if (layout_.pressures > 500)
     for (int p = 0; p < layout_.pressures; ++p) {
       float sum = divergence_product(p, x.data());
-      for (int at = continuity_offsets_[p]; at < continuity_offsets_[p + 1]; ++at)
-        sum += compressibility_[at] * pressure[continuity_pressures_[at]];
+      for (int at = compressibility_offsets_[p]; at < compressibility_offsets_[p + 1]; ++at)
+        sum += compressibility_[at] * pressure[compressibility_columns_[at]];
       rows[p] = sum;
     }
   }
@@ -156,7 +156,8 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
 
   std::size_t bytes() const {
     return sizeof(float) * (momentum_.values.size() + gradient_.size() + divergence_.size() + compressibility_.size()) +
-           sizeof(int) * (momentum_.columns.size() + gradient_columns_.size() + 2 * continuity_pressures_.size());
+           sizeof(int) * (momentum_.columns.size() + gradient_columns_.size() + continuity_velocities_.size() +
+                          compressibility_columns_.size());
   }
 
  private:
@@ -180,14 +181,15 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
 
   void make_continuity_pattern() {
     continuity_offsets_ = {0};
+    compressibility_offsets_ = {0};
     for (int p = 0; p < layout_.pressures; ++p) {
       for_blocks_of_node(layout_.wall_pressure[p], layout_.node_of_pressure[p],
                          [&](const double*, int v, int q, double) {
-                           // A number is stored all the same: zero.
-                           continuity_velocities_.push_back(std::max(v, 0));
-                           continuity_pressures_.push_back(std::max(q, 0));
+                           continuity_velocities_.push_back(std::max(v, 0));  // without one zeros are stored
+                           if (q >= 0) compressibility_columns_.push_back(q);
                          });
-      continuity_offsets_.push_back(static_cast<int>(continuity_pressures_.size()));
+      continuity_offsets_.push_back(static_cast<int>(continuity_velocities_.size()));
+      compressibility_offsets_.push_back(static_cast<int>(compressibility_columns_.size()));
     }
   }
 
@@ -216,13 +218,14 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   void fill_continuity() {
 #pragma omp parallel for schedule(static) if (layout_.pressures > 500)
     for (int p = 0; p < layout_.pressures; ++p) {
-      int at = continuity_offsets_[p];
+      int at = continuity_offsets_[p], compressibility_at = compressibility_offsets_[p];
       for_blocks_of_node(
           layout_.wall_pressure[p], layout_.node_of_pressure[p], [&](const double* block, int v, int q, double factor) {
-            float* b = divergence_.data() + static_cast<std::size_t>(at) * lanes;
+            float* b = divergence_.data() + static_cast<std::size_t>(at++) * lanes;
             for (int k = 0; k < n; ++k)
               b[k] = v < 0 ? 0.0f : static_cast<float>(factor * block[MixedLayout<n>::in_block(n, k)]);
-            compressibility_[at++] = q < 0 ? 0.0f : static_cast<float>(block[MixedLayout<n>::in_block(n, n)]);
+            if (q >= 0)
+              compressibility_[compressibility_at++] = static_cast<float>(block[MixedLayout<n>::in_block(n, n)]);
           });
     }
   }
@@ -232,9 +235,11 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   std::unique_ptr<const InterfaceShapeDerivatives<n>> shape_derivatives_;
   std::vector<int> gradient_offsets_, gradient_columns_;
   std::vector<float> gradient_;  ///< `lanes` numbers a block
-  std::vector<int> continuity_offsets_, continuity_velocities_, continuity_pressures_;
-  std::vector<float> divergence_, compressibility_;  ///< B, `lanes` numbers a block, and C
-  mutable std::vector<float> single_x_, single_y_;   ///< of multiply_at_rest()
+  std::vector<int> continuity_offsets_, continuity_velocities_;
+  std::vector<float> divergence_;  ///< B, `lanes` numbers a block
+  std::vector<int> compressibility_offsets_, compressibility_columns_;
+  std::vector<float> compressibility_;              ///< C
+  mutable std::vector<float> single_x_, single_y_;  ///< of multiply_at_rest()
 };
 
 }  // namespace fsi

@@ -8,9 +8,9 @@
 
 #include "condensed_solver/block_preconditioner_choices.hpp"
 #include "condensed_solver/momentum_diagonals.hpp"
+#include "condensed_solver/schur_complement_inverse.hpp"
 #include "condensed_solver/velocity_pressure_matrix.hpp"
 #include "condensed_solver/wall_coarse_correction.hpp"
-#include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
 #include "solvers/smoothed_aggregation/sweep_chunks.hpp"
 
 namespace fsi {
@@ -19,7 +19,7 @@ namespace fsi {
 ///   p = S^-1 (r_p - B D^-1 r_v),  v = A^-1 (r_v - G p),
 /// F's block factors with the diagonal D (MomentumDiagonals) in place of A where pressures are sought, A^-1 by a symmetric
 /// Gauss-Seidel sweep over n x n node blocks, around coarse levels where the wall is stiff (WallCoarseCorrection), S^-1 by
-/// one multigrid cycle on S = C - B D^-1 G. One scalar problem holds the pressures of fluid and wall: they meet
+/// one multigrid cycle on S = C - B D^-1 G, or its factor (SchurComplementInverse). One scalar problem holds the pressures of fluid and wall: they meet
 /// through the interface velocity, which carries the added mass.
 ///
 /// Taylor-Hood elements have far fewer pressures than velocities. There a cycle on S costs little beside a momentum
@@ -75,7 +75,7 @@ class VelocityPressurePreconditioner {
       scale_wall_diagonal(factor);
     ScalarMultigrid::Options pressure = options_.pressure;
     pressure.post_smoothing = pressure.post_smoothing || has_few_pressures();
-    multigrid_.set_up(schur_, pressure);
+    inverse_schur_.set_up(schur_, pressure, BlockPreconditionerChoices::factorises_schur_complement(n));
   }
 
   /// z = P^-1 r
@@ -86,7 +86,7 @@ class VelocityPressurePreconditioner {
     for (int p = 0; p < layout_.pressures; ++p)
       pressure_residual_[p] =
           static_cast<float>(layout_.row_scale(p)) * (pressure_rows[p] - matrix_.divergence_product(p, sweep_.data()));
-    multigrid_.cycle(pressure_residual_, pressure_);
+    inverse_schur_.apply(pressure_residual_, pressure_);
 #pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
     for (int v = 0; v < layout_.velocities; ++v) {
       const std::size_t at = static_cast<std::size_t>(v) * lanes;
@@ -116,12 +116,12 @@ class VelocityPressurePreconditioner {
     matrix_.multiply_continuity(z, product);
   }
 
-  const ScalarMultigrid& multigrid() const {
-    return multigrid_;
+  const SchurComplementInverse& inverse_schur() const {
+    return inverse_schur_;
   }
   std::size_t bytes() const {
     return sizeof(float) * (inverse_diagonal_.size() + 6 * velocity_.size()) + 8 * diagonals_.inverse().size() +
-           schur_.bytes() + multigrid_.bytes() + (coarse_ ? coarse_->bytes() : 0);
+           schur_.bytes() + inverse_schur_.bytes() + (coarse_ ? coarse_->bytes() : 0);
   }
 
  private:
@@ -249,21 +249,18 @@ class VelocityPressurePreconditioner {
   /// x = (D/w + U)^-1 (2/w - 1) D (D/w + L)^-1 r within chunks, w being the relaxation and D the diagonal blocks;
   /// upper_part_ = U x.
   void symmetric_sweep(const std::vector<float>& r, std::vector<float>& x) {
-#pragma omp parallel for schedule(static) if (chunks_.chunks() > 1)
-    for (int c = 0; c < chunks_.chunks(); ++c) {
-      for (int v = chunks_.begin[c]; v < chunks_.begin[c + 1]; ++v) {  // x = (D/w + L)^-1 r
-        const std::size_t at = static_cast<std::size_t>(v) * lanes;
-        const Nodal before = matrix_.momentum_product(chunks_.first[v], chunks_.diagonal[v], x.data());
-        Matrix::store(relaxation_ * solve_diagonal(v, Matrix::load(r.data() + at) - before), x.data() + at);
-      }
-      for (int v = chunks_.begin[c + 1] - 1; v >= chunks_.begin[c]; --v) {  // x = (2 - w) x - w D^-1 U x
-        const std::size_t at = static_cast<std::size_t>(v) * lanes;
-        const Nodal after = matrix_.momentum_product(chunks_.diagonal[v] + 1, chunks_.last[v], x.data());
-        Matrix::store(after, upper_part_.data() + at);
-        Matrix::store((2 - relaxation_) * Matrix::load(x.data() + at) - relaxation_ * solve_diagonal(v, after),
-                      x.data() + at);
-      }
-    }
+    chunks_.forward([&](int v) {  // x = (D/w + L)^-1 r
+      const std::size_t at = static_cast<std::size_t>(v) * lanes;
+      const Nodal before = matrix_.momentum_product(chunks_.first[v], chunks_.diagonal[v], x.data());
+      Matrix::store(relaxation_ * solve_diagonal(v, Matrix::load(r.data() + at) - before), x.data() + at);
+    });
+    chunks_.backward([&](int v) {  // x = (2 - w) x - w D^-1 U x
+      const std::size_t at = static_cast<std::size_t>(v) * lanes;
+      const Nodal after = matrix_.momentum_product(chunks_.diagonal[v] + 1, chunks_.last[v], x.data());
+      Matrix::store(after, upper_part_.data() + at);
+      Matrix::store((2 - relaxation_) * Matrix::load(x.data() + at) - relaxation_ * solve_diagonal(v, after),
+                    x.data() + at);
+    });
   }
   /// D^-1 r of a node.
   Nodal solve_diagonal(int v, Nodal r) const {
@@ -283,7 +280,7 @@ class VelocityPressurePreconditioner {
   MomentumDiagonals<n> diagonals_;       ///< D^-1
   std::vector<float> inverse_lumped_;    ///< the same in this layout
   CsrMatrix<double> schur_;
-  ScalarMultigrid multigrid_;
+  SchurComplementInverse inverse_schur_;
   std::vector<float> velocity_residual_, velocity_, sweep_, sweep_residual_, pressure_residual_, pressure_;
   std::vector<float> upper_part_;  ///< U x of the last sweep
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "diagnostics/energy_record.hpp"
@@ -24,6 +25,7 @@ class EnergyBalance {
     for (const auto& inflow : scene.inflows) given_.insert(given_.end(), inflow.nodes().begin(), inflow.nodes().end());
     keep(state);
     EnergyRecord record = energies(state, level_energy(scene, state));
+    isochoric_ = record.wall_isochoric;
     sum_over(scene_.processes(), record);
     energy_ = record.energy();
   }
@@ -55,6 +57,8 @@ class EnergyBalance {
       add(state, balance, rates.weight, rates.step, wall_before, record);
       wall_before = &balance.at.wall;
     }
+    // What the stress does beyond the change of energy: weights of balances add up to one.
+    if (scene_.wall) record.wall_stress -= record.wall_isochoric - std::exchange(isochoric_, record.wall_isochoric);
     sum_over(scene_.processes(), record);
     if (quadratic_) record.fluid_quadrature -= record.outlet_kinetic - record.inlet_kinetic;
     record.remainder =
@@ -184,6 +188,7 @@ class EnergyBalance {
   bool quadratic_;
   std::vector<int> given_;             ///< nodes of the openings whose flow is given
   double energy_ = 0;                  ///< at the last step's end
+  double isochoric_ = 0;               ///< of this process's part of the wall, likewise
   std::vector<double> wall_before_;    ///< at the last balance
   std::vector<double> wall_velocity_;  ///< at the last step's end
   std::optional<Balance> again_;       ///< the last balance, if the next step counts it again

@@ -5,6 +5,10 @@
 
 #include "fem/element_packs.hpp"
 
+/// Behind the parameters of a function that sums up over a pack: what it calls becomes part of it, so that fields stay in
+/// registers from the nodes to the integrals.
+#define FSI_WITH_ALL_CALLS_INLINE __attribute__((flatten))
+
 namespace fsi {
 
 /// Integrals of `Count` quantities over one pack, a lane per element: prepare(point geometry) does what depends on

@@ -69,7 +69,8 @@ inline Mat3<Pack> gradient_of(const NodalVector<Element>& u, const QuadraturePoi
     for (int j = 0; j < 3; ++j) h(i, j) = Pack(0.0);
   for (int a = 0; a < Element::nodes; ++a) {
     for (int k = 0; k < Element::components; ++k)
-      for (int j = 0; j < 3; ++j) h(Element::axis[k], j) += u.at[a][k] * g.vectors().gradient[a][j];
+      for (int j = 0; j < Element::components; ++j)
+        h(Element::axis[k], Element::axis[j]) += u.at[a][k] * g.vectors().gradient[a][Element::axis[j]];
     if constexpr (Element::axisymmetric) h(1, 1) += u.at[a][0] * g.vectors().hoop[a];
   }
   return h;
@@ -78,7 +79,8 @@ template <class Element>
 inline Vec3<Pack> gradient_of(const NodalScalar<Element>& p, const QuadraturePoint<Element>& g) {
   Vec3<Pack> h{{Pack(0.0), Pack(0.0), Pack(0.0)}};
   for (int a = 0; a < Element::scalar_nodes; ++a)
-    for (int j = 0; j < 3; ++j) h[j] += p.at[a] * g.scalars().gradient[a][j];
+    for (int j = 0; j < Element::components; ++j)
+      h[Element::axis[j]] += p.at[a] * g.scalars().gradient[a][Element::axis[j]];
   return h;
 }
 template <class Element>

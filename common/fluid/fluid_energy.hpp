@@ -24,7 +24,7 @@ template <class Element>
 double fluid_kinetic_energy(const AleFluid& form, const ElementPacks<Element>& packs, const double* mesh,
                             const double* fluid) {
   constexpr int n = Element::components;
-  const auto integrals = [&](const auto& pack, int, std::size_t) {
+  const auto integrals = [&](const auto& pack, int, std::size_t) FSI_WITH_ALL_CALLS_INLINE {
     NodalVector<Element> d{}, u{};
     gather<MixedLayout<n>>(u, pack, fluid);
     if (mesh) gather<VectorLayout<n>>(d, pack, mesh);
@@ -49,7 +49,7 @@ FluidWork work_of_form(Form form, const ElementPacks<Element>& packs, const Flui
   const FluidInput& in = step.balance;
   form.step = in.step;
   const Pack duration(step.duration), weight(step.weight);
-  const auto integrals = [&](const auto& pack, int, std::size_t) {
+  const auto integrals = [&](const auto& pack, int, std::size_t) FSI_WITH_ALL_CALLS_INLINE {
     NodalVector<Element> d_start{}, d_end{}, u_start{}, u_end{};
     detail::FluidPack<Element> at;
     if (in.mesh) {

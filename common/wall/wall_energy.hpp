@@ -8,10 +8,6 @@ namespace fsi {
 
 namespace detail {
 
-/// Radau's rule on (0, 1] with its last point at 1, exact for polynomials of degree four.
-inline constexpr double radau_point[] = {0.15505102572168219018, 0.64494897427831780982, 1.0};
-inline constexpr double radau_weight[] = {0.37640306270046727506, 0.51248582618842161383, 1.0 / 9.0};
-
 /// 1 / (2 kappa) at a point
 template <class M>
 Pack half_compliance(const Hyperelastic<M>& form, const typename Hyperelastic<M>::FibreData& at) {
@@ -27,7 +23,7 @@ WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& l
   constexpr int n = Element::components;
   constexpr bool has_fibres = Hyperelastic<M>::has_fibres, is_compressible = Hyperelastic<M>::is_compressible,
                  varies = Hyperelastic<M>::varies;
-  const auto integrals = [&](const auto& pack, int thread, std::size_t index) {
+  const auto integrals = [&](const auto& pack, int thread, std::size_t index) FSI_WITH_ALL_CALLS_INLINE {
     const auto fibres = points_of<Element, Hyperelastic<M>>(layer, thread);
     NodalVector<Element> d{}, v{};
     NodalScalar<Element> p{};
@@ -82,15 +78,13 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
   using Vector = VectorLayout<n>;
   using Mixed = MixedLayout<n>;
   const Pack duration(step.duration), weight(step.weight);
-  const auto integrals = [&](const auto& pack, int thread, std::size_t index) {
+  const auto integrals = [&](const auto& pack, int thread, std::size_t index) FSI_WITH_ALL_CALLS_INLINE {
     const auto fibres = points_of<Element, Hyperelastic<M>>(layer, thread);
     WallPack<Element> at;
-    NodalVector<Element> reference{}, d_before{}, d_start{}, d_end{}, v_start{}, v_end{}, moved;
+    NodalVector<Element> reference{}, d_before{}, v_start{}, v_end{}, moved;
     NodalScalar<Element> p_before{};
     at.gather_from(step.balance, pack);
     gather<Mixed>(reference, pack, step.reference);
-    gather<Mixed>(d_start, pack, step.start);
-    gather<Mixed>(d_end, pack, step.end);
     if (step.wall_before) {
       gather<Mixed>(d_before, pack, step.wall_before);
       gather<Mixed>(p_before, pack, step.wall_before);
@@ -100,36 +94,19 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
       gather<Vector>(v_end, pack, step.velocity_end);
     }
     if (const double* prestress = step.balance.prestress) {
-      for (auto* field : {&reference, &d_start, &d_end}) add_prestress<Element>(*field, pack, prestress);
+      add_prestress<Element>(reference, pack, prestress);
       if (step.wall_before) add_prestress<Element>(d_before, pack, prestress);
     }
     for (int a = 0; a < Element::nodes; ++a)
       for (int k = 0; k < n; ++k)
         moved.at[a][k] = Pack(step.duration * step.rate) * (at.d.at[a][k] - reference.at[a][k]);
     struct Prepared {
-      Mat3<Pack> now;         ///< grad d
-      Mat3<Pack> moved;       ///< W grad v
-      Mat3<Pack> start, way;  ///< grad d_0, grad(d_1 - d_0)
-      Pack isotropic;         ///< of materials without fibres: what the stress does beyond the change of energy
-      Pack defect;            ///< W G : grad v - (g - g_b)
+      Mat3<Pack> now, moved;  ///< grad d, W grad v
+      decltype(deformation(Mat3<Pack>{})) f;
+      Strain<Pack> strain;
+      Pack isotropic;  ///< what the stress does, of materials without fibres
+      Pack defect;     ///< W G : grad v - (g - g_b)
       Pack stabilisation;
-    };
-    const auto stress = [&](const Prepared& k, [[maybe_unused]] const typename M::FibreData& fibre) {
-      const auto flux_at = [&](const Mat3<Pack>& h) {
-        const auto f = deformation(h);
-        if constexpr (varies)
-          return form.material.response(h, f, fibre).flux;
-        else if constexpr (is_compressible)
-          return form.material.response(h, f).flux;
-        else
-          return form.isochoric_flux(f, strain_of(h, f), fibre);
-      };
-      const Mat3<Pack> flux = flux_at(k.now);
-      Pack beyond = contract(flux, k.moved - weight * k.way);
-      for (int point = 0; point < 3; ++point)
-        beyond += Pack(radau_weight[point]) *
-                  contract(flux - flux_at(k.start + Pack(radau_point[point]) * k.way), weight * k.way);
-      return beyond;
     };
     return pack_integrals<Element, 3>(
         pack.geometry,
@@ -137,14 +114,16 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
           Prepared k;
           k.now = gradient_of(at.d, g);
           k.moved = gradient_of(moved, g);
-          k.start = gradient_of(d_start, g);
-          k.way = gradient_of(d_end, g) - k.start;
-          if constexpr (!has_fibres) k.isotropic = stress(k, {});
-          const auto f = deformation(k.now);
-          if constexpr (is_compressible)
-            k.defect = contract(form.material.response(k.now, f).volume_gradient, k.moved);
-          else
+          const auto f = k.f = deformation(k.now);
+          if constexpr (is_compressible) {
+            const auto response = form.material.response(k.now, f);
+            if constexpr (!has_fibres) k.isotropic = contract(response.flux, k.moved);
+            k.defect = contract(response.volume_gradient, k.moved);
+          } else {
+            k.strain = strain_of(k.now, f);
+            if constexpr (!has_fibres) k.isotropic = contract(form.isochoric_flux(f, k.strain, {}), k.moved);
             k.defect = contract(f.cofactor_gradient, k.moved);
+          }
           k.stabilisation = Pack(0.0);
           if (step.wall_before) {
             const Mat3<Pack> h_before = gradient_of(d_before, g);
@@ -167,20 +146,23 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
         },
         [&](const Prepared& k, const auto& g, [[maybe_unused]] int q) {
           const auto fibre = fibres_at<Element, Hyperelastic<M>>(fibres, index, q);
-          Pack beyond = k.isotropic;
-          if constexpr (has_fibres) beyond = stress(k, fibre);
+          Pack of_stress = k.isotropic;
+          if constexpr (varies)
+            of_stress = contract(form.material.response(k.now, k.f, fibre).flux, k.moved);
+          else if constexpr (has_fibres)
+            of_stress = contract(form.isochoric_flux(k.f, k.strain, fibre), k.moved);
           const Pack pressure = value_of(at.p, g);
-          beyond = beyond - pressure * k.defect;
+          of_stress = of_stress - pressure * k.defect;
           if (step.wall_before) {
             const Pack dp = pressure - value_of(p_before, g);
-            beyond += half_compliance(form, fibre) * dp * dp;
+            of_stress += half_compliance(form, fibre) * dp * dp;
           }
           // Differences first: W a . v - omega (|v_1|^2 - |v_0|^2) / 2 free of cancellation
           const Vec3<Pack> v0 = value_of(v_start, g), v1 = value_of(v_end, g), change = weight * (v1 - v0);
           const Vec3<Pack> v = Pack(step.rate) * (value_of(at.d, g) - value_of(reference, g));
           const Pack inertia =
               dot(duration * value_of(at.acceleration, g) - change, v) + Pack(0.5) * dot(change, (v - v0) - (v1 - v));
-          return std::array<Pack, 3>{Pack(form.density) * inertia, beyond, k.stabilisation};
+          return std::array<Pack, 3>{Pack(form.density) * inertia, of_stress, k.stabilisation};
         });
   };
   const auto sums = sum_over_elements<3>(layer.packs, integrals);

@@ -117,14 +117,12 @@ struct WallEnergy {
 /// levels 0 and 1, values without index those of the balance, index b those of the balance before, weight omega and
 /// S(d, p, q) = (tau J F^-T grad p, F^-T grad q), summed over the balances of a step
 ///   W (rho a, v) = kinetic_1 - kinetic_0 + inertia,
-///   W (F S' - p J F^-T, grad v) = isochoric_1 - isochoric_0 + volumetric_1 - volumetric_0 + stress + stabilisation,
-/// the volumetric energy being that of balances; up to the sixth order of grad(d_1 - d_0) where the stress is smooth: its
-/// mean along the step is by Radau's rule.
+///   W (F S' - p J F^-T, grad v) = stress + volumetric_1 - volumetric_0 + stabilisation,
+/// the volumetric energy being that of balances.
 struct WallWork {
   double inertia = 0;  ///< rho (W a, v) - omega rho/2 (|v_1|^2 - |v_0|^2, 1): the scheme in time
-  /// W (F S', grad v) - omega (mean of F S' on the straight way from d_0 to d_1, grad(d_1 - d_0))
-  /// - (p, W G : grad v - (g - g_b)) + (p - p_b, p - p_b) / (2 kappa): stress and pressure of the balance, not along
-  /// the step
+  /// W (F S', grad v) - (p, W G : grad v - (g - g_b)) + (p - p_b, p - p_b) / (2 kappa): what the stress does, but for the
+  /// change of the volumetric energy; of branches what theirs does beyond the change of their energy
   double stress = 0;
   double stabilisation = 0;  ///< S(d, p, p) - S(d_b, p_b, p)
   double viscous = 0;        ///< W (eta dE/dt, dE/dt) and that in the dashpots of branches: dissipation in the layers

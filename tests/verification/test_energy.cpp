@@ -201,8 +201,7 @@ void check_arbitrary_steps(const std::string& material) {
     fmt::print("{}, {}: off the residual by {:.1e}; smallest and largest term {:.1e} {:.1e}\n", material, scheme, off,
                *smallest, *largest);
     EXPECT_GT(*smallest, 2e-5);  // seen if it were wrong
-    // A fibre that tightens within the step puts a kink into its stress, which no rule of integration sees.
-    EXPECT_LT(off, material == "artery" ? 1e-6 : 1e-12) << scheme;
+    EXPECT_LT(off, 1e-12) << scheme;
   }
 }
 

@@ -301,13 +301,11 @@ void RigidMotionMultigrid<n>::cycle(std::size_t depth) {
                                      numbers);
   };
   // (D + L) x = b
-#pragma omp parallel for schedule(static) if (chunks.chunks() > 1)
-  for (int c = 0; c < chunks.chunks(); ++c)
-    for (int row = chunks.begin[c]; row < chunks.begin[c + 1]; ++row) {
-      const Register<modes> before = a.product(chunks.first[row], chunks.diagonal[row], level.x.data());
-      store<modes>(solve_diagonal(row, load<modes>(place(level.b, row)) - before), place(level.x, row));
-    }
-    // b - A x = -(U x) - (couplings between chunks) x: half a product
+  chunks.forward([&](int row) {
+    const Register<modes> before = a.product(chunks.first[row], chunks.diagonal[row], level.x.data());
+    store<modes>(solve_diagonal(row, load<modes>(place(level.b, row)) - before), place(level.x, row));
+  });
+  // b - A x = -(U x) - (couplings between chunks) x: half a product
 #pragma omp parallel for schedule(static) if (chunks.chunks() > 1)
   for (int row = 0; row < a.rows(); ++row)
     store<modes>(-a.product(a.offsets[row], chunks.first[row], level.x.data()) -
@@ -321,13 +319,11 @@ void RigidMotionMultigrid<n>::cycle(std::size_t depth) {
 #pragma omp parallel for schedule(static) if (chunks.chunks() > 1)
   for (int row = 0; row < a.rows(); ++row)
     store<modes>(load<modes>(place(level.b, row)) - a.row_product(row, level.x.data()), place(level.residual, row));
-#pragma omp parallel for schedule(static) if (chunks.chunks() > 1)
-  for (int c = 0; c < chunks.chunks(); ++c)
-    for (int row = chunks.begin[c + 1] - 1; row >= chunks.begin[c]; --row) {
-      const Register<modes> after = a.product(chunks.diagonal[row] + 1, chunks.last[row], level.residual.data());
-      store<modes>(solve_diagonal(row, load<modes>(place(level.residual, row)) - after), place(level.residual, row));
-      store<modes>(load<modes>(place(level.x, row)) + load<modes>(place(level.residual, row)), place(level.x, row));
-    }
+  chunks.backward([&](int row) {
+    const Register<modes> after = a.product(chunks.diagonal[row] + 1, chunks.last[row], level.residual.data());
+    store<modes>(solve_diagonal(row, load<modes>(place(level.residual, row)) - after), place(level.residual, row));
+    store<modes>(load<modes>(place(level.x, row)) + load<modes>(place(level.residual, row)), place(level.x, row));
+  });
 }
 
 template class RigidMotionMultigrid<2>;

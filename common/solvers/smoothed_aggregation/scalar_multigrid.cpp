@@ -178,13 +178,12 @@ void ScalarMultigrid::cycle_from(std::size_t depth, const std::vector<float>& b,
   level.coarse_correction.resize(level.coarse_residual.size());
   auto& r = level.residual;
   // (D + L) x = b
-#pragma omp parallel for schedule(static) if (chunks.chunks() > 1)
-  for (int c = 0; c < chunks.chunks(); ++c)
-    for (int row = chunks.begin[c]; row < chunks.begin[c + 1]; ++row)
-      Row::store((Row::load(b, row) - Row::product(a, chunks.first[row], chunks.diagonal[row], x)) *
-                     level.inverse_diagonal[row],
-                 x, row);
-      // b - A x = -(U x) - (couplings between chunks) x: half a product
+  chunks.forward([&](int row) {
+    Row::store(
+        (Row::load(b, row) - Row::product(a, chunks.first[row], chunks.diagonal[row], x)) * level.inverse_diagonal[row],
+        x, row);
+  });
+  // b - A x = -(U x) - (couplings between chunks) x: half a product
 #pragma omp parallel for schedule(static) if (chunks.chunks() > 1)
   for (int row = 0; row < a.rows(); ++row)
     Row::store(-Row::product(a, a.offsets[row], chunks.first[row], x) -
@@ -207,14 +206,12 @@ void ScalarMultigrid::cycle_from(std::size_t depth, const std::vector<float>& b,
 #pragma omp parallel for schedule(static) if (a.nonzeros() > parallel_entries)
   for (int row = 0; row < a.rows(); ++row)
     Row::store(Row::load(b, row) - Row::product(a, a.offsets[row], a.offsets[row + 1], x), r, row);
-#pragma omp parallel for schedule(static) if (chunks.chunks() > 1)
-  for (int c = 0; c < chunks.chunks(); ++c)
-    for (int row = chunks.begin[c + 1] - 1; row >= chunks.begin[c]; --row) {
-      const auto e = (Row::load(r, row) - Row::product(a, chunks.diagonal[row] + 1, chunks.last[row], r)) *
-                     level.inverse_diagonal[row];
-      Row::store(e, r, row);
-      Row::store(Row::load(x, row) + e, x, row);
-    }
+  chunks.backward([&](int row) {
+    const auto e = (Row::load(r, row) - Row::product(a, chunks.diagonal[row] + 1, chunks.last[row], r)) *
+                   level.inverse_diagonal[row];
+    Row::store(e, r, row);
+    Row::store(Row::load(x, row) + e, x, row);
+  });
 }
 
 template void ScalarMultigrid::cycle_each<1>(const std::vector<float>&, std::vector<float>&);

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <vector>
 
 #include "algebra/node_graph.hpp"
+#include "base/threads.hpp"
 
 namespace fsi {
 
 /// Rows of a matrix in contiguous chunks of fixed number. Gauss-Seidel runs row after row within a chunk and side by
 /// side over the chunks, couplings between chunks left out: parallel, and the same numbers for any number of threads.
+/// A thread goes through two chunks at once where it has several: a row waits for the one before, and the other chunk's
+/// does not.
 struct SweepChunks {
   static constexpr int count = 8;
   static constexpr int smallest = 400;  ///< rows; smaller matrices are one chunk
@@ -20,12 +24,34 @@ struct SweepChunks {
   int chunks() const { return static_cast<int>(begin.size()) - 1; }
   int rows() const { return begin.empty() ? 0 : begin.back(); }
 
+  /// Calls visit(row) for all rows, those of a chunk in ascending order.
+  template <class Visit>
+  void forward(Visit visit) const {
+    const int together = chunks_together();
+#pragma omp parallel for schedule(static) if (chunks() > 1)
+    for (int c = 0; c < chunks(); c += together)
+      for (int k = 0; k < longest; ++k)
+        for (int i = c; i < c + together; ++i)
+          if (begin[i] + k < begin[i + 1]) visit(begin[i] + k);
+  }
+  /// Likewise, in descending order.
+  template <class Visit>
+  void backward(Visit visit) const {
+    const int together = chunks_together();
+#pragma omp parallel for schedule(static) if (chunks() > 1)
+    for (int c = 0; c < chunks(); c += together)
+      for (int k = 1; k <= longest; ++k)
+        for (int i = c; i < c + together; ++i)
+          if (begin[i + 1] - k >= begin[i]) visit(begin[i + 1] - k);
+  }
+
   SweepChunks() = default;
   /// \param offsets, columns  sparsity by rows, columns ascending, every diagonal entry present
   SweepChunks(const std::vector<int>& offsets, const std::vector<int>& columns) {
     const int size = static_cast<int>(offsets.size()) - 1;
     const int parts = size < count * smallest ? 1 : count;
     for (int c = 0; c <= parts; ++c) begin.push_back(static_cast<int>(static_cast<long long>(size) * c / parts));
+    for (int c = 0; c < parts; ++c) longest = std::max(longest, begin[c + 1] - begin[c]);
     first.resize(size);
     diagonal.resize(size);
     last.resize(size);
@@ -41,6 +67,14 @@ struct SweepChunks {
         last[row] = at;
       }
   }
+
+ private:
+  /// Two chunks where every thread then still has some.
+  int chunks_together() const {
+    return 2 * threads() <= chunks() ? 2 : 1;
+  }
+
+  int longest = 0;  ///< rows of a chunk
 };
 
 }  // namespace fsi

@@ -1,0 +1,53 @@
+// In which order sweeps see their rows.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <vector>
+
+#include "base/threads.hpp"
+#include "solvers/smoothed_aggregation/sweep_chunks.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+/// Of a tridiagonal matrix.
+SweepChunks chunks_of(int rows) {
+  std::vector<int> offsets{0}, columns;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = std::max(0, row - 1); column <= std::min(rows - 1, row + 1); ++column) columns.push_back(column);
+    offsets.push_back(static_cast<int>(columns.size()));
+  }
+  return SweepChunks(offsets, columns);
+}
+
+TEST(SweepChunks, SeeEachRowOnceAndAfterItsNeighbourInTheChunk) {
+  for (const int size : {1, 7, 3199, 3200, 3203}) {
+    const SweepChunks chunks = chunks_of(size);
+    EXPECT_EQ(chunks.chunks(), size < 3200 ? 1 : 8);
+    std::vector<int> chunk(size);
+    for (int c = 0; c < chunks.chunks(); ++c)
+      for (int row = chunks.begin[c]; row < chunks.begin[c + 1]; ++row) chunk[row] = c;
+    for (const int count : {1, 2, 4, 5, 8, 11}) {
+      set_threads(count);
+      std::vector<int> seen(size, 0);
+      std::atomic<int> too_early{0};
+      chunks.forward([&](int row) {
+        if (row > 0 && chunk[row - 1] == chunk[row] && !seen[row - 1]) ++too_early;
+        ++seen[row];
+      });
+      EXPECT_EQ(seen, std::vector<int>(size, 1)) << count << " threads";
+      chunks.backward([&](int row) {
+        if (row + 1 < size && chunk[row + 1] == chunk[row] && seen[row + 1] != 2) ++too_early;
+        ++seen[row];
+      });
+      EXPECT_EQ(seen, std::vector<int>(size, 2)) << count << " threads";
+      EXPECT_EQ(too_early, 0) << count << " threads";
+    }
+  }
+  set_threads(0);
+}
+
+}  // namespace
+
+}  // namespace fsi::test
