@@ -38,6 +38,7 @@ class FastSolver : public LinearSolver {
 
   LinearStatistics statistics() const override;
   CycledMedium* cycled() override;
+  bool cycles() const override { return iterative_ != nullptr; }
 
   /// The Jacobian is factorised: the system is small, or the iteration failed on it.
   bool uses_factorisation() const { return direct_ != nullptr; }

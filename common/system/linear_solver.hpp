@@ -87,6 +87,8 @@ class LinearSolver {
   virtual double keep_contraction() const { return 0.3; }
   /// What the solver iterates with, as of the last update(); null where it does not.
   virtual CycledMedium* cycled() { return nullptr; }
+  /// It has one by what it is, though these matrices may have been too much for it.
+  virtual bool cycles() const { return false; }
 };
 
 /// Makes the solver of one System.

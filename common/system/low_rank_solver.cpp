@@ -158,10 +158,14 @@ LinearReport LowRankLinearSolver<n>::solve(const std::vector<double>& b, double 
 }
 
 template <int n>
+bool LowRankLinearSolver<n>::cycles() const {
+  return solver_->cycles() && std::none_of(terms_.begin(), terms_.end(), [](const auto& term) { return term.given; });
+}
+
+template <int n>
 CycledMedium* LowRankLinearSolver<n>::cycled() {
   CycledMedium* medium = solver_->cycled();
-  if (medium == nullptr) return nullptr;
-  if (std::any_of(of_system_.begin(), of_system_.end(), [](const Term& term) { return term.given; })) return nullptr;
+  if (medium == nullptr || !cycles()) return nullptr;
   if (!prepared_) prepare();
   medium = solver_->cycled();  // a solve that fails may have led to a factorisation
   if (!prepared_ || medium == nullptr) return nullptr;

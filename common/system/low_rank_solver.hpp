@@ -49,6 +49,7 @@ class LowRankLinearSolver : public LinearSolver {
   double keep_contraction() const override { return solver_->keep_contraction(); }
   /// Null where a flow is given.
   CycledMedium* cycled() override;
+  bool cycles() const override;
 
  private:
   /// A term in the unknowns of the numbering.

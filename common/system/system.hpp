@@ -82,6 +82,7 @@ class System : public NewtonProblem {
   /// Of a system of one medium that iterates: what its solver does, for an iteration over several systems. Null where it
   /// factorises, and where openings join the Jacobian.
   CycledMedium* cycled() { return solver_->cycled(); }
+  bool cycles() const { return solver_->cycles(); }
   /// For such an iteration: the increment becomes zero,
   void begin_increment();
   /// is corrected by -z,

@@ -197,17 +197,35 @@ double BlockNewtonProblem<n>::relative_residual() const {
 template <int n>
 double BlockNewtonProblem<n>::solve(double tolerance) {
   linear_iterations_ = 0;
-  if (solve_jointly(tolerance)) return std::hypot(fluid_.increment_norm(), wall_.increment_norm());
-  for (int stiffenings = 0; !solve_by_passes(tolerance); ++stiffenings) {
-    if (stiffenings == most_stiffenings) return std::numeric_limits<double>::quiet_NaN();
-    stiffness_ *= stiffening;
-    robin_.impedance = impedance_of(data_->rates);
-    map_.clear();
-    joint_is_current_ = false;
-    const Stopwatch watch(cost.fluid_seconds);
-    fluid_.linearise();
-  }
+  if (!solve_jointly(tolerance) && !solve_jointly_with_stiffer_datum(tolerance))
+    for (int stiffenings = 0; !solve_by_passes(tolerance); ++stiffenings) {
+      if (stiffenings == most_stiffenings) return std::numeric_limits<double>::quiet_NaN();
+      stiffen(stiffening * stiffness_);
+    }
   return std::hypot(fluid_.increment_norm(), wall_.increment_norm());
+}
+
+template <int n>
+void BlockNewtonProblem<n>::stiffen(double stiffness) {
+  if (stiffness > stiffness_) scene_.profile.count("stiffer Robin conditions");
+  stiffness_ = stiffness;
+  robin_.impedance = impedance_of(data_->rates);
+  map_.clear();
+  joint_is_current_ = false;
+  const Stopwatch watch(cost.fluid_seconds);
+  fluid_.linearise();
+}
+
+template <int n>
+bool BlockNewtonProblem<n>::solve_jointly_with_stiffer_datum(double tolerance) {
+  if (!fluid_.cycles() || !wall_.cycles()) return false;
+  const double former = stiffness_;
+  for (int stiffenings = 0; stiffenings < most_joint_stiffenings; ++stiffenings) {
+    stiffen(stiffening * stiffness_);
+    if (solve_jointly(tolerance)) return true;
+  }
+  stiffen(former);
+  return false;
 }
 
 template <int n>

@@ -78,7 +78,7 @@ class BlockNewtonProblem : public NewtonProblem {
  private:
   /// Of what is tried when fluid and wall do not come to agree: C so much stiffer, so often.
   static constexpr double stiffening = 10;
-  static constexpr int most_stiffenings = 4;
+  static constexpr int most_stiffenings = 4, most_joint_stiffenings = 2;
 
   /// What the linear system of both media lacks: residuals of the systems, and the gap as a displacement or a force.
   struct Lack {
@@ -106,6 +106,11 @@ class BlockNewtonProblem : public NewtonProblem {
   /// The same where both media iterate, by one iteration over both (joint_iteration.hpp), in which a pass takes one cycle
   /// of each. \returns whether it gets there
   bool solve_jointly(double tolerance);
+  /// Again with C up to most_joint_stiffenings times stiffer where it does not get there. A pressure that turns with the
+  /// interface makes the fluid by itself indefinite where C is small beside it. \returns whether it gets there; C is the
+  /// former one else
+  bool solve_jointly_with_stiffer_datum(double tolerance);
+  void stiffen(double stiffness);
   /// lack_ of the increments and of the datum as they are.
   void find_lack();
   /// Corrects them by an iteration over both media. \returns its passes

@@ -78,6 +78,45 @@ TEST(JointIteration, KnowsHowOpeningsAnswer) {
   expect_same(iterating, factorising);
 }
 
+/// The linear system of a first step is solved, with a Robin condition that is `stiffness` times the membrane's.
+struct Increment {
+  double length;
+  int passes;
+  std::int64_t stiffenings;
+  bool by_each_medium;  ///< solves of one medium alone
+};
+Increment increment_with(double stiffness, int most_passes) {
+  Case setup = block_newton_case(0);
+  setup.partitioned.max_iterations = most_passes;
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
+  State state = scene->at_rest();
+  StepData data;
+  data.rates = scene->integrator->rates(state, 0.125);
+  data.opening_pressures = {1, 0};
+  BlockNewtonProblem<3> problem(*scene, setup.partitioned, stiffness);
+  problem.work_on(state, data);
+  problem.evaluate();
+  problem.linearise();
+  const double length = problem.solve(1e-6);
+  const auto counts = scene->profile.counters();
+  const auto found = counts.find("stiffer Robin conditions");
+  return {length, problem.cost.passes, found == counts.end() ? 0 : found->second,
+          problem.cost.fluid_linear != problem.cost.passes};
+}
+
+TEST(JointIteration, TakesAStifferDatumWhereTheFluidAndTheWallDoNotComeToAgree) {
+  const Increment usual = increment_with(1, 200);
+  EXPECT_EQ(usual.stiffenings, 0);
+  const Increment weak = increment_with(1e-4, 40);  // which takes 89 passes
+  EXPECT_EQ(weak.stiffenings, 1);
+  EXPECT_FALSE(weak.by_each_medium);
+  EXPECT_GT(weak.passes, 40);
+  EXPECT_NEAR(weak.length, usual.length, 1e-5 * usual.length);
+  const Increment hopeless = increment_with(1e-8, 40);  // twice ten times as much is too little: by solves, as ever
+  EXPECT_GE(hopeless.stiffenings, 2);
+  EXPECT_TRUE(hopeless.by_each_medium);
+}
+
 /// The cycles' products are those of the Jacobian to single precision, the terms of openings with them.
 TEST(JointIteration, CyclesKnowTheJacobian) {
   Case setup = coupled_case("mooney-rivlin");
