@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <vector>
 
 #include "algebra/cholesky_solver.hpp"
 #include "algebra/csr_matrix.hpp"
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
 
 namespace fsi {
@@ -37,9 +39,10 @@ class SchurComplementInverse {
   }
 
  private:
-  /// \return  false: it is not positive definite, as where convection is stronger than the inertia of a step
+  /// \return  false: it is not positive definite, as where convection is stronger than the inertia of a step, or does not fit
   bool factorise(const CsrMatrix<double>& s) {
     const CsrMatrix<double> other = transposed(s);
+    assert(other.indices == s.indices);
     SparseMatrix a;
     a.offsets.assign(s.offsets.begin(), s.offsets.end());
     a.rows.assign(s.indices.begin(), s.indices.end());
@@ -48,6 +51,8 @@ class SchurComplementInverse {
     try {
       factor_.factorise(a);
     } catch (const ConvergenceError&) {
+      return false;
+    } catch (const OutOfMemory&) {
       return false;
     }
     factor_.reduce_precision(a);

@@ -19,8 +19,8 @@ namespace fsi {
 ///   p = S^-1 (r_p - B D^-1 r_v),  v = A^-1 (r_v - G p),
 /// F's block factors with the diagonal D (MomentumDiagonals) in place of A where pressures are sought, A^-1 by a symmetric
 /// Gauss-Seidel sweep over n x n node blocks, around coarse levels where the wall is stiff (WallCoarseCorrection), S^-1 by
-/// one multigrid cycle on S = C - B D^-1 G, or its factor (SchurComplementInverse). One scalar problem holds the pressures of fluid and wall: they meet
-/// through the interface velocity, which carries the added mass.
+/// one multigrid cycle on S = C - B D^-1 G, or its factor (SchurComplementInverse). One scalar problem holds the pressures
+/// of fluid and wall: they meet through the interface velocity, which carries the added mass.
 ///
 /// Taylor-Hood elements have far fewer pressures than velocities. There a cycle on S costs little beside a momentum
 /// sweep, and smooths after its coarse correction too. Nor have they a stabilisation in C: where the wall is stiff, its S
