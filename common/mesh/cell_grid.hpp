@@ -4,11 +4,13 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "base/bucket_sort.hpp"
 #include "mesh/cell_map.hpp"
 #include "mesh/point_math.hpp"
 
@@ -71,8 +73,10 @@ class CellGrid {
         for (int j = from[1]; j <= to[1]; ++j)
           for (int k = from[2]; k <= to[2]; ++k) entries.push_back({box_number(i, j, k), c});
     }
-    std::sort(entries.begin(), entries.end());
-    start_.assign(static_cast<std::size_t>(boxes_[0]) * boxes_[1] * boxes_[2] + 1, 0);
+    const std::size_t boxes = static_cast<std::size_t>(boxes_[0]) * boxes_[1] * boxes_[2];
+    bucket_sort(
+        entries, boxes, [](const auto& entry) { return entry[0]; }, std::less<>());
+    start_.assign(boxes + 1, 0);
     for (const auto& entry : entries) {
       ++start_[entry[0] + 1];
       cells_.push_back(entry[1]);

@@ -2,6 +2,7 @@
 
 #include <tuple>
 
+#include "base/bucket_sort.hpp"
 #include "mesh/for_each_mesh.hpp"
 
 namespace fsi {
@@ -15,9 +16,9 @@ std::vector<FacetUse<Dim>> sorted_facet_uses(const SimplexMesh<Dim, Order>& mesh
     const auto facets = outward_facets<Dim, Order>(mesh.cells[c]);
     for (int i = 0; i <= Dim; ++i) uses.push_back({facet_key<Dim>(facets[i]), static_cast<int>(c), i});
   }
-  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
-    return std::tie(a.key, a.cell, a.local) < std::tie(b.key, b.cell, b.local);
-  });
+  bucket_sort(
+      uses, mesh.nodes.size(), [](const Use& use) { return use.key[0]; },
+      [](const Use& a, const Use& b) { return std::tie(a.key, a.cell, a.local) < std::tie(b.key, b.cell, b.local); });
   return uses;
 }
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <functional>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "base/bucket_sort.hpp"
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 
@@ -26,7 +28,8 @@ struct MeshGraph {
       for (int i = 0; i <= Dim; ++i)
         for (int j = 0; j <= Dim; ++j)
           if (i != j) edges.emplace_back(cell[i], cell[j]);
-    std::sort(edges.begin(), edges.end());
+    bucket_sort(
+        edges, mesh.nodes.size(), [](const auto& edge) { return edge.first; }, std::less<>());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     start.assign(mesh.nodes.size() + 1, 0);
     neighbour.reserve(edges.size());
