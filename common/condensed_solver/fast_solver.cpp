@@ -134,21 +134,24 @@ void FastSolver<n>::update() {
 }
 
 template <int n>
-LinearReport FastSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
+LinearReport FastSolver<n>::try_to_solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
   if (direct_) {
     const OneDenseThread same_bits_for_any_number;
     return direct_->solve(b, tolerance, x);
   }
-  LinearReport report = iterate(b, tolerance, x);
-  if (report.converged) return report;
-  if (!strengthened_) {
-    count("linear solves repeated with a stronger preconditioner");
-    set_up_preconditioner(true);
-    LinearReport second = iterate(b, tolerance, x);
-    second.iterations += report.iterations;
-    if (second.converged) return second;
-    report = second;
-  }
+  const LinearReport report = iterate(b, tolerance, x);
+  if (report.converged || strengthened_) return report;
+  count("linear solves repeated with a stronger preconditioner");
+  set_up_preconditioner(true);
+  LinearReport second = iterate(b, tolerance, x);
+  second.iterations += report.iterations;
+  return second;
+}
+
+template <int n>
+LinearReport FastSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
+  LinearReport report = try_to_solve(b, tolerance, x);
+  if (direct_ || report.converged) return report;
   // From here on a factorisation, however long it takes: better than no answer.
   count("linear solves rescued by factorisation");
   direct_ = std::make_unique<DirectLinearSolver<n>>(blocks_);

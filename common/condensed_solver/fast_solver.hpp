@@ -33,6 +33,7 @@ class FastSolver : public LinearSolver {
   void update() override;
 
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
+  LinearReport try_to_solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
 
   double keep_contraction() const override;
 

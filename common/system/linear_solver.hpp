@@ -81,6 +81,10 @@ class LinearSolver {
   /// \param tolerance  demanded |b - J x| / |b|; direct solvers solve to rounding
   /// \param x          overwritten: Numbering::columns() entries; those of ghosts are the caller's to update
   virtual LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) = 0;
+  /// The same for who has another way where an iteration fails: no factorisation comes to its rescue.
+  virtual LinearReport try_to_solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
+    return solve(b, tolerance, x);
+  }
   virtual LinearStatistics statistics() const { return {}; }
   /// How much an iteration of Newton's method with a kept Jacobian must contract the residual for keeping it to pay: a
   /// matter of what update() costs beside solve(). By measurement (docs/solver-measurements.md, docs/solvers.md).

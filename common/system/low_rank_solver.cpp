@@ -53,11 +53,12 @@ void LowRankLinearSolver<n>::update() {
 }
 
 template <int n>
-LinearReport LowRankLinearSolver<n>::prepare() {
+LinearReport LowRankLinearSolver<n>::prepare(Effort effort) {
   LinearReport report;
   preparing_iterations_ = 0;
   for (Term& term : of_system_) {
-    report = solver_->solve(term.rows, tolerance_of_terms, term.solution);
+    report = effort == Effort::any ? solver_->solve(term.rows, tolerance_of_terms, term.solution)
+                                   : solver_->try_to_solve(term.rows, tolerance_of_terms, term.solution);
     preparing_iterations_ += report.iterations;
     if (!report.converged) return report;
   }
@@ -123,7 +124,7 @@ template <int n>
 LinearReport LowRankLinearSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
   int iterations = 0;
   if (!prepared_) {
-    LinearReport preparing = prepare();
+    LinearReport preparing = prepare(Effort::any);
     iterations = preparing_iterations_;
     if (!prepared_) return preparing;
   }
@@ -166,9 +167,8 @@ template <int n>
 CycledMedium* LowRankLinearSolver<n>::cycled() {
   CycledMedium* medium = solver_->cycled();
   if (medium == nullptr || !cycles()) return nullptr;
-  if (!prepared_) prepare();
-  medium = solver_->cycled();  // a solve that fails may have led to a factorisation
-  if (!prepared_ || medium == nullptr) return nullptr;
+  if (!prepared_) prepare(Effort::no_factorisation);
+  if (!prepared_) return nullptr;
   if (!cycle_) {
     std::vector<LowRankCycle::Term> terms;
     for (const Term& term : of_system_)

@@ -62,8 +62,9 @@ class LowRankLinearSolver : public LinearSolver {
     std::vector<double> rows, columns, solution;  ///< w as equations, v as own unknowns; A^-1 w
   };
 
+  enum class Effort { no_factorisation, any };  ///< where an iteration fails
   /// Finds A^-1 w of all terms. \returns what went wrong, of the first that did
-  LinearReport prepare();
+  LinearReport prepare(Effort effort);
   /// z - Y p. \param gaps  of the terms whose flow is given \returns p
   std::vector<double> correct(std::vector<double>& z, const std::vector<double>& gaps) const;
   /// |b - (A + W S V^T) x - W p|, the latter W p of the terms whose flow is given; leaves it in residual_.
