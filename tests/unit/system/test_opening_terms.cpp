@@ -216,6 +216,29 @@ TEST(OpeningTerms, FindThePressureOfAGivenFlow) {
     }
 }
 
+/// Who iterates over several systems has a way of his own where one of them does not get there.
+TEST(OpeningTerms, AreNotFactorisedForWhoAsksForCycles) {
+  OpenFluid open;
+  FastOptions few;
+  few.direct_below = 0;
+  few.max_iterations = few.restart = 1;
+  System<3> system("tested", *open.scene, number_fluid(*open.scene), general_solver_factory<3>("fast", few));
+  system.work_on(open.state, open.data);
+  system.evaluate();
+  system.linearise();
+  const auto rescues = [&] {
+    const auto& counters = open.scene->profile.counters();
+    const auto found = counters.find("linear solves rescued by factorisation");
+    return found == counters.end() ? 0 : found->second;
+  };
+  EXPECT_EQ(system.cycled(), nullptr);
+  EXPECT_TRUE(system.cycles());
+  EXPECT_EQ(rescues(), 0);
+  system.solve(1e-6);
+  EXPECT_EQ(rescues(), 1);
+  EXPECT_EQ(system.cycled(), nullptr) << "it is factorised";
+}
+
 TEST(OpeningTerms, AreNotBuiltWithoutThem) {
   const auto scene = build_scene<P1Tetrahedron>(coupled_case("neo-hookean"), fluid_and_wall_box(2));
   System<3> fluid("fluid", *scene, number_fluid(*scene)), wall("wall", *scene, number_wall(*scene));
