@@ -106,9 +106,9 @@ class BlockNewtonProblem : public NewtonProblem {
   /// The same where both media iterate, by one iteration over both (joint_iteration.hpp), in which a pass takes one cycle
   /// of each. \returns whether it gets there
   bool solve_jointly(double tolerance);
-  /// Again with C up to most_joint_stiffenings times stiffer where it does not get there. A pressure that turns with the
-  /// interface makes the fluid by itself indefinite where C is small beside it. \returns whether it gets there; C is the
-  /// former one else
+  /// Again where it does not get there, with C made stiffer most_joint_stiffenings times at most. A pressure that turns
+  /// with the interface makes the fluid by itself indefinite where C is small beside it. \returns whether it gets there;
+  /// else C is the former one
   bool solve_jointly_with_stiffer_datum(double tolerance);
   void stiffen(double stiffness);
   /// lack_ of the increments and of the datum as they are.
