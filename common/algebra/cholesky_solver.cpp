@@ -3,6 +3,7 @@
 #include <cholmod.h>
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cassert>
@@ -21,6 +22,19 @@
 namespace fsi {
 
 namespace {
+
+/// Parallel regions run on one thread as long as this lives. CHOLMOD opens thousands of small ones, of four threads
+/// whatever their number shall be: on fewer cores, or beside another job, they mostly wait for each other.
+class SerialRegions {
+ public:
+  SerialRegions() : before_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
+  ~SerialRegions() { omp_set_max_active_levels(before_); }
+  SerialRegions(const SerialRegions&) = delete;
+  SerialRegions& operator=(const SerialRegions&) = delete;
+
+ private:
+  int before_;
+};
 
 constexpr double largest_residual = 1e-5;  // of a factor in single precision
 
@@ -149,7 +163,10 @@ void CholeskySolver::factorise(const SparseMatrix& a) {
   if (expected > (1 << 20) && will_not_fit(expected, static_cast<double>(available_memory().bytes)))
     throw OutOfMemory(fmt::format("the factor of {} unknowns takes about {}", a.size(), memory_text(expected)));
   start_dense_threads();
-  cholmod_l_factorize(&view, my.factor, &my.common);
+  {
+    const SerialRegions not_four_threads;
+    cholmod_l_factorize(&view, my.factor, &my.common);
+  }
   if (my.common.status != CHOLMOD_OK || my.factor->minor < my.factor->n) {
     if (my.common.status == CHOLMOD_OK) my.common.status = CHOLMOD_NOT_POSDEF;
     cholmod_l_free_factor(&my.factor, &my.common);
