@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "algebra/node_graph.hpp"
@@ -54,18 +56,22 @@ class ElementPacks {
       const auto touches = [&](int cell) {
         return std::any_of(cells[cell].begin(), cells[cell].end(), [&](int n) { return n >= first && n < last; });
       };
-      for (std::size_t begin = 0; begin < subset.size(); begin += pack_width) {
-        const auto from = subset.begin() + static_cast<std::ptrdiff_t>(begin);
-        const auto to = subset.begin() + static_cast<std::ptrdiff_t>(std::min(begin + pack_width, subset.size()));
-        if (std::none_of(from, to, touches)) continue;
-        packs_of_thread_[t].emplace_back();
-        auto& pack = packs_of_thread_[t].back();
+      const auto group = [&](std::size_t begin) {
+        const auto at = [&](std::size_t i) { return subset.begin() + static_cast<std::ptrdiff_t>(i); };
+        return std::pair(at(begin), at(std::min(begin + pack_width, subset.size())));
+      };
+      std::vector<std::size_t> begins;  // of the packs that touch this thread's rows
+      for (std::size_t begin = 0; begin < subset.size(); begin += pack_width)
+        if (const auto [from, to] = group(begin); std::any_of(from, to, touches)) begins.push_back(begin);
+      packs_of_thread_[t].reserve(begins.size());
+      for (const std::size_t begin : begins) {
+        const auto [from, to] = group(begin);
+        auto& pack = packs_of_thread_[t].emplace_back();
         fill(pack, std::vector<int>(from, to), node_positions, cells, graph, first, last);
         for (int lane = 0; lane < pack_width; ++lane)
           pack.counted[lane] = counted.empty() || counted[pack.cell[lane]] != 0;
         pack.number = static_cast<int>(begin / pack_width);
       }
-      packs_of_thread_[t].shrink_to_fit();
     }
     element_count_ = subset.size();
   }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "mesh/facet_uses.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/for_each_mesh.hpp"
 
@@ -22,6 +23,16 @@ std::vector<char> region_flags(const Mesh& mesh, const std::vector<int>& regions
   return flags;
 }
 
+/// Flags of the nodes of cells in these regions.
+template <class Mesh>
+std::vector<char> nodes_of(const Mesh& mesh, const std::vector<char>& in_set) {
+  std::vector<char> flags(mesh.nodes.size(), 0);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    if (in_set[mesh.cell_region[c]])
+      for (const int node : mesh.cells[c]) flags[node] = 1;
+  return flags;
+}
+
 void sort_unique(std::vector<int>& values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
@@ -33,18 +44,13 @@ template <int Dim, int Order>
 std::vector<BoundaryFacet<Dim, Order>> boundary_facets(const SimplexMesh<Dim, Order>& mesh,
                                                        const std::vector<int>& regions) {
   const auto in_set = region_flags(mesh, regions);
-  const auto uses = sorted_facet_uses(mesh);
+  const auto uses =
+      sorted_facet_uses(mesh, [&](int cell, const FacetKey<Dim>&) { return in_set[mesh.cell_region[cell]] != 0; });
 
   std::vector<std::pair<int, int>> found;  // cell, local facet
   for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
-    int users = 0;
-    const FacetUse<Dim>* user = nullptr;
-    for (end = begin; end < uses.size() && uses[end].key == uses[begin].key; ++end) {
-      if (!in_set[mesh.cell_region[uses[end].cell]]) continue;
-      ++users;
-      user = &uses[end];
-    }
-    if (users == 1) found.emplace_back(user->cell, user->local);
+    for (end = begin; end < uses.size() && uses[end].key == uses[begin].key;) ++end;
+    if (end - begin == 1) found.emplace_back(uses[begin].cell, uses[begin].local);
   }
   std::sort(found.begin(), found.end());
 
@@ -61,7 +67,11 @@ std::vector<typename SimplexMesh<Dim, Order>::Facet> interface_facets(const Simp
                                                                       const std::vector<int>& wall_regions) {
   if (fluid_region < 0 || wall_regions.empty()) return {};
   const auto wall = region_flags(mesh, wall_regions);
-  const auto uses = sorted_facet_uses(mesh);
+  const auto is_fluid = region_flags(mesh, {fluid_region});
+  const auto in_fluid = nodes_of(mesh, is_fluid), in_wall = nodes_of(mesh, wall);
+  const auto uses = sorted_facet_uses(mesh, [&](int, const FacetKey<Dim>& vertices) {  // few can be shared
+    return std::all_of(vertices.begin(), vertices.end(), [&](int node) { return in_fluid[node] && in_wall[node]; });
+  });
 
   std::vector<std::pair<int, int>> found;  // fluid cell, local facet
   for (std::size_t i = 0; i + 1 < uses.size(); ++i) {

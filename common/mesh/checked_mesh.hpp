@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <string>
-#include <unordered_map>
 #include <unordered_set>
-#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -36,8 +34,12 @@ struct CheckedMesh {
   std::vector<SymmetryPlane<Dim, Order>> planes = symmetry_planes(mesh);
   int fluid = -1;             ///< region
   std::vector<int> layers{};  ///< regions
-  /// Of a facet; the second is -1 on the boundary.
-  std::unordered_map<FacetKey<Dim>, std::pair<int, int>, FacetKeyHash> cells_of{};
+  /// A facet's cells; the second is -1 on the boundary.
+  struct FacetCells {
+    FacetKey<Dim> key;
+    int first, second;
+  };
+  std::vector<FacetCells> facet_cells{};  ///< of all facets of cells, by ascending keys
 
   [[noreturn]] void fail(const std::string& key, const std::string& problem, const std::string& remedy) const {
     throw InputError(file, key, problem, remedy);
@@ -49,6 +51,13 @@ struct CheckedMesh {
     Point sum = mesh.nodes[f[0]];
     for (int i = 1; i < Dim; ++i) sum = sum + mesh.nodes[f[i]];
     return (1.0 / Dim) * sum;
+  }
+
+  /// Null: it is no facet of a cell.
+  const FacetCells* cells_of(const FacetKey<Dim>& key) const {
+    const auto found = std::lower_bound(facet_cells.begin(), facet_cells.end(), key,
+                                        [](const FacetCells& one, const auto& sought) { return one.key < sought; });
+    return found != facet_cells.end() && found->key == key ? &*found : nullptr;
   }
 
   const std::string& region_of(int cell) const { return mesh.regions[mesh.cell_region[cell]]; }
@@ -111,9 +120,9 @@ struct CheckedMesh {
       if (group::is_symmetry_plane(group.name) || std::find(used.begin(), used.end(), group.name) != used.end())
         continue;
       const bool outside = std::all_of(group.facets.begin(), group.facets.end(), [&](const Facet& facet) {
-        const auto cells = cells_of.find(facet_key<Dim>(facet));
-        return cells != cells_of.end() && cells->second.second < 0 &&
-               std::find(regions.begin(), regions.end(), mesh.cell_region[cells->second.first]) != regions.end();
+        const auto* cells = cells_of(facet_key<Dim>(facet));
+        return cells && cells->second < 0 &&
+               std::find(regions.begin(), regions.end(), mesh.cell_region[cells->first]) != regions.end();
       });
       if (outside && !group.facets.empty()) found.push_back(group.name);
     }

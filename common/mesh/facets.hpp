@@ -81,16 +81,4 @@ struct FacetKeyHash {
   }
 };
 
-/// One cell's use of a facet.
-template <int Dim = 3>
-struct FacetUse {
-  FacetKey<Dim> key;  ///< facet_key of the facet
-  int cell;
-  int local;  ///< facet opposite local vertex `local` of the cell
-};
-
-/// All facets of all cells, sorted by key, then cell: the users of one facet stand side by side.
-template <int Dim, int Order>
-std::vector<FacetUse<Dim>> sorted_facet_uses(const SimplexMesh<Dim, Order>& mesh);
-
 }  // namespace fsi

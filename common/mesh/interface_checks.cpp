@@ -103,7 +103,7 @@ class InterfaceChecks {
         });
       std::vector<Facet> faces;
       for (const auto& facet : boundary_facets(checked_.mesh, regions))
-        if (const auto key = facet_key<Dim>(facet.nodes); checked_.cells_of.at(key).second < 0 && !skip.count(key))
+        if (const auto key = facet_key<Dim>(facet.nodes); checked_.cells_of(key)->second < 0 && !skip.count(key))
           faces.push_back(facet.nodes);
       return faces;
     };
@@ -156,7 +156,7 @@ class InterfaceChecks {
         checked_.fail("interface",
                       fmt::format("at {} {} of fluid and {} lie on each other without sharing nodes (hanging nodes)",
                                   checked_.text(here.centre), Dim == 3 ? "faces" : "sides",
-                                  checked_.region_of(checked_.cells_of.at(facet_key<Dim>(it->facet)).first)),
+                                  checked_.region_of(checked_.cells_of(facet_key<Dim>(it->facet))->first)),
                       conforming_remedy);
       }
     }

@@ -11,6 +11,7 @@
 #include "mesh/checked_mesh.hpp"
 #include "mesh/curved_cells.hpp"
 #include "mesh/disjoint_sets.hpp"
+#include "mesh/facet_uses.hpp"
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/interface_checks.hpp"
 #include "mesh/surface_checks.hpp"
@@ -131,8 +132,7 @@ class Checks {
                           "mesh again, with smaller elements where layers are thin");
         pairs_.emplace_back(first.cell, second.cell);
       }
-      auto& entry = checked_.cells_of[first.key];
-      entry = {first.cell, end - begin == 2 ? uses[begin + 1].cell : -1};
+      checked_.facet_cells.push_back({first.key, first.cell, end - begin == 2 ? uses[begin + 1].cell : -1});
     }
   }
 
@@ -170,8 +170,8 @@ class Checks {
     std::vector<char> held(checked_.mesh.cells.size(), 0);
     checked_.for_groups_and_planes(checked_.needs.holding, [&](const auto& facets) {
       for (const auto& facet : facets) {
-        const auto [a, b] = checked_.cells_of.at(facet_key<Dim>(facet));
-        for (const int cell : {a, b})
+        const auto* cells = checked_.cells_of(facet_key<Dim>(facet));
+        for (const int cell : {cells->first, cells->second})
           if (cell >= 0) held[roots[cell]] = 1;
       }
     });

@@ -61,14 +61,14 @@ class SurfaceChecks {
     std::size_t foreign = 0, within = 0;
     const Facet* first = nullptr;
     for (const auto& facet : *facets) {
-      const auto found = checked_.cells_of.find(facet_key<Dim>(facet));
-      if (found == checked_.cells_of.end())
+      const auto* cells = checked_.cells_of(facet_key<Dim>(facet));
+      if (!cells)
         checked_.fail(name,
                       fmt::format("the {} at {} is no facet of a {}", Words::facet,
                                   checked_.text(checked_.centroid(facet)), Words::cell),
                       Dim == 3 ? "save surfaces and volumes of one conforming mesh"
                                : "save curves and surfaces of one conforming mesh");
-      const auto [a, b] = found->second;
+      const int a = cells->first, b = cells->second;
       const bool bad_owner = !is_in(a) && !is_in(b), bad_side = !bad_owner && b >= 0;
       foreign += bad_owner;
       within += bad_side;

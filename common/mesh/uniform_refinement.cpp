@@ -13,7 +13,7 @@
 #include "base/memory.hpp"
 #include "mesh/cell_words.hpp"
 #include "mesh/child_cells.hpp"
-#include "mesh/facets.hpp"
+#include "mesh/facet_uses.hpp"
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/mirror.hpp"

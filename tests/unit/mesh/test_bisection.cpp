@@ -10,6 +10,7 @@
 #include "mesh/artery/curved_edges.hpp"
 #include "mesh/bisection.hpp"
 #include "mesh/boundary.hpp"
+#include "mesh/facet_uses.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
