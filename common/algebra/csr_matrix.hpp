@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "algebra/registers.hpp"
+
 namespace fsi {
 
 /// A sparse matrix by rows, column numbers ascending in each: the form that smoothers and Galerkin products take.
@@ -46,15 +48,20 @@ CsrMatrix<Real> transposed(const CsrMatrix<Real>& a) {
 /// A B [Gustavson1978], rows in parallel; each entry is summed in a fixed order.
 CsrMatrix<double> product(const CsrMatrix<double>& a, const CsrMatrix<double>& b);
 
-/// Sum of a stretch of a row times x. Lanes are added up in an order that the instruction set fixes.
+/// Sum of a stretch of a row times x, in an order that does not depend on the machine. Four partial sums: rows are short, so
+/// that wider registers lose more in adding up their lanes and in what is left over than they gain.
 template <class Real>
 inline Real row_product(const CsrMatrix<Real>& a, int begin, int end, const Real* x) {
-  Real sum = 0;
   const Real* values = a.values.data();
   const int* indices = a.indices.data();
-#pragma omp simd reduction(+ : sum)
-  for (int at = begin; at < end; ++at) sum += values[at] * x[indices[at]];
-  return sum;
+  Register<4, Real> sums{};
+  int at = begin;
+  for (; at + 4 <= end; at += 4)
+    sums += load<4>(values + at) *
+            Register<4, Real>{x[indices[at]], x[indices[at + 1]], x[indices[at + 2]], x[indices[at + 3]]};
+  Real rest = 0;
+  for (; at < end; ++at) rest += values[at] * x[indices[at]];
+  return rest + sum_of_lanes(sums);
 }
 
 /// y = A x, rows in parallel.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "algebra/panel_products.hpp"
+
 namespace fsi {
 
 namespace {
@@ -15,47 +17,6 @@ void rows_behind(const CompactColumns<float>& columns, int j, int last, std::vec
   rows.clear();
   for (std::int64_t k = columns.offsets[j]; k < columns.offsets[j + 1]; ++k)
     if (columns.rows[k] > last) rows.push_back(columns.rows[k]);
-}
-
-/// to += columns of a block times the numbers at x.
-void add_columns(const float* block, int rows, int width, const float* x, float* to) {
-  int j = 0;
-  for (; j + 3 < width; j += 4) {
-    const float *b0 = block + static_cast<std::size_t>(j) * rows, *b1 = b0 + rows, *b2 = b1 + rows, *b3 = b2 + rows;
-    const float x0 = x[j], x1 = x[j + 1], x2 = x[j + 2], x3 = x[j + 3];
-    for (int i = 0; i < rows; ++i) to[i] += b0[i] * x0 + b1[i] * x1 + b2[i] * x2 + b3[i] * x3;
-  }
-  for (; j < width; ++j) {
-    const float* b = block + static_cast<std::size_t>(j) * rows;
-    for (int i = 0; i < rows; ++i) to[i] += b[i] * x[j];
-  }
-}
-
-/// y -= columns of a block, each times the numbers at x.
-void subtract_products(const float* block, int rows, int width, const float* x, float* y) {
-  int j = 0;
-  for (; j + 3 < width; j += 4) {
-    const float *b0 = block + static_cast<std::size_t>(j) * rows, *b1 = b0 + rows, *b2 = b1 + rows, *b3 = b2 + rows;
-    float s0 = 0, s1 = 0, s2 = 0, s3 = 0;
-#pragma omp simd reduction(+ : s0, s1, s2, s3)
-    for (int i = 0; i < rows; ++i) {
-      s0 += b0[i] * x[i];
-      s1 += b1[i] * x[i];
-      s2 += b2[i] * x[i];
-      s3 += b3[i] * x[i];
-    }
-    y[j] -= s0;
-    y[j + 1] -= s1;
-    y[j + 2] -= s2;
-    y[j + 3] -= s3;
-  }
-  for (; j < width; ++j) {
-    const float* b = block + static_cast<std::size_t>(j) * rows;
-    float sum = 0;
-#pragma omp simd reduction(+ : sum)
-    for (int i = 0; i < rows; ++i) sum += b[i] * x[i];
-    y[j] -= sum;
-  }
 }
 
 }  // namespace
@@ -143,17 +104,15 @@ void PanelMatrix::add_panel(const CompactColumns<float>& columns, int first, int
 }
 
 void PanelMatrix::solve(float* y, int count) const {
-  float* sums = gathered_.data();
+  float* below = gathered_.data();
   for (const Panel& panel : panels_) {
     const int* rows = rows_.data() + panel.row_list;
     for (float* x = y; x != y + static_cast<std::size_t>(count) * size_; x += size_) {
       float* own = x + panel.first;
-      const float* triangle = triangles_.data() + panel.triangle;
-      for (int j = 0; j < panel.width; ++j, triangle += panel.width)
-        for (int i = j + 1; i < panel.width; ++i) own[i] -= triangle[i] * own[j];
-      std::fill(sums, sums + panel.rows, 0.0F);
-      add_columns(blocks_.data() + panel.block, panel.rows, panel.width, own, sums);
-      for (int i = 0; i < panel.rows; ++i) x[rows[i]] -= sums[i];
+      solve_unit_lower(triangles_.data() + panel.triangle, panel.width, own);
+      for (int i = 0; i < panel.rows; ++i) below[i] = x[rows[i]];
+      subtract_combination(blocks_.data() + panel.block, panel.rows, panel.rows, panel.width, own, below);
+      for (int i = 0; i < panel.rows; ++i) x[rows[i]] = below[i];
     }
   }
 }
@@ -165,11 +124,8 @@ void PanelMatrix::solve_transposed(float* y, int count) const {
     for (float* x = y; x != y + static_cast<std::size_t>(count) * size_; x += size_) {
       float* own = x + panel->first;
       for (int i = 0; i < panel->rows; ++i) below[i] = x[rows[i]];
-      subtract_products(blocks_.data() + panel->block, panel->rows, panel->width, below, own);
-      for (int j = panel->width - 2; j >= 0; --j) {
-        const float* triangle = triangles_.data() + panel->triangle + static_cast<std::size_t>(j) * panel->width;
-        for (int i = j + 1; i < panel->width; ++i) own[j] -= triangle[i] * own[i];
-      }
+      subtract_products(blocks_.data() + panel->block, panel->rows, panel->rows, panel->width, below, own);
+      solve_unit_lower_transposed(triangles_.data() + panel->triangle, panel->width, own);
     }
   }
 }

@@ -3,49 +3,9 @@
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
+#include "algebra/registers.hpp"
 
 namespace fsi {
-
-namespace detail {
-
-/// A few floats in a register, with arithmetic lane by lane.
-template <int count>
-struct Floats;
-template <>
-struct Floats<8> {
-  using Type = float __attribute__((vector_size(32)));
-};
-template <>
-struct Floats<4> {
-  using Type = float __attribute__((vector_size(16)));
-};
-template <>
-struct Floats<2> {
-  using Type = float __attribute__((vector_size(8)));
-};
-
-}  // namespace detail
-
-/// Floats of a vector of `size` numbers, padded so that it fills a register.
-template <int size>
-constexpr int padded = size <= 2   ? 2
-                       : size <= 4 ? 4
-                                   : 8;
-
-/// A padded vector in a register.
-template <int size>
-using Register = typename detail::Floats<padded<size>>::Type;
-
-template <int size>
-inline Register<size> load(const float* from) {
-  Register<size> x;
-  __builtin_memcpy(&x, from, sizeof x);
-  return x;
-}
-template <int size>
-inline void store(Register<size> x, float* to) {
-  __builtin_memcpy(to, &x, sizeof x);
-}
 
 /// A dense block times a vector, columns of padded<R> numbers. One accumulator a column keeps the chains short.
 template <int R, int C>

@@ -58,6 +58,20 @@ TEST(CsrMatrix, VectorProductsAndResidual) {
   }
 }
 
+TEST(CsrMatrix, ProductsOfStretchesOfRows) {
+  const auto a = random_matrix(1, 40, 4);
+  std::vector<double> x(40);
+  Random random(5);
+  for (double& value : x) value = random();
+  const int entries = static_cast<int>(a.nonzeros());
+  for (int begin = 0; begin <= entries; ++begin)
+    for (int end = begin; end <= entries; ++end) {
+      double expected = 0;
+      for (int at = begin; at < end; ++at) expected += a.values[at] * x[a.indices[at]];
+      EXPECT_NEAR(row_product(a, begin, end, x.data()), expected, 1e-14) << begin << " to " << end;
+    }
+}
+
 }  // namespace
 
 }  // namespace fsi::test
