@@ -69,6 +69,22 @@ class Threads(FolderTest):
         self.assertIn(f"Core: {wide}", kernels())
         self.assertIn("Core: Nehalem", kernels(OPENBLAS_CORETYPE="Nehalem"))  # of the user
 
+    def test_memory_is_asked_for_in_large_pages(self):
+        """The heap of a running program, as the kernel sees it. Not by times: how often pages are touched first."""
+        if "[never]" in Path("/sys/kernel/mm/transparent_hugepage/enabled").read_text():
+            self.skipTest("this kernel has no large pages to give")
+        environment = {key: value for key, value in os.environ.items() if key != "GLIBC_TUNABLES"}
+
+        def faults(**more):
+            before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_minflt
+            command = self.command(self.base / f"pages{len(more)}", 1, "time.end=0.25")
+            self.assertEqual(execute(*command, env={**environment, **more}).returncode, 0)
+            return resource.getrusage(resource.RUSAGE_CHILDREN).ru_minflt - before
+
+        large, small = faults(), faults(GLIBC_TUNABLES="glibc.malloc.hugetlb=0")
+        print(f"{large} pages touched first, {small} where the user wants small ones")
+        self.assertLess(large, 0.8 * small)
+
     def test_environment_of_the_user_holds(self):
         """Who names the waiting himself is obeyed: the program does not start itself again."""
         for name, value in (("OMP_WAIT_POLICY", "active"), ("GOMP_SPINCOUNT", "100")):
