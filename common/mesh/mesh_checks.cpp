@@ -171,6 +171,7 @@ class Checks {
     checked_.for_groups_and_planes(checked_.needs.holding, [&](const auto& facets) {
       for (const auto& facet : facets) {
         const auto* cells = checked_.cells_of(facet_key<Dim>(facet));
+        if (!cells) continue;  // no cell has it, so it holds none
         for (const int cell : {cells->first, cells->second})
           if (cell >= 0) held[roots[cell]] = 1;
       }
