@@ -139,7 +139,7 @@ LinearReport FastSolver<n>::try_to_solve(const std::vector<double>& b, double to
     const OneDenseThread same_bits_for_any_number;
     return direct_->solve(b, tolerance, x);
   }
-  const LinearReport report = iterate(b, tolerance, x);
+  LinearReport report = iterate(b, tolerance, x);
   if (report.converged || strengthened_) return report;
   count("linear solves repeated with a stronger preconditioner");
   set_up_preconditioner(true);
