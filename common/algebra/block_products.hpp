@@ -9,6 +9,7 @@
 
 #include "algebra/block_matrix.hpp"
 #include "algebra/vector_operations.hpp"
+#include "base/parallel_for.hpp"
 
 namespace fsi {
 
@@ -23,8 +24,7 @@ namespace detail {
 template <int Rows, int Columns, class Store>
 inline void for_each_block_row(const NodeGraph& graph, const double* values, const double* x, Store store) {
   const int rows = graph.rows();
-#pragma omp parallel for schedule(static) if (graph.blocks() > serial_blocks)
-  for (int row = 0; row < rows; ++row) {
+  parallel_for(rows, graph.blocks() > serial_blocks, [&](int row) {
     double sum[Rows] = {};
     for (int at = graph.offsets[row]; at < graph.offsets[row + 1]; ++at) {
       const double* block = values + static_cast<std::size_t>(at) * Rows * Columns;
@@ -33,7 +33,7 @@ inline void for_each_block_row(const NodeGraph& graph, const double* values, con
         for (int c = 0; c < Columns; ++c) sum[r] += block[r * Columns + c] * from[c];
     }
     store(row, sum);
-  }
+  });
 }
 template <int Rows, int Columns, class Store>
 inline void for_each_block_row(const BlockMatrix<Rows, Columns>& a, const double* x, Store store) {
@@ -46,8 +46,7 @@ template <int Components, int Numbers, class Store>
 inline void for_each_component_row(const NodeGraph& graph, const double* values, const double* x, Store store) {
   static_assert(Numbers == 1 || Numbers == Components, "one number for all components or one for each");
   const int rows = graph.rows();
-#pragma omp parallel for schedule(static) if (graph.blocks() > serial_blocks)
-  for (int row = 0; row < rows; ++row) {
+  parallel_for(rows, graph.blocks() > serial_blocks, [&](int row) {
     double sum[Components] = {};
     for (int at = graph.offsets[row]; at < graph.offsets[row + 1]; ++at) {
       const double* number = values + static_cast<std::size_t>(at) * Numbers;
@@ -55,7 +54,7 @@ inline void for_each_component_row(const NodeGraph& graph, const double* values,
       for (int k = 0; k < Components; ++k) sum[k] += number[Numbers == 1 ? 0 : k] * from[k];
     }
     store(row, sum);
-  }
+  });
 }
 template <int Components, int Numbers, class Store>
 inline void for_each_component_row(const BlockMatrix<1, Numbers>& a, const double* x, Store store) {

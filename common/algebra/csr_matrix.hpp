@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "algebra/registers.hpp"
+#include "base/parallel_for.hpp"
 
 namespace fsi {
 
@@ -67,23 +68,22 @@ inline Real row_product(const CsrMatrix<Real>& a, int begin, int end, const Real
 /// y = A x, rows in parallel.
 template <class Real>
 void multiply(const CsrMatrix<Real>& a, const std::vector<Real>& x, std::vector<Real>& y) {
-#pragma omp parallel for schedule(static) if (a.nonzeros() > 50000)
-  for (int row = 0; row < a.rows(); ++row) y[row] = row_product(a, a.offsets[row], a.offsets[row + 1], x.data());
+  parallel_for(a.rows(), a.nonzeros() > 50000,
+               [&](int row) { y[row] = row_product(a, a.offsets[row], a.offsets[row + 1], x.data()); });
 }
 
 /// y += A x
 template <class Real>
 void multiply_add(const CsrMatrix<Real>& a, const std::vector<Real>& x, std::vector<Real>& y) {
-#pragma omp parallel for schedule(static) if (a.nonzeros() > 50000)
-  for (int row = 0; row < a.rows(); ++row) y[row] += row_product(a, a.offsets[row], a.offsets[row + 1], x.data());
+  parallel_for(a.rows(), a.nonzeros() > 50000,
+               [&](int row) { y[row] += row_product(a, a.offsets[row], a.offsets[row + 1], x.data()); });
 }
 
 /// r = b - A x
 template <class Real>
 void residual(const CsrMatrix<Real>& a, const std::vector<Real>& b, const std::vector<Real>& x, std::vector<Real>& r) {
-#pragma omp parallel for schedule(static) if (a.nonzeros() > 50000)
-  for (int row = 0; row < a.rows(); ++row)
-    r[row] = b[row] - row_product(a, a.offsets[row], a.offsets[row + 1], x.data());
+  parallel_for(a.rows(), a.nonzeros() > 50000,
+               [&](int row) { r[row] = b[row] - row_product(a, a.offsets[row], a.offsets[row + 1], x.data()); });
 }
 
 }  // namespace fsi

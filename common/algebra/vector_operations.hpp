@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/parallel_for.hpp"
+
 namespace fsi {
 
 /// Entries per partial sum of a reduction. Fixed, so that sums do not depend on the number of threads.
@@ -46,20 +48,17 @@ inline double norm(const std::vector<double>& x) {
 
 /// y += a x
 inline void axpy(double a, const std::vector<double>& x, std::vector<double>& y) {
-#pragma omp parallel for simd schedule(static) if (y.size() >= serial_entries)
-  for (std::size_t i = 0; i < y.size(); ++i) y[i] += a * x[i];
+  parallel_for(y.size(), y.size() >= serial_entries, [&](std::size_t i) { y[i] += a * x[i]; });
 }
 
 /// y = a x
 inline void scaled_copy(double a, const std::vector<double>& x, std::vector<double>& y) {
-#pragma omp parallel for simd schedule(static) if (y.size() >= serial_entries)
-  for (std::size_t i = 0; i < y.size(); ++i) y[i] = a * x[i];
+  parallel_for(y.size(), y.size() >= serial_entries, [&](std::size_t i) { y[i] = a * x[i]; });
 }
 
 /// x *= a
 inline void scale(double a, std::vector<double>& x) {
-#pragma omp parallel for simd schedule(static) if (x.size() >= serial_entries)
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] *= a;
+  parallel_for(x.size(), x.size() >= serial_entries, [&](std::size_t i) { x[i] *= a; });
 }
 
 /// x = 0, size kept.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algebra/register_blocks.hpp"
+#include "base/parallel_for.hpp"
 #include "condensed_solver/interface_shape_derivatives.hpp"
 #include "condensed_solver/velocity_pressure_blocks.hpp"
 #include "fem/nodal_layout.hpp"
@@ -45,20 +46,20 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   /// The same unknowns in double precision, not padded, and back.
   void take(const std::vector<double>& from, double factor, std::vector<float>& to) const {
     to.resize(size());
-#pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
-    for (int v = 0; v < layout_.velocities; ++v)
+    parallel_for(layout_.velocities, layout_.velocities > 2000, [&](int v) {
       for (int i = 0; i < lanes; ++i)
         to[static_cast<std::size_t>(v) * lanes + i] =
             i < n ? static_cast<float>(factor * from[VectorLayout<n>::vector(v, i)]) : 0.0f;
+    });
     for (int p = 0; p < layout_.pressures; ++p)
       to[velocity_size() + p] = static_cast<float>(factor * from[layout_.velocity_size() + p]);
   }
   void give(const std::vector<float>& from, double factor, std::vector<double>& to) const {
     to.resize(layout_.size());
-#pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
-    for (int v = 0; v < layout_.velocities; ++v)
+    parallel_for(layout_.velocities, layout_.velocities > 2000, [&](int v) {
       for (int k = 0; k < n; ++k)
         to[VectorLayout<n>::vector(v, k)] = factor * from[static_cast<std::size_t>(v) * lanes + k];
+    });
     for (int p = 0; p < layout_.pressures; ++p) to[layout_.velocity_size() + p] = factor * from[velocity_size() + p];
   }
 
@@ -72,24 +73,22 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   /// y = F x
   void multiply(const std::vector<float>& x, std::vector<float>& y) const {
     const float* pressure = x.data() + velocity_size();
-#pragma omp parallel for schedule(static) if (layout_.velocities > 500)
-    for (int v = 0; v < layout_.velocities; ++v) {
+    parallel_for(layout_.velocities, layout_.velocities > 500, [&](int v) {
       const Nodal sum = momentum_product(momentum_.offsets[v], momentum_.offsets[v + 1], x.data());
       store(sum + gradient_product(v, pressure), y.data() + static_cast<std::size_t>(v) * lanes);
-    }
+    });
     multiply_continuity(x, y);
   }
   /// The pressures' rows of it.
   void multiply_continuity(const std::vector<float>& x, std::vector<float>& y) const {
     const float* pressure = x.data() + velocity_size();
     float* rows = y.data() + velocity_size();
-#pragma omp parallel for schedule(static) if (layout_.pressures > 500)
-    for (int p = 0; p < layout_.pressures; ++p) {
+    parallel_for(layout_.pressures, layout_.pressures > 500, [&](int p) {
       float sum = divergence_product(p, x.data());
       for (int at = compressibility_offsets_[p]; at < compressibility_offsets_[p + 1]; ++at)
         sum += compressibility_[at] * pressure[compressibility_columns_[at]];
       rows[p] = sum;
-    }
+    });
   }
   /// B x of a pressure, of the velocities alone.
   float divergence_product(int p, const float* x) const {
@@ -115,9 +114,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   }
 
   /// Blocks begin ... end - 1 of A times x.
-  Nodal momentum_product(int begin, int end, const float* x) const {
-    return momentum_.product(begin, end, x);
-  }
+  Nodal momentum_product(int begin, int end, const float* x) const { return momentum_.product(begin, end, x); }
   /// G p of a velocity node.
   Nodal gradient_product(int v, const float* pressure) const {
     Nodal even{}, odd{};
@@ -133,26 +130,14 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   }
 
   /// A by velocity nodes: sparsity, and blocks of n columns of `lanes` numbers.
-  const std::vector<int>& momentum_offsets() const {
-    return momentum_.offsets;
-  }
-  const std::vector<int>& momentum_columns() const {
-    return momentum_.columns;
-  }
+  const std::vector<int>& momentum_offsets() const { return momentum_.offsets; }
+  const std::vector<int>& momentum_columns() const { return momentum_.columns; }
   /// Block `at` of A, columns padded.
-  const float* momentum(int at) const {
-    return momentum_.values.data() + static_cast<std::size_t>(at) * n * lanes;
-  }
+  const float* momentum(int at) const { return momentum_.values.data() + static_cast<std::size_t>(at) * n * lanes; }
   /// G: pressures of each velocity node, one entry per assembled block.
-  const std::vector<int>& gradient_offsets() const {
-    return gradient_offsets_;
-  }
-  const std::vector<int>& gradient_columns() const {
-    return gradient_columns_;
-  }
-  const float* gradient(int at) const {
-    return gradient_.data() + static_cast<std::size_t>(at) * lanes;
-  }
+  const std::vector<int>& gradient_offsets() const { return gradient_offsets_; }
+  const std::vector<int>& gradient_columns() const { return gradient_columns_; }
+  const float* gradient(int at) const { return gradient_.data() + static_cast<std::size_t>(at) * lanes; }
 
   std::size_t bytes() const {
     return sizeof(float) * (momentum_.values.size() + gradient_.size() + divergence_.size() + compressibility_.size()) +

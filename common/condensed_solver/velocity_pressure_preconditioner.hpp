@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/parallel_for.hpp"
 #include "condensed_solver/block_preconditioner_choices.hpp"
 #include "condensed_solver/momentum_diagonals.hpp"
 #include "condensed_solver/schur_complement_inverse.hpp"
@@ -82,17 +83,16 @@ class VelocityPressurePreconditioner {
   void apply(const std::vector<float>& r, std::vector<float>& z) {
     const float* pressure_rows = r.data() + matrix_.velocity_size();
     for (std::size_t i = 0; i < sweep_.size(); ++i) sweep_[i] = inverse_lumped_[i] * r[i];
-#pragma omp parallel for schedule(static) if (layout_.pressures > 500)
-    for (int p = 0; p < layout_.pressures; ++p)
+    parallel_for(layout_.pressures, layout_.pressures > 500, [&](int p) {
       pressure_residual_[p] =
           static_cast<float>(layout_.row_scale(p)) * (pressure_rows[p] - matrix_.divergence_product(p, sweep_.data()));
+    });
     inverse_schur_.apply(pressure_residual_, pressure_);
-#pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
-    for (int v = 0; v < layout_.velocities; ++v) {
+    parallel_for(layout_.velocities, layout_.velocities > 2000, [&](int v) {
       const std::size_t at = static_cast<std::size_t>(v) * lanes;
       Matrix::store(Matrix::load(r.data() + at) - matrix_.gradient_product(v, pressure_.data()),
                     velocity_residual_.data() + at);
-    }
+    });
     solve_momentum();
     std::copy(velocity_.begin(), velocity_.end(), z.begin());
     std::copy(pressure_.begin(), pressure_.end(), z.begin() + static_cast<std::ptrdiff_t>(matrix_.velocity_size()));
@@ -104,21 +104,18 @@ class VelocityPressurePreconditioner {
     apply(r, z);
     const bool once = options_.momentum_sweeps == 1 && !coarse_;
     const std::vector<float>&x = once ? velocity_ : sweep_, &left = once ? velocity_residual_ : sweep_residual_;
-#pragma omp parallel for schedule(static) if (layout_.velocities > 500)
-    for (int v = 0; v < layout_.velocities; ++v) {
+    parallel_for(layout_.velocities, layout_.velocities > 500, [&](int v) {
       const std::size_t at = static_cast<std::size_t>(v) * lanes;
       const Nodal lower = matrix_.momentum_product(matrix_.momentum_offsets()[v], chunks_.diagonal[v] + 1, x.data());
       const Nodal beyond = matrix_.momentum_product(chunks_.last[v], matrix_.momentum_offsets()[v + 1], x.data());
       Matrix::store(Matrix::load(r.data() + at) - Matrix::load(left.data() + at) +
                         Matrix::load(upper_part_.data() + at) + lower + beyond,
                     product.data() + at);
-    }
+    });
     matrix_.multiply_continuity(z, product);
   }
 
-  const SchurComplementInverse& inverse_schur() const {
-    return inverse_schur_;
-  }
+  const SchurComplementInverse& inverse_schur() const { return inverse_schur_; }
   std::size_t bytes() const {
     return sizeof(float) * (inverse_diagonal_.size() + 6 * velocity_.size()) + 8 * diagonals_.inverse().size() +
            schur_.bytes() + inverse_schur_.bytes() + (coarse_ ? coarse_->bytes() : 0);
@@ -237,13 +234,12 @@ class VelocityPressurePreconditioner {
   }
 
   void find_sweep_residual() {
-#pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
-    for (int v = 0; v < layout_.velocities; ++v) {
+    parallel_for(layout_.velocities, layout_.velocities > 2000, [&](int v) {
       const std::size_t at = static_cast<std::size_t>(v) * lanes;
       const Nodal product =
           matrix_.momentum_product(matrix_.momentum_offsets()[v], matrix_.momentum_offsets()[v + 1], velocity_.data());
       Matrix::store(Matrix::load(velocity_residual_.data() + at) - product, sweep_residual_.data() + at);
-    }
+    });
   }
 
   /// x = (D/w + U)^-1 (2/w - 1) D (D/w + L)^-1 r within chunks, w being the relaxation and D the diagonal blocks;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/parallel_for.hpp"
+
 namespace fsi {
 
 namespace {
@@ -90,13 +92,12 @@ void FollowerElimination::reduce(const std::vector<double>& b, int count, std::v
   for (int c = 0; c < count; ++c) {
     const double* from = b.data() + rows * c;
     double* to = of_kept.data() + kept * c;
-#pragma omp parallel for schedule(static) if (kept > 20000)
-    for (std::size_t i = 0; i < kept; ++i) {
+    parallel_for(kept, kept > 20000, [&](std::size_t i) {
       double sum = from[kept_[i]];
       for (int at = transposed_shares_.offsets[i]; at < transposed_shares_.offsets[i + 1]; ++at)
         sum -= transposed_shares_.values[at] * from[followers_[transposed_shares_.indices[at]]];
       to[i] = sum;
-    }
+    });
   }
 }
 
@@ -109,13 +110,12 @@ void FollowerElimination::complete(const std::vector<double>& b, const std::vect
     const double* from = of_kept.data() + kept * c;
     double* to = x.data() + rows * c;
     for (std::size_t i = 0; i < kept; ++i) to[kept_[i]] = from[i];
-#pragma omp parallel for schedule(static) if (followers_.size() > 20000)
-    for (std::size_t f = 0; f < followers_.size(); ++f) {
+    parallel_for(followers_.size(), followers_.size() > 20000, [&](std::size_t f) {
       double value = inverse_diagonal_[f] * right[followers_[f]];
       for (int at = shares_.offsets[f]; at < shares_.offsets[f + 1]; ++at)
         value -= shares_.values[at] * from[shares_.indices[at]];
       to[followers_[f]] = value;
-    }
+    });
   }
 }
 

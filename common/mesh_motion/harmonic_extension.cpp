@@ -8,6 +8,7 @@
 
 #include "algebra/block_products.hpp"
 #include "algebra/register_blocks.hpp"
+#include "base/parallel_for.hpp"
 #include "fem/nodal_layout.hpp"
 
 namespace fsi {
@@ -40,13 +41,12 @@ std::array<double, m> dots(const std::vector<double>& x, const std::vector<doubl
 /// y = A x for m vectors at once, m numbers a row.
 template <int m>
 void multiply_each(const CsrMatrix<double>& a, const std::vector<double>& x, std::vector<double>& y) {
-#pragma omp parallel for schedule(static) if (a.nonzeros() > 50000)
-  for (int row = 0; row < a.rows(); ++row) {
+  parallel_for(a.rows(), a.nonzeros() > 50000, [&](int row) {
     double sum[m] = {};
     for (int at = a.offsets[row]; at < a.offsets[row + 1]; ++at)
       for (int k = 0; k < m; ++k) sum[k] += a.values[at] * x[static_cast<std::size_t>(a.indices[at]) * m + k];
     for (int k = 0; k < m; ++k) y[static_cast<std::size_t>(row) * m + k] = sum[k];
-  }
+  });
 }
 
 }  // namespace
@@ -201,8 +201,7 @@ template <int n>
 void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<double>& field, double tolerance) {
   assert(right.size() == inner_.size() && field.size() == inner_.size());
   iterations_ = 0;
-#pragma omp parallel for schedule(static) if (inner_.size() > 50000)
-  for (std::size_t i = 0; i < inner_.size(); ++i) values_[i] = inner_[i] ? 0 : field[i];
+  parallel_for(inner_.size(), inner_.size() > 50000, [&](std::size_t i) { values_[i] = inner_[i] ? 0 : field[i]; });
   apply_operator_to_given();
   double expected = 0;  // of the residual, by factors in single precision
   for (Group& group : groups_) {
@@ -234,14 +233,13 @@ template <int n>
 void HarmonicExtension<n>::apply_operator_to_given() {
   if (frames_) frames_->template to_space<VectorLayout<n>>(values_);
   std::fill(rows_.begin(), rows_.end(), 0.0);
-#pragma omp parallel for schedule(static) if (beside_given_.size() > 5000)
-  for (std::size_t i = 0; i < beside_given_.size(); ++i) {
+  parallel_for(beside_given_.size(), beside_given_.size() > 5000, [&](std::size_t i) {
     double* row = rows_.data() + VectorLayout<n>::vector(beside_given_[i], 0);
     for (int c = coupling_offsets_[i]; c < coupling_offsets_[i + 1]; ++c) {
       const double* value = values_.data() + VectorLayout<n>::vector(couplings_[c].column, 0);
       for (int k = 0; k < n; ++k) row[k] += couplings_[c].numbers[k] * value[k];
     }
-  }
+  });
   if (frames_) frames_->template to_frames<VectorLayout<n>>(rows_);
 }
 

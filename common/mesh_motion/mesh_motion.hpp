@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
+#include "base/parallel_for.hpp"
 #include "fem/assembly_result.hpp"
 #include "fem/element_packs.hpp"
 #include "fem/nodal_layout.hpp"
@@ -68,13 +69,12 @@ class MotionOfAllNodes : public MeshMotion<Element::components> {
 template <int n>
 void multiply_mesh_motion(const MeshMotionMatrix<n>& matrix, const std::vector<double>& d, std::vector<double>& r) {
   const auto& graph = *matrix.graph;
-#pragma omp parallel for schedule(static) if (graph.blocks() > 200000)
-  for (int row = 0; row < graph.rows(); ++row) {
+  parallel_for(graph.rows(), graph.blocks() > 200000, [&](int row) {
     double sum[n] = {};
     for (int at = graph.offsets[row]; at < graph.offsets[row + 1]; ++at)
       for (int k = 0; k < n; ++k) sum[k] += matrix.block(at)[k] * d[VectorLayout<n>::vector(graph.columns[at], k)];
     for (int k = 0; k < n; ++k) r[VectorLayout<n>::vector(row, k)] = sum[k];
-  }
+  });
 }
 
 }  // namespace fsi

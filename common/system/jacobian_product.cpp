@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "algebra/block_products.hpp"
+#include "base/parallel_for.hpp"
 #include "fem/dimensions.hpp"
 
 namespace fsi {
@@ -48,8 +49,8 @@ void JacobianProduct<n>::multiply(const std::vector<double>& x, std::vector<doub
 
 template <int n>
 void JacobianProduct<n>::values(const UnknownMap& map, const std::vector<double>& x, std::vector<double>& field) {
-#pragma omp parallel for schedule(static) if (map.size() > 16384)
-  for (std::size_t i = 0; i < map.size(); ++i) field[i] = map[i].index < 0 ? 0 : map[i].factor * x[map[i].index];
+  parallel_for(map.size(), map.size() > 16384,
+               [&](std::size_t i) { field[i] = map[i].index < 0 ? 0 : map[i].factor * x[map[i].index]; });
 }
 
 template <int n>

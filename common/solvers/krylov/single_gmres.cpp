@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/parallel_for.hpp"
+
 namespace fsi {
 
 namespace {
@@ -29,18 +31,16 @@ std::size_t chunks_of(std::size_t size) {
 void SingleGmres::orthogonalise(int count, std::vector<float>& w, std::vector<double>& coefficients) {
   const std::size_t size = w.size(), chunks = chunks_of(size), width = static_cast<std::size_t>(count) + 1;
   partial_.resize(chunks * width);
-#pragma omp parallel for schedule(static) if (chunks > 4)
-  for (std::size_t c = 0; c < chunks; ++c) {
+  parallel_for(chunks, chunks > 4, [&](std::size_t c) {
     const std::size_t from = c * chunk_size, length = std::min(chunk_size, size - from);
     for (int j = 0; j < count; ++j)
       partial_[c * width + j] = chunk_dot(basis_[j].data() + from, w.data() + from, length);
-  }
+  });
   for (int j = 0; j < count; ++j) {
     coefficients[j] = 0;
     for (std::size_t c = 0; c < chunks; ++c) coefficients[j] += partial_[c * width + j];
   }
-#pragma omp parallel for schedule(static) if (chunks > 4)
-  for (std::size_t c = 0; c < chunks; ++c) {
+  parallel_for(chunks, chunks > 4, [&](std::size_t c) {
     const std::size_t from = c * chunk_size, length = std::min(chunk_size, size - from);
     float* to = w.data() + from;
     for (int j = 0; j < count; ++j) {
@@ -49,7 +49,7 @@ void SingleGmres::orthogonalise(int count, std::vector<float>& w, std::vector<do
       for (std::size_t i = 0; i < length; ++i) to[i] -= h * v[i];
     }
     partial_[c * width + count] = chunk_dot(to, to, length);
-  }
+  });
   double square = 0;
   for (std::size_t c = 0; c < chunks; ++c) square += partial_[c * width + count];
   coefficients[count] = std::sqrt(square);
@@ -125,14 +125,13 @@ SingleGmres::Report SingleGmres::solve(const PreconditionedOperator& both, const
     for (int j = i + 1; j < used; ++j) right[i] -= upper[j][i] * right[j];
     right[i] /= upper[i][i];
   }
-#pragma omp parallel for schedule(static) if (size > 16384)
-  for (std::size_t c = 0; c < chunks_of(size); ++c) {
+  parallel_for(chunks_of(size), size > 16384, [&](std::size_t c) {
     const std::size_t from = c * chunk_size, to = std::min(size, from + chunk_size);
     for (int j = 0; j < used; ++j) {
       const float y = static_cast<float>(right[j]);
       for (std::size_t i = from; i < to; ++i) x[i] += y * directions_[j][i];
     }
-  }
+  });
   return report;
 }
 

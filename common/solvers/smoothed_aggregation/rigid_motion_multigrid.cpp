@@ -10,6 +10,7 @@
 #include "algebra/block_products.hpp"
 #include "algebra/dense_inverse.hpp"
 #include "base/error.hpp"
+#include "base/parallel_for.hpp"
 #include "solvers/power_iteration.hpp"
 #include "solvers/smoothed_aggregation/aggregation.hpp"
 
@@ -306,19 +307,19 @@ void RigidMotionMultigrid<n>::cycle(std::size_t depth) {
     store<modes>(solve_diagonal(row, load<modes>(place(level.b, row)) - before), place(level.x, row));
   });
   // b - A x = -(U x) - (couplings between chunks) x: half a product
-#pragma omp parallel for schedule(static) if (chunks.chunks() > 1)
-  for (int row = 0; row < a.rows(); ++row)
+  parallel_for(a.rows(), chunks.chunks() > 1, [&](int row) {
     store<modes>(-a.product(a.offsets[row], chunks.first[row], level.x.data()) -
                      a.product(chunks.diagonal[row] + 1, a.offsets[row + 1], level.x.data()),
                  place(level.residual, row));
+  });
   level.restriction.multiply(level.residual, b(depth + 1));
   cycle(depth + 1);
   add(level.prolongation, x(depth + 1), level.x);
   if (!post_smoothing_) return;
-    // (D + U) e = b - A x, x += e; e takes the residual's place
-#pragma omp parallel for schedule(static) if (chunks.chunks() > 1)
-  for (int row = 0; row < a.rows(); ++row)
+  // (D + U) e = b - A x, x += e; e takes the residual's place
+  parallel_for(a.rows(), chunks.chunks() > 1, [&](int row) {
     store<modes>(load<modes>(place(level.b, row)) - a.row_product(row, level.x.data()), place(level.residual, row));
+  });
   chunks.backward([&](int row) {
     const Register<modes> after = a.product(chunks.diagonal[row] + 1, chunks.last[row], level.residual.data());
     store<modes>(solve_diagonal(row, load<modes>(place(level.residual, row)) - after), place(level.residual, row));

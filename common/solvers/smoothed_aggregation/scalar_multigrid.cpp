@@ -7,6 +7,7 @@
 #include "algebra/dense_inverse.hpp"
 #include "algebra/register_blocks.hpp"
 #include "base/error.hpp"
+#include "base/parallel_for.hpp"
 #include "solvers/power_iteration.hpp"
 #include "solvers/smoothed_aggregation/aggregation.hpp"
 
@@ -184,11 +185,11 @@ void ScalarMultigrid::cycle_from(std::size_t depth, const std::vector<float>& b,
         x, row);
   });
   // b - A x = -(U x) - (couplings between chunks) x: half a product
-#pragma omp parallel for schedule(static) if (chunks.chunks() > 1)
-  for (int row = 0; row < a.rows(); ++row)
+  parallel_for(a.rows(), chunks.chunks() > 1, [&](int row) {
     Row::store(-Row::product(a, a.offsets[row], chunks.first[row], x) -
                    Row::product(a, chunks.diagonal[row] + 1, a.offsets[row + 1], x),
                r, row);
+  });
   const auto& restriction = level.restriction;
 #pragma omp parallel for schedule(static) if (restriction.nonzeros() > parallel_entries)
   for (int row = 0; row < restriction.rows(); ++row)

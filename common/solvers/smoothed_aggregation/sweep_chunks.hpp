@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "algebra/node_graph.hpp"
+#include "base/parallel_for.hpp"
 #include "base/threads.hpp"
 
 namespace fsi {
@@ -28,21 +29,21 @@ struct SweepChunks {
   template <class Visit>
   void forward(Visit visit) const {
     const int together = chunks_together();
-#pragma omp parallel for schedule(static) if (chunks() > 1)
-    for (int c = 0; c < chunks(); c += together)
+    parallel_for(chunks() / together, chunks() > 1, [&](int part) {
       for (int k = 0; k < longest; ++k)
-        for (int i = c; i < c + together; ++i)
+        for (int i = part * together; i < (part + 1) * together; ++i)
           if (begin[i] + k < begin[i + 1]) visit(begin[i] + k);
+    });
   }
   /// Likewise, in descending order.
   template <class Visit>
   void backward(Visit visit) const {
     const int together = chunks_together();
-#pragma omp parallel for schedule(static) if (chunks() > 1)
-    for (int c = 0; c < chunks(); c += together)
+    parallel_for(chunks() / together, chunks() > 1, [&](int part) {
       for (int k = 1; k <= longest; ++k)
-        for (int i = c; i < c + together; ++i)
+        for (int i = part * together; i < (part + 1) * together; ++i)
           if (begin[i + 1] - k >= begin[i]) visit(begin[i + 1] - k);
+    });
   }
 
   SweepChunks() = default;
@@ -70,9 +71,7 @@ struct SweepChunks {
 
  private:
   /// Two chunks where every thread then still has some.
-  int chunks_together() const {
-    return 2 * threads() <= chunks() ? 2 : 1;
-  }
+  int chunks_together() const { return 2 * threads() <= chunks() ? 2 : 1; }
 
   int longest = 0;  ///< rows of a chunk
 };
