@@ -87,12 +87,14 @@ DirectSolver::Options precision(const JacobianBlocks<n>& blocks) {
 }  // namespace
 
 template <int n>
-FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options)
-    : blocks_(blocks), options_(options) {
+FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options,
+                          std::shared_ptr<IterationJudge> judge)
+    : blocks_(blocks), options_(options), judge_(std::move(judge)) {
+  if (judge_) return;
   const std::int64_t size = blocks.numbering.size;
   if (size >= options.direct_below.value_or(FastOptions::standard_direct_below(n))) return;
   if (n == 2 && !options.direct_below && blocks.coupled() && size >= FastOptions::judged_from)
-    judge_ = std::make_unique<PlaneJudge<n>>(blocks);
+    judge_ = std::make_shared<PlaneJudge<n>>(blocks);
   else
     direct_ = std::make_unique<DirectLinearSolver<n>>(blocks, precision(blocks));
 }

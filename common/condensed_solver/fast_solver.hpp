@@ -21,7 +21,9 @@ namespace fsi {
 template <int n>
 class FastSolver : public LinearSolver {
  public:
-  explicit FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options = {});
+  /// \param judge  decides in place of the system's size; null: size does, and in the plane the wall's stiffness
+  explicit FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options = {},
+                      std::shared_ptr<IterationJudge> judge = nullptr);
 
   ~FastSolver() override;
 
@@ -60,7 +62,7 @@ class FastSolver : public LinearSolver {
 
   JacobianBlocks<n> blocks_;
   FastOptions options_;
-  std::unique_ptr<PlaneJudge<n>> judge_;  ///< null where size alone decides
+  std::shared_ptr<IterationJudge> judge_;  ///< null where size alone decides
   std::unique_ptr<Iterative> iterative_;
   std::unique_ptr<DirectLinearSolver<n>> direct_;
   bool ready_ = false;

@@ -6,14 +6,22 @@
 
 namespace fsi {
 
-/// Whether a coupled plane system is iterated, for its wall is light to solve in short steps: by the present values of a
-/// Jacobian alone, so that a restart decides the same.
-template <int n>
-class PlaneJudge {
+/// Whether a system whose size does not tell is iterated or factorised: by the present values of a Jacobian alone, so that a
+/// restart decides the same.
+class IterationJudge {
  public:
+  virtual ~IterationJudge() = default;
+  virtual bool iterates() = 0;
+};
+
+/// A plane system is iterated where its wall is light to solve, in short steps.
+template <int n>
+class PlaneJudge : public IterationJudge {
+ public:
+  /// \param blocks  of a system with a wall
   explicit PlaneJudge(const JacobianBlocks<n>& blocks) : layout_(blocks), blocks_(blocks, layout_) {}
 
-  bool iterates() {
+  bool iterates() override {
     layout_.update();
     diagonals_.fill(blocks_, BlockPreconditionerChoices::has_few_pressures(layout_.pressures, layout_.velocities),
                     [](int, const auto&) {});

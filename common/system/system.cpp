@@ -143,6 +143,7 @@ double System<n>::solve(double tolerance, const std::vector<double>& b) {
   stop_together(processes());
   const auto phase = scene_.profile.phase("solve: " + name_);
   openings_.set_gaps();
+  increment_is_zero_ = false;
   linear_report_ = solver_->solve(b, tolerance, increment_);
   if (!linear_report_.converged) return std::numeric_limits<double>::quiet_NaN();
   openings_.take_increments();
@@ -176,6 +177,7 @@ bool System<n>::answer(const std::vector<double>& forces, double tolerance) {
   openings_.add_answers();
   answer_.resize(numbering_.columns());
   numbering_.update_ghosts(answer_);
+  increment_is_zero_ = false;
   for (std::size_t i = 0; i < increment_.size(); ++i) increment_[i] -= answer_[i];
   return true;
 }
@@ -185,17 +187,23 @@ void System<n>::begin_increment() {
   stop_together(processes());
   openings_.set_gaps();
   set_zero(increment_);
+  increment_is_zero_ = true;
 }
 
 template <int n>
 void System<n>::correct_increment(const std::vector<double>& z) {
   axpy(-1, z, increment_);
+  increment_is_zero_ = false;
 }
 
 template <int n>
 void System<n>::find_lack(const std::vector<double>& forces, std::vector<double>& lack) {
-  cycled()->multiply_whole(increment_, lack);
-  axpy(1, residual_, lack);
+  if (increment_is_zero_) {
+    lack = residual_;
+  } else {
+    cycled()->multiply_whole(increment_, lack);
+    axpy(1, residual_, lack);
+  }
   add_forces(forces, lack);
 }
 

@@ -153,6 +153,7 @@ class System : public NewtonProblem {
   const StepData* data_ = nullptr;
   LinearisationPoint point_;
   bool usable_ = false;  ///< the solver's Jacobian belongs to the step's rates
+  bool increment_is_zero_ = false;
   std::vector<double> residual_, increment_, mesh_residual_, fluid_residual_, wall_residual_;
   std::vector<double> rows_;            ///< of a part in its frames
   std::vector<double> other_, answer_;  ///< storage of answer()

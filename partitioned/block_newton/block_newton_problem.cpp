@@ -6,8 +6,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 
 #include "algebra/vector_operations.hpp"
+#include "condensed_solver/fast_solver.hpp"
+#include "condensed_solver/plane_judge.hpp"
 #include "fem/dimensions.hpp"
 #include "linear_solvers/general_solvers.hpp"
 #include "partitioned/interface/gap_pressure.hpp"
@@ -30,33 +33,67 @@ double ratio(double demanded, double left) {
   return left > demanded ? demanded / left : 1;
 }
 
+/// Unknowns of both media, the mesh's included.
+template <int n>
+std::int64_t unknowns_of(const Scene<n>& scene) {
+  return static_cast<std::int64_t>(number_fluid_and_domain(scene).size) + number_wall(scene).size;
+}
+
 /// Both media factorise, or both iterate, as a system of all their unknowns would: one that iterates beside one that is
 /// factorised is solved for each datum by itself, which takes longer than either.
 template <int n>
 FastOptions for_both(const Scene<n>& scene, FastOptions fast) {
   if (!scene.processes().is_alone()) return fast;
-  const auto unknowns = number_fluid_and_domain(scene).size + number_wall(scene).size;
-  const bool factorise = unknowns < fast.direct_below.value_or(FastOptions::standard_direct_below(n));
+  const bool factorise = unknowns_of(scene) < fast.direct_below.value_or(FastOptions::standard_direct_below(n));
   fast.direct_below = factorise ? std::numeric_limits<std::int64_t>::max() : 0;
   return fast;
 }
+
+/// Whether the wall's stiffness decides in place of the size, as in a coupled system of all unknowns.
+template <int n>
+bool is_judged(const Scene<n>& scene, const PartitionedData& options) {
+  return n == 2 && options.linear_solver == "fast" && scene.processes().is_alone() && !options.fast.direct_below &&
+         unknowns_of(scene) >= FastOptions::judged_from && unknowns_of(scene) < FastOptions::standard_direct_below(n);
+}
+
+/// What the wall's judge says, for the fluid's solver, which is made first.
+struct JudgeOfBoth : IterationJudge {
+  std::shared_ptr<IterationJudge> wall;
+  bool iterates() override { return wall->iterates(); }
+};
 
 }  // namespace
 
 template <int n>
 BlockNewtonProblem<n>::BlockNewtonProblem(Scene<n>& scene, const PartitionedData& options, double stiffness)
-    : BlockNewtonProblem(scene, options, stiffness,
-                         general_solver_factory<n>(options.linear_solver, for_both(scene, options.fast))) {}
+    : BlockNewtonProblem(scene, options, stiffness, solvers(scene, options)) {}
+
+template <int n>
+typename BlockNewtonProblem<n>::Solvers BlockNewtonProblem<n>::solvers(const Scene<n>& scene,
+                                                                       const PartitionedData& options) {
+  if (!is_judged(scene, options)) {
+    const auto of_either = general_solver_factory<n>(options.linear_solver, for_both(scene, options.fast));
+    return {of_either, of_either};
+  }
+  const auto judge = std::make_shared<JudgeOfBoth>();
+  const FastOptions fast = options.fast;
+  return {
+      [judge, fast](const JacobianBlocks<n>& blocks) { return std::make_unique<FastSolver<n>>(blocks, fast, judge); },
+      [judge, fast](const JacobianBlocks<n>& blocks) {
+        judge->wall = std::make_shared<PlaneJudge<n>>(blocks);
+        return std::make_unique<FastSolver<n>>(blocks, fast, judge);
+      }};
+}
 
 template <int n>
 BlockNewtonProblem<n>::BlockNewtonProblem(Scene<n>& scene, const PartitionedData& options, double stiffness,
-                                          const LinearSolverFactory<n>& make_solver)
+                                          const Solvers& solvers)
     : scene_(scene),
       membrane_(membrane_of(scene)),
       stiffness_(stiffness),
       most_passes_(options.max_iterations),
-      fluid_("fluid", scene, number_fluid_and_domain(scene), make_solver, SystemNorm::volumes, &robin_),
-      wall_("wall", scene, number_wall(scene), make_solver),
+      fluid_("fluid", scene, number_fluid_and_domain(scene), solvers.fluid, SystemNorm::volumes, &robin_),
+      wall_("wall", scene, number_wall(scene), solvers.wall),
       space_(scene.processes(), scene.owned_interface() * n),
       map_(2 * options.quasi_newton.columns, options.quasi_newton.filter, space_),
       joint_(scene, fluid_.numbering(), wall_.numbering()) {
@@ -105,11 +142,11 @@ void BlockNewtonProblem<n>::linearise() {
   map_.renew();
   joint_is_current_ = false;
   {
-    const Stopwatch watch(cost.fluid_seconds);
-    fluid_.linearise();
+    const Stopwatch watch(cost.wall_seconds);
+    wall_.linearise();  // first: by its stiffness the fluid's solver may be chosen
   }
-  const Stopwatch watch(cost.wall_seconds);
-  wall_.linearise();
+  const Stopwatch watch(cost.fluid_seconds);
+  fluid_.linearise();
 }
 
 template <int n>

@@ -88,9 +88,14 @@ class BlockNewtonProblem : public NewtonProblem {
     CycledMedium *fluid, *wall;
   };
 
-  /// \param make_solver  of both media
-  BlockNewtonProblem(Scene<n>& scene, const PartitionedData& options, double stiffness,
-                     const LinearSolverFactory<n>& make_solver);
+  /// Of the media's linearised equations.
+  struct Solvers {
+    LinearSolverFactory<n> fluid, wall;
+  };
+
+  BlockNewtonProblem(Scene<n>& scene, const PartitionedData& options, double stiffness, const Solvers& solvers);
+  /// As the options ask.
+  static Solvers solvers(const Scene<n>& scene, const PartitionedData& options);
   std::vector<double> impedance_of(const StepRates& rates) const;
   std::vector<double> interface_gap() const;
   /// C times velocities that displacements of the interface are worth, Euclidean norm.
