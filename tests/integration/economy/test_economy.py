@@ -11,10 +11,16 @@ from programs import (
     FolderTest,
     arrays,
     calls,
+    difference,
+    make_mesh,
+    pressure,
+    restart,
     run,
     summary,
     table,
 )
+
+AXISYMMETRIC = NEO_HOOKEAN.parent / "axisymmetric" / NEO_HOOKEAN.name
 
 SHORT = ("time.end=0.375", "partitioned.tolerance=1e-2")  # three steps; what is counted needs no convergence
 
@@ -112,6 +118,46 @@ class ConstantOperators(FolderTest):
         self.assertEqual(summary(kept)["counters"]["mesh motion factorisations"], 1)
         self.assertEqual(counted["assembly: mesh motion"], 1 + counted["assembly: fluid residual"])
         self.assertGreaterEqual(summary(rebuilt)["counters"]["mesh motion factorisations"], counted["solve: fluid"])
+
+
+class PlaneSystems(FolderTest):
+    """From 10,000 unknowns on both drivers iterate where the wall's inertia prevails, and factorise where its stiffness does."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        mesh = make_mesh(cls.base / "mesh.msh", "--axisymmetric", "--for", "p2p1", "--waves", "resolved")
+        cls.settings = (f"mesh.file={mesh}", "partitioned.scheme=block-newton")
+
+    def steps(self, program, name, step, **how):
+        settings = (*self.settings, f"time.step={step}", f"time.end={4 * step}")
+        return run(program, AXISYMMETRIC, self.base / f"{name}-{DRIVERS.index(program)}", *settings, **how)
+
+    def test_short_steps_are_iterated(self):
+        folders = [self.steps(program, "short", 0.015625) for program in DRIVERS]
+        self.assertGreater(summary(folders[0])["unknowns"]["coupled"], 10_000)
+        for folder in folders:
+            self.assertFalse([name for name in calls(folder) if name.startswith("factorisation")])
+        self.assertIn("set-up: coupled", calls(folders[0]))
+        for phase in ("set-up: fluid", "set-up: wall", "solve: fluid and wall"):
+            self.assertIn(phase, calls(folders[1]))
+        self.assertLess(difference(*(pressure(folder) for folder in folders)).max(), 1e-5)
+
+    def test_long_steps_are_factorised(self):
+        monolithic, partitioned = (self.steps(program, "long", 0.25) for program in DRIVERS)
+        self.assertIn("factorisation: coupled", calls(monolithic))
+        self.assertIn("factorisation: fluid", calls(partitioned))
+        self.assertIn("factorisation: wall", calls(partitioned))
+        self.assertNotIn("solve: fluid and wall", calls(partitioned))
+        self.assertLess(difference(pressure(monolithic), pressure(partitioned)).max(), 1e-5)
+
+    def test_a_restart_chooses_alike(self):
+        whole = self.steps(PARTITIONED, "whole", 0.015625)
+        half = self.base / "half"
+        settings = (*self.settings, "time.step=0.015625")
+        run(PARTITIONED, AXISYMMETRIC, half, *settings, "time.end=0.03125", threads=2)
+        restart(PARTITIONED, AXISYMMETRIC, half, *settings, "time.end=0.0625")
+        self.assertSameResults(whole, half)
 
 
 class Fibres(FolderTest):
