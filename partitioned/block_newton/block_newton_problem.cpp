@@ -177,7 +177,7 @@ template <int n>
 double BlockNewtonProblem<n>::as_force(const std::vector<double>& displacements) const {
   std::vector<double> forces = displacements;
   for (std::size_t i = 0; i < forces.size(); ++i)
-    forces[i] = robin_.impedance[i / n] * data_->rates.interface.velocity_change(forces[i]);
+    forces[i] = robin_.impedance[i / n] / stiffness_ * data_->rates.interface.velocity_change(forces[i]);
   return space_.norm(forces);
 }
 

@@ -29,7 +29,7 @@ struct BlockNewtonCost {
 /// and the datum v of the Robin condition. F and W being the momentum rows of fluid and wall on the interface, and C nodal
 /// areas times an impedance, what lacks is
 ///   F + W              the balance: rows of the wall, whose load is F,
-///   C (v(d) - u)       the kinematics as a force, v(d) being the wall's velocity,
+///   C_1 (v(d) - u)     the kinematics as a force, v(d) being the wall's velocity and C_1 the membrane's C,
 /// and the rows of both media away from the interface. The datum enters linearly, and alone F + C (u - v) = 0: at each
 /// residual it is taken so that this holds. A pass answers to a change dv of it,
 ///   J_f du + C (du - dv) = -R_f,   J_w dd = -R_w + C (du - dv),
@@ -98,7 +98,8 @@ class BlockNewtonProblem : public NewtonProblem {
   static Solvers solvers(const Scene<n>& scene, const PartitionedData& options);
   std::vector<double> impedance_of(const StepRates& rates) const;
   std::vector<double> interface_gap() const;
-  /// C times velocities that displacements of the interface are worth, Euclidean norm.
+  /// The membrane's impedance times velocities that displacements of the interface are worth, Euclidean norm: the force that
+  /// a gap is in the error of the solution. C, where it is a stiffer one, would only tell what the fluid's datum makes of it.
   double as_force(const std::vector<double>& displacements) const;
   /// Norms of the fluid's force on the wall, of the wall's displacement there, and of its increment.
   double load() const;
