@@ -23,6 +23,11 @@ struct FastOptions {
   static constexpr double judged_below = 4;
   /// \param dimension  components of a velocity
   static constexpr std::int64_t standard_direct_below(int dimension) { return dimension == 2 ? 200000 : 2000; }
+  /// Whether it is the wall that decides.
+  /// \param unknowns  of both media and the mesh motion
+  bool are_judged(int dimension, std::int64_t unknowns) const {
+    return dimension == 2 && !direct_below && unknowns >= judged_from && unknowns < standard_direct_below(dimension);
+  }
 };
 
 }  // namespace fsi

@@ -93,7 +93,7 @@ FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& op
   if (judge_) return;
   const std::int64_t size = blocks.numbering.size;
   if (size >= options.direct_below.value_or(FastOptions::standard_direct_below(n))) return;
-  if (n == 2 && !options.direct_below && blocks.coupled() && size >= FastOptions::judged_from)
+  if (blocks.coupled() && options.are_judged(n, size))
     judge_ = std::make_shared<PlaneJudge<n>>(blocks);
   else
     direct_ = std::make_unique<DirectLinearSolver<n>>(blocks, precision(blocks));

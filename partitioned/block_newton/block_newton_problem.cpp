@@ -52,8 +52,8 @@ FastOptions for_both(const Scene<n>& scene, FastOptions fast) {
 /// Whether the wall's stiffness decides in place of the size, as in a coupled system of all unknowns.
 template <int n>
 bool is_judged(const Scene<n>& scene, const PartitionedData& options) {
-  return n == 2 && options.linear_solver == "fast" && scene.processes().is_alone() && !options.fast.direct_below &&
-         unknowns_of(scene) >= FastOptions::judged_from && unknowns_of(scene) < FastOptions::standard_direct_below(n);
+  return options.linear_solver == "fast" && scene.processes().is_alone() &&
+         options.fast.are_judged(n, unknowns_of(scene));
 }
 
 /// What the wall's judge says, for the fluid's solver, which is made first.
