@@ -19,6 +19,11 @@ std::string direct_below_standards() {
                      FastOptions::standard_direct_below(2));
 }
 
+std::string where_the_wall_judges() {
+  return fmt::format("from {} on not where the wall's stiffness is below {:g} times its inertia",
+                     FastOptions::judged_from, FastOptions::judged_below);
+}
+
 std::vector<CaseKey<MultigridData>> multigrid_keys() {
   using M = MultigridData;
   using Coarsening = CoupledCoarseningOptions;
@@ -84,9 +89,8 @@ std::vector<CaseKey<MonolithicData>> monolithic_keys() {
       leaf("max_linear_iterations", optional, "iterations of each linear solve, default {}",
            whole(at(&M::krylov, &KrylovOptions::max_iterations), 1, most_iterations)),
       leaf("direct_below", optional,
-           "unknowns below which fast factorises the matrix, " + direct_below_standards() +
-               fmt::format(", but from {} on not where the wall's stiffness is below {:g} times its inertia",
-                           FastOptions::judged_from, FastOptions::judged_below),
+           "unknowns below which fast factorises the matrix, " + direct_below_standards() + ", but " +
+               where_the_wall_judges(),
            whole(at(&M::fast, &FastOptions::direct_below), 0, most_unknowns)),
       leaf("krylov_restart", optional, "directions that GMRES and FGMRES keep, default {}",
            whole(at(&M::krylov, &KrylovOptions::restart), 1, most_directions)),
@@ -158,7 +162,7 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
       leaf("direct_below", optional,
            "unknowns of a sub-problem, of block-newton those of both together, below which fast factorises the "
            "matrix, " +
-               direct_below_standards(),
+               direct_below_standards() + ", but with block-newton " + where_the_wall_judges(),
            whole(at(&P::fast, &FastOptions::direct_below), 0, most_unknowns)),
   };
 }
