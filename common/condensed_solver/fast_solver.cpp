@@ -1,5 +1,7 @@
 #include "condensed_solver/fast_solver.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "algebra/direct_solver.hpp"
@@ -100,14 +102,28 @@ FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& op
 }
 
 template <int n>
-const char* FastSolver<n>::preparation() const {
-  if (judge_) return judge_->iterates() ? LinearSolver::preparation() : "factorisation";
+const char* FastSolver<n>::preparation() {
+  if (judge_) return judged_to_iterate() ? LinearSolver::preparation() : "factorisation";
   return direct_ && !iterative_ ? direct_->preparation() : LinearSolver::preparation();
 }
 
 template <int n>
+std::string FastSolver<n>::decides() const {
+  if (!judge_) return "";
+  return fmt::format(
+      "each Jacobian is iterated on where its wall's stiffness is below {:g} times its inertia, else factorised",
+      FastOptions::judged_below);
+}
+
+template <int n>
+bool FastSolver<n>::judged_to_iterate() {
+  if (!verdict_) verdict_ = judge_->iterates();
+  return *verdict_;
+}
+
+template <int n>
 void FastSolver<n>::choose() {
-  if (judge_->iterates()) {
+  if (judged_to_iterate()) {
     direct_.reset();
     return;
   }
@@ -121,6 +137,7 @@ void FastSolver<n>::update() {
     choose();
   else if (iterative_)
     direct_.reset();
+  verdict_.reset();
   if (direct_) {
     const OneDenseThread same_bits_for_any_number;
     direct_->update();

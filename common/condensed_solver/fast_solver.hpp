@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "case/fast_options.hpp"
@@ -27,7 +29,8 @@ class FastSolver : public LinearSolver {
 
   ~FastSolver() override;
 
-  const char* preparation() const override;
+  const char* preparation() override;
+  std::string decides() const override;
   bool ready() const override { return ready_; }
 
   /// What a failure led to is forgotten here: solutions depend on the Jacobian of the last update() alone, not on what
@@ -52,6 +55,8 @@ class FastSolver : public LinearSolver {
 
   struct Iterative;
 
+  /// What the judge says of the values that the blocks hold, until the next update().
+  bool judged_to_iterate();
   /// Sets up what the present Jacobian is solved by, where that depends on its numbers.
   void choose();
 
@@ -63,6 +68,7 @@ class FastSolver : public LinearSolver {
   JacobianBlocks<n> blocks_;
   FastOptions options_;
   std::shared_ptr<IterationJudge> judge_;  ///< null where size alone decides
+  std::optional<bool> verdict_;            ///< on the present values
   std::unique_ptr<Iterative> iterative_;
   std::unique_ptr<DirectLinearSolver<n>> direct_;
   bool ready_ = false;

@@ -16,7 +16,7 @@ class PetscDirectSolver : public LinearSolver {
   explicit PetscDirectSolver(const JacobianBlocks<n>& blocks);
 
   void update() override;
-  const char* preparation() const override { return "factorisation"; }
+  const char* preparation() override { return "factorisation"; }
   bool ready() const override { return static_cast<bool>(factors_); }
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
   LinearStatistics statistics() const override;

@@ -15,7 +15,7 @@ class CentralDirectSolver : public LinearSolver {
   explicit CentralDirectSolver(const JacobianBlocks<n>& blocks);
 
   void update() override;
-  const char* preparation() const override { return "factorisation"; }
+  const char* preparation() override { return "factorisation"; }
   bool ready() const override { return factors_.factorised(); }
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
   LinearStatistics statistics() const override;

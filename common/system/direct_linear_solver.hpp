@@ -36,7 +36,7 @@ class DirectLinearSolver : public LinearSolver {
   explicit DirectLinearSolver(const JacobianBlocks<n>& blocks, const DirectSolver::Options& options = {});
 
   void update() override;
-  const char* preparation() const override { return "factorisation"; }
+  const char* preparation() override { return "factorisation"; }
   bool ready() const override { return solver_.factorised(); }
 
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;

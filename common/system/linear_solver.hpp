@@ -74,8 +74,10 @@ class LinearSolver {
   /// The block matrices hold new values: prepare for solving with them.
   /// \throws ConvergenceError when the matrix is singular to working precision
   virtual void update() = 0;
-  /// What update() is called in the profile.
-  virtual const char* preparation() const { return "set-up"; }
+  /// What update() with the values that the blocks now hold is called in the profile.
+  virtual const char* preparation() { return "set-up"; }
+  /// What it decides for each Jacobian by its values, a clause for whoever runs it; empty: nothing.
+  virtual std::string decides() const { return ""; }
   /// update() has been called.
   virtual bool ready() const = 0;
   /// \param tolerance  demanded |b - J x| / |b|; direct solvers solve to rounding

@@ -42,7 +42,8 @@ class LowRankLinearSolver : public LinearSolver {
   const std::vector<double>& pressures() const { return pressures_; }
 
   void update() override;
-  const char* preparation() const override { return solver_->preparation(); }
+  const char* preparation() override { return solver_->preparation(); }
+  std::string decides() const override { return solver_->decides(); }
   bool ready() const override { return solver_->ready(); }
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
   LinearStatistics statistics() const override;

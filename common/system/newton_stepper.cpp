@@ -210,6 +210,14 @@ NewtonStepper<n>::NewtonStepper(Scene<n>& scene, const Loads& loads, NewtonOptio
     : NewtonMarch<n>(scene, loads, std::move(options)), system_("coupled", scene, std::move(numbering), make_solver) {}
 
 template <int n>
+std::vector<StepperChoice> NewtonStepper<n>::choices() const {
+  std::vector<StepperChoice> all = this->stopping();
+  if (const std::string decides = system_.solver().decides(); !decides.empty())
+    all.push_back({"monolithic.direct_below", "by the wall", decides});
+  return all;
+}
+
+template <int n>
 NewtonProblem& NewtonStepper<n>::equations(State& state, StepData& data) {
   system_.work_on(state, data);
   return system_;

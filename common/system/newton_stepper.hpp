@@ -74,7 +74,7 @@ class NewtonStepper : public NewtonMarch<n> {
 
   const System<n>& system() const { return system_; }
 
-  std::vector<StepperChoice> choices() const override { return this->stopping(); }
+  std::vector<StepperChoice> choices() const override;
   void keep(Memory& memory) override;
 
  private:

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "algebra/vector_operations.hpp"
 #include "condensed_solver/fast_solver.hpp"
@@ -56,10 +57,26 @@ bool is_judged(const Scene<n>& scene, const PartitionedData& options) {
          options.fast.are_judged(n, unknowns_of(scene));
 }
 
-/// What the wall's judge says, for the fluid's solver, which is made first.
-struct JudgeOfBoth : IterationJudge {
-  std::shared_ptr<IterationJudge> wall;
-  bool iterates() override { return wall->iterates(); }
+/// The wall's, whose word is passed on to the fluid's solver.
+template <int n>
+class WallJudge : public PlaneJudge<n> {
+ public:
+  WallJudge(const JacobianBlocks<n>& blocks, std::shared_ptr<bool> word)
+      : PlaneJudge<n>(blocks), word_(std::move(word)) {}
+  bool iterates() override { return *word_ = PlaneJudge<n>::iterates(); }
+
+ private:
+  std::shared_ptr<bool> word_;
+};
+
+/// Repeats what the wall's judge has said of the wall's present Jacobian, which is made before the fluid's.
+class FluidJudge : public IterationJudge {
+ public:
+  explicit FluidJudge(std::shared_ptr<bool> word) : word_(std::move(word)) {}
+  bool iterates() override { return *word_; }
+
+ private:
+  std::shared_ptr<bool> word_;
 };
 
 }  // namespace
@@ -75,14 +92,14 @@ typename BlockNewtonProblem<n>::Solvers BlockNewtonProblem<n>::solvers(const Sce
     const auto of_either = general_solver_factory<n>(options.linear_solver, for_both(scene, options.fast));
     return {of_either, of_either};
   }
-  const auto judge = std::make_shared<JudgeOfBoth>();
+  const auto word = std::make_shared<bool>(false);
   const FastOptions fast = options.fast;
-  return {
-      [judge, fast](const JacobianBlocks<n>& blocks) { return std::make_unique<FastSolver<n>>(blocks, fast, judge); },
-      [judge, fast](const JacobianBlocks<n>& blocks) {
-        judge->wall = std::make_shared<PlaneJudge<n>>(blocks);
-        return std::make_unique<FastSolver<n>>(blocks, fast, judge);
-      }};
+  return {[word, fast](const JacobianBlocks<n>& blocks) {
+            return std::make_unique<FastSolver<n>>(blocks, fast, std::make_shared<FluidJudge>(word));
+          },
+          [word, fast](const JacobianBlocks<n>& blocks) {
+            return std::make_unique<FastSolver<n>>(blocks, fast, std::make_shared<WallJudge<n>>(blocks, word));
+          }};
 }
 
 template <int n>

@@ -27,6 +27,8 @@ BlockNewtonStepper<n>::BlockNewtonStepper(Scene<n>& scene, const Loads& loads, c
                 fmt::format("{}; its Robin condition is {:g} times the membrane's, as {}", choice.reason,
                             stiffness_.factor, stiffness_.reason)}},
       problem_(scene, setup.partitioned, stiffness_.factor) {
+  if (const std::string decision = problem_.linear_decision(); !decision.empty())
+    choices_.push_back({"partitioned.direct_below", "by the wall", decision});
   if (setup.partitioned.tolerance) return;
   for (auto& stop : this->stopping()) choices_.push_back(std::move(stop));
 }

@@ -216,6 +216,8 @@ TEST(FastSolverTaylorHood, LargerPlaneSystemsAreIteratedWhereTheWallsInertiaPrev
   FastSolver<2> solver(system.blocks());
   FastOptions named;
   named.direct_below = FastOptions::standard_direct_below(2);
+  EXPECT_NE(solver.decides(), "");
+  EXPECT_EQ(FastSolver<2>(system.blocks(), named).decides(), "");
   State state = scene->at_rest();
   for (const double step : {1e-3, 1.0, 1e-3}) {
     const bool iterates = step < 0.1;
