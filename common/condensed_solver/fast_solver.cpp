@@ -6,6 +6,7 @@
 
 #include "algebra/direct_solver.hpp"
 #include "condensed_solver/condensed_iteration.hpp"
+#include "condensed_solver/factorised_flow.hpp"
 #include "condensed_solver/velocity_pressure_preconditioner.hpp"
 #include "fem/dimensions.hpp"
 #include "mesh_motion/harmonic_extension.hpp"
@@ -13,6 +14,31 @@
 #include "solvers/krylov/single_gmres.hpp"
 
 namespace fsi {
+
+namespace {
+
+template <int n>
+std::unique_ptr<MeshExtension<n>> make_extension(const JacobianBlocks<n>& blocks, std::vector<char> inner) {
+  if (blocks.mesh_tangent) return std::make_unique<TangentExtension<n>>(*blocks.mesh_tangent, std::move(inner));
+  HarmonicExtensionOptions options;
+  options.single_precision = true;  // few digits are asked for: CondensedIteration::extension_share
+  return std::make_unique<HarmonicExtension<n>>(*blocks.mesh_laplacian, std::move(inner), options, blocks.fluid_frames);
+}
+
+constexpr std::int64_t single_from = 10000;  // unknowns: smaller factors lie in the processor's cache anyway
+
+/// \param few_digits  are asked for
+template <int n>
+DirectSolver::Options factors(bool few_digits, const JacobianBlocks<n>& blocks) {
+  DirectSolver::Options options;
+  // UMFPACK by itself takes the other strategy where one unknown in ten is a pressure, whose diagonal is zero: factors of
+  // velocities and pressures are then twice as large (docs/tried.md).
+  options.strategy = "symmetric";
+  options.single_precision = few_digits && blocks.numbering.size >= single_from;
+  return options;
+}
+
+}  // namespace
 
 template <int n>
 struct FastSolver<n>::Iterative : CycledMedium {
@@ -28,15 +54,7 @@ struct FastSolver<n>::Iterative : CycledMedium {
       : layout(blocks),
         matrix(blocks, layout),
         preconditioner(matrix),
-        iteration(blocks, layout, make_extension, options.max_iterations) {}
-
-  static std::unique_ptr<MeshExtension<n>> make_extension(const JacobianBlocks<n>& blocks, std::vector<char> inner) {
-    if (blocks.mesh_tangent) return std::make_unique<TangentExtension<n>>(*blocks.mesh_tangent, std::move(inner));
-    HarmonicExtensionOptions options;
-    options.single_precision = true;  // few digits are asked for: CondensedIteration::extension_share
-    return std::make_unique<HarmonicExtension<n>>(*blocks.mesh_laplacian, std::move(inner), options,
-                                                  blocks.fluid_frames);
-  }
+        iteration(blocks, layout, make_extension<n>, options.max_iterations) {}
 
   std::size_t size() const override { return matrix.size(); }
   int place(int node) const override {
@@ -73,20 +91,32 @@ struct FastSolver<n>::Iterative : CycledMedium {
   void multiply_whole(const std::vector<double>& x, std::vector<double>& y) override { iteration.multiply(x, y); }
 };
 
-namespace {
-
-constexpr std::int64_t single_from = 10000;  // unknowns: smaller factors lie in the processor's cache anyway
-
-/// Newton's method asks for a few digits of each increment of a coupled system; those who make one of it by parts learn
-/// from differences of solutions, and want all digits.
+/// The mesh displacement by its own factors, velocities and pressures by theirs.
 template <int n>
-DirectSolver::Options precision(const JacobianBlocks<n>& blocks) {
-  DirectSolver::Options options;
-  options.single_precision = blocks.coupled() && blocks.numbering.size >= single_from;
-  return options;
-}
+struct FastSolver<n>::Factorised {
+  static constexpr int most_corrections = 30;  // for want of shape derivatives
 
-}  // namespace
+  VelocityPressureLayout<n> layout;
+  FactorisedFlow<n> flow;
+  CondensedIteration<n> iteration;
+
+  explicit Factorised(const JacobianBlocks<n>& blocks)
+      : layout(blocks),
+        flow(blocks, layout, factors(true, blocks)),
+        iteration(blocks, layout, make_extension<n>, most_corrections) {}
+  void update() {
+    layout.update();
+    iteration.update();
+    flow.update();
+  }
+  LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
+    const auto inner = [this](const std::vector<double>& right, double, double wanted, std::vector<double>& solution) {
+      flow.solve(right, wanted, solution);
+      return 1;
+    };
+    return iteration.solve(b, tolerance, inner, x);
+  }
+};
 
 template <int n>
 FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options,
@@ -98,13 +128,25 @@ FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& op
   if (blocks.coupled() && options.are_judged(n, size))
     judge_ = std::make_shared<PlaneJudge<n>>(blocks);
   else
-    direct_ = std::make_unique<DirectLinearSolver<n>>(blocks, precision(blocks));
+    make_factors();
+}
+
+template <int n>
+void FastSolver<n>::make_factors() {
+  if (n == 2 && (blocks_.mesh_laplacian || blocks_.mesh_tangent)) {
+    direct_.reset();  // it came of a rescue
+    if (!factorised_) factorised_ = std::make_unique<Factorised>(blocks_);
+  } else if (!direct_) {
+    // Newton's method asks for a few digits of each increment of a coupled system; those who make one of it by parts learn
+    // from differences of solutions, and want all digits.
+    direct_ = std::make_unique<DirectLinearSolver<n>>(blocks_, factors(blocks_.coupled(), blocks_));
+  }
 }
 
 template <int n>
 const char* FastSolver<n>::preparation() {
   if (judge_) return judged_to_iterate() ? LinearSolver::preparation() : "factorisation";
-  return direct_ && !iterative_ ? direct_->preparation() : LinearSolver::preparation();
+  return iterative_ || !uses_factorisation() ? LinearSolver::preparation() : "factorisation";
 }
 
 template <int n>
@@ -125,24 +167,26 @@ template <int n>
 void FastSolver<n>::choose() {
   if (judged_to_iterate()) {
     direct_.reset();
+    factorised_.reset();
     return;
   }
-  if (std::exchange(iterative_, nullptr)) direct_.reset();  // it came of a rescue
-  if (!direct_) direct_ = std::make_unique<DirectLinearSolver<n>>(blocks_, precision(blocks_));
+  iterative_.reset();
+  make_factors();
 }
 
 template <int n>
 void FastSolver<n>::update() {
   if (judge_)
     choose();
-  else if (iterative_)
+  else if (iterative_ || factorised_)
     direct_.reset();
   verdict_.reset();
+  const OneDenseThread same_bits_for_any_number;
   if (direct_) {
-    const OneDenseThread same_bits_for_any_number;
     direct_->update();
+  } else if (factorised_) {
+    factorised_->update();
   } else {
-    const OneDenseThread same_bits_for_any_number;  // the extension may be factorised
     if (!iterative_) iterative_ = std::make_unique<Iterative>(blocks_, options_);
     iterative_->iteration.update();
     iterative_->layout.update();
@@ -158,6 +202,11 @@ LinearReport FastSolver<n>::try_to_solve(const std::vector<double>& b, double to
     const OneDenseThread same_bits_for_any_number;
     return direct_->solve(b, tolerance, x);
   }
+  if (factorised_) {
+    const OneDenseThread same_bits_for_any_number;
+    const LinearReport report = factorised_->solve(b, tolerance, x);
+    return report.converged ? report : rescue(report, b, tolerance, x);
+  }
   LinearReport report = iterate(b, tolerance, x);
   if (report.converged || strengthened_) return report;
   count("linear solves repeated with a stronger preconditioner");
@@ -169,28 +218,35 @@ LinearReport FastSolver<n>::try_to_solve(const std::vector<double>& b, double to
 
 template <int n>
 LinearReport FastSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
-  LinearReport report = try_to_solve(b, tolerance, x);
-  if (direct_ || report.converged) return report;
-  // From here on a factorisation, however long it takes: better than no answer.
+  const LinearReport report = try_to_solve(b, tolerance, x);
+  return direct_ || report.converged ? report : rescue(report, b, tolerance, x);
+}
+
+template <int n>
+LinearReport FastSolver<n>::rescue(const LinearReport& failed, const std::vector<double>& b, double tolerance,
+                                   std::vector<double>& x) {
   count("linear solves rescued by factorisation");
   direct_ = std::make_unique<DirectLinearSolver<n>>(blocks_);
   const OneDenseThread same_bits_for_any_number;
   direct_->update();
-  const LinearReport third = direct_->solve(b, tolerance, x);
-  report.converged = third.converged;
-  report.relative_residual = third.relative_residual;
+  LinearReport report = direct_->solve(b, tolerance, x);
+  report.iterations = failed.iterations;
   return report;
 }
 
 template <int n>
 double FastSolver<n>::keep_contraction() const {
-  return direct_ ? direct_->keep_contraction() : LinearSolver::keep_contraction();
+  return uses_factorisation() ? 0.4 : LinearSolver::keep_contraction();
 }
 
 template <int n>
 LinearStatistics FastSolver<n>::statistics() const {
   LinearStatistics s;
   if (direct_) s = direct_->statistics();
+  if (factorised_) {
+    s.memory_mib += factorised_->flow.bytes() / (1 << 20);
+    if (const auto* extension = factorised_->iteration.extension()) s.memory_mib += extension->memory_mib();
+  }
   if (iterative_) {
     s.memory_mib += static_cast<double>(iterative_->matrix.bytes() + iterative_->preconditioner.bytes() +
                                         iterative_->gmres.bytes()) /
@@ -204,7 +260,7 @@ LinearStatistics FastSolver<n>::statistics() const {
 
 template <int n>
 CycledMedium* FastSolver<n>::cycled() {
-  return direct_ ? nullptr : iterative_.get();
+  return uses_factorisation() ? nullptr : iterative_.get();
 }
 
 template <int n>

@@ -47,13 +47,21 @@ class FastSolver : public LinearSolver {
   bool cycles() const override { return iterative_ != nullptr; }
 
   /// The Jacobian is factorised: the system is small, or the iteration failed on it.
-  bool uses_factorisation() const { return direct_ != nullptr; }
+  bool uses_factorisation() const { return direct_ || factorised_; }
 
  private:
   /// \param strong  more sweeps, and coarse levels for the wall however stiff it is
   void set_up_preconditioner(bool strong);
 
   struct Iterative;
+  struct Factorised;
+
+  /// Of a system that is not iterated.
+  void make_factors();
+
+  /// By factors of the whole, where those of a part do not get there, however long it takes: better than no answer.
+  LinearReport rescue(const LinearReport& failed, const std::vector<double>& b, double tolerance,
+                      std::vector<double>& x);
 
   /// What the judge says of the values that the blocks hold, until the next update().
   bool judged_to_iterate();
@@ -70,7 +78,8 @@ class FastSolver : public LinearSolver {
   std::shared_ptr<IterationJudge> judge_;  ///< null where size alone decides
   std::optional<bool> verdict_;            ///< on the present values
   std::unique_ptr<Iterative> iterative_;
-  std::unique_ptr<DirectLinearSolver<n>> direct_;
+  std::unique_ptr<Factorised> factorised_;         ///< with a mesh motion
+  std::unique_ptr<DirectLinearSolver<n>> direct_;  ///< without one, or after a failure of the others
   bool ready_ = false;
   bool strengthened_ = false;  ///< the preconditioner, for a system that defeated the usual one
 };

@@ -23,7 +23,7 @@ namespace fsi {
 namespace {
 
 constexpr double pass_share = 0.5;  // of a linear tolerance, for the gap that passes leave; the rest is the media's
-constexpr double loosest_answer = 1e-2;  // of a medium to a change of the datum: pairs are as exact as that
+constexpr double loosest_answer = 1e-3;  // of a medium to a change of the datum: pairs are as exact as that
 constexpr double tightest_answer = 1e-8;
 constexpr int most_directions = 50;  // of the iteration over both media, between two residuals in double precision
 constexpr double stalled = 0.95;     // of the residual, left by a correction
