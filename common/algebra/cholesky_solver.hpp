@@ -30,6 +30,10 @@ class CholeskySolver {
   void reduce_precision(const SparseMatrix& a);
   /// |b - A x| / |b| that solutions have, as far as known: of the known one. Zero of a factor in double precision.
   double residual() const;
+  /// Solutions have a residual of at most `tolerance` |b|, so far as a known one tells; others may have several times as much.
+  bool reaches(double tolerance) const { return tolerance >= 10 * residual(); }
+  /// Of a solution that does not reach what is demanded.
+  static constexpr int most_corrections = 20;
 
   /// x = A^-1 b for `count` right-hand sides, one behind the other.
   void solve(const std::vector<double>& b, int count, std::vector<double>& x) const;

@@ -19,9 +19,14 @@ namespace {
 
 template <int n>
 std::unique_ptr<MeshExtension<n>> make_extension(const JacobianBlocks<n>& blocks, std::vector<char> inner) {
-  if (blocks.mesh_tangent) return std::make_unique<TangentExtension<n>>(*blocks.mesh_tangent, std::move(inner));
+  const bool few_digits = true;  // are asked for: CondensedIteration::extension_share
+  if (blocks.mesh_tangent) {
+    TangentExtensionOptions options;
+    options.single_precision = few_digits;
+    return std::make_unique<TangentExtension<n>>(*blocks.mesh_tangent, std::move(inner), options);
+  }
   HarmonicExtensionOptions options;
-  options.single_precision = true;  // few digits are asked for: CondensedIteration::extension_share
+  options.single_precision = few_digits;
   return std::make_unique<HarmonicExtension<n>>(*blocks.mesh_laplacian, std::move(inner), options, blocks.fluid_frames);
 }
 

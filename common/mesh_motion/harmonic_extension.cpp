@@ -15,9 +15,7 @@ namespace fsi {
 
 namespace {
 
-constexpr double several = 10;        // times the residual of a known solution: what others have at most
-constexpr int most_corrections = 20;  // of a solution by factors in single precision
-constexpr int chunk_rows = 2048;      // of a partial sum: fixed, so that sums do not depend on the number of threads
+constexpr int chunk_rows = 2048;  // of a partial sum: fixed, so that sums do not depend on the number of threads
 
 /// m scalar products of vectors that hold m numbers a row.
 template <int m>
@@ -203,7 +201,7 @@ void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<d
   iterations_ = 0;
   parallel_for(inner_.size(), inner_.size() > 50000, [&](std::size_t i) { values_[i] = inner_[i] ? 0 : field[i]; });
   apply_operator_to_given();
-  double expected = 0;  // of the residual, by factors in single precision
+  bool reached = true;  // by factors in single precision
   for (Group& group : groups_) {
     if (group.entry.empty()) continue;
     if (group.iterative) {
@@ -217,9 +215,9 @@ void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<d
     for (std::size_t c = 0; c < group.offset.size(); ++c)
       for (const std::size_t entry : group.entry) field[entry + group.offset[c]] = 0;
     add_solution(group, right, field);
-    expected = std::max(expected, group.solver.residual());
+    reached = reached && group.solver.reaches(tolerance);
   }
-  if (tolerance < several * expected) refine(right, field, tolerance, residual(right));
+  if (!reached) refine(right, field, tolerance, residual(right));
 }
 
 template <int n>
@@ -270,7 +268,7 @@ template <int n>
 void HarmonicExtension<n>::refine(const std::vector<double>& right, std::vector<double>& field, double tolerance,
                                   double reference) {
   double last = reference;
-  for (int k = 0; k < most_corrections; ++k) {
+  for (int k = 0; k < CholeskySolver::most_corrections; ++k) {
     values_ = field;
     apply_operator();
     const double left = residual(right);

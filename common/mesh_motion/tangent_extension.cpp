@@ -2,10 +2,12 @@
 
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "algebra/block_products.hpp"
 #include "algebra/vector_operations.hpp"
+#include "base/error.hpp"
 #include "fem/dimensions.hpp"
 #include "fem/nodal_layout.hpp"
 
@@ -47,7 +49,10 @@ void TangentExtension<n>::update() {
       }
     matrix_.offsets.push_back(static_cast<int>(matrix_.indices.size()));
   }
-  if (iterative_ && solver_.factorised()) solver_ = DirectSolver();  // the last values' iteration had failed
+  if (iterative_ && factorised()) {  // the last values' iteration had failed
+    cholesky_ = CholeskySolver();
+    solver_ = DirectSolver();
+  }
   iterative_ ? set_up_multigrid() : factorise();
 }
 
@@ -78,7 +83,40 @@ void TangentExtension<n>::factorise() {
   columns_.offsets.assign(matrix_.offsets.begin(), matrix_.offsets.end());
   columns_.rows.assign(matrix_.indices.begin(), matrix_.indices.end());
   columns_.values = matrix_.values;
-  solver_.factorise(columns_);
+  solver_.discard();
+  try {
+    cholesky_.factorise(columns_);
+  } catch (const ConvergenceError&) {
+    cholesky_ = CholeskySolver();
+    return solver_.factorise(columns_);
+  }
+  if (options_.single_precision) cholesky_.reduce_precision(columns_);
+}
+
+template <int n>
+void TangentExtension<n>::solve_by_factors(const std::vector<double>& b, double tolerance,
+                                           std::vector<double>& x) const {
+  if (solver_.factorised()) return solver_.solve(columns_, b, x);
+  cholesky_.solve(b, 1, x);
+  if (cholesky_.reaches(tolerance)) return;
+  std::vector<double> lack(b.size()), correction;
+  double last = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < CholeskySolver::most_corrections; ++k) {
+    apply(x, lack);
+    for (std::size_t i = 0; i < b.size(); ++i) lack[i] = b[i] - lack[i];
+    const double left = norm(lack);
+    if (left <= tolerance * norm(b) || !(left < 0.5 * last)) return;
+    last = left;
+    cholesky_.solve(lack, 1, correction);
+    axpy(1, correction, x);
+  }
+}
+
+template <int n>
+void TangentExtension<n>::apply(const std::vector<double>& v, std::vector<double>& out) const {
+#pragma omp parallel for schedule(static) if (v.size() > 8000)
+  for (std::size_t row = 0; row < v.size(); ++row)
+    out[row] = row_product(matrix_, matrix_.offsets[row], matrix_.offsets[row + 1], v.data());
 }
 
 template <int n>
@@ -94,8 +132,8 @@ void TangentExtension<n>::solve(const std::vector<double>& right, std::vector<do
     x[row] = field[entry_[row]];
   }
   if (!iterates() || !iterate(b, x, tolerance)) {
-    if (!solver_.factorised()) factorise();
-    solver_.solve(columns_, b, x);
+    if (!factorised()) factorise();
+    solve_by_factors(b, tolerance, x);
   }
   for (std::size_t row = 0; row < entry_.size(); ++row) field[entry_[row]] = x[row];
 }
@@ -106,11 +144,6 @@ bool TangentExtension<n>::iterate(const std::vector<double>& b, std::vector<doub
   const std::size_t size = b.size();
   std::vector<double> r(size), z(size), p(size, 0.0), q(size);
   const double reference = dot(b, b);
-  const auto apply = [&](const std::vector<double>& v, std::vector<double>& out) {
-#pragma omp parallel for schedule(static) if (size > 8000)
-    for (std::size_t row = 0; row < size; ++row)
-      out[row] = row_product(matrix_, matrix_.offsets[row], matrix_.offsets[row + 1], v.data());
-  };
   apply(x, q);
   for (std::size_t i = 0; i < size; ++i) r[i] = b[i] - q[i];
   double square = dot(r, r), rho = 0, alpha = 0;
@@ -151,6 +184,7 @@ void TangentExtension<n>::precondition(const std::vector<double>& r, std::vector
 template <int n>
 double TangentExtension<n>::memory_mib() const {
   double bytes = static_cast<double>(matrix_.bytes());
+  if (cholesky_.factorised()) bytes += cholesky_.bytes();
   if (solver_.factorised()) bytes += 16.0 * static_cast<double>(solver_.factor_nonzeros());
   for (const auto& cycle : multigrid_) bytes += static_cast<double>(cycle.bytes());
   return bytes / (1 << 20);

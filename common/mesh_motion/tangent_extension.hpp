@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "algebra/cholesky_solver.hpp"
 #include "algebra/csr_matrix.hpp"
 #include "algebra/direct_solver.hpp"
 #include "mesh_motion/mesh_extension.hpp"
@@ -17,6 +18,8 @@ struct TangentExtensionOptions {
   std::optional<int> iterative_from;
   double tolerance = 1e-12;  ///< of the iteration: its residual over that of zero inner values
   int max_iterations = 200;  ///< of conjugate gradients; a solve that needs more is done by factorisation
+  /// Factors are kept in single precision, where they serve: for who asks for a few digits. More are reached by corrections.
+  bool single_precision = false;
 
   /// Inner nodes from which a tangent with the sixty solves that a driver does with it is about as quick by iteration,
   /// which takes a tenth of the memory. In space factors of 6700 nodes take 0.6 s, a solve by them 0.02 s, by iteration
@@ -27,7 +30,8 @@ struct TangentExtensionOptions {
 /// The linearised equations of a nonlinear mesh motion, whose components couple: by a factorisation or, where that is
 /// large, by conjugate gradients in double precision, preconditioned by a V-cycle of smoothed aggregation in single
 /// precision for each component alone: by Korn's inequality as good as for a Laplacian but for a constant
-/// [Blaheta1994]. A tangent that is not positive, as it may be far from equilibrium, is factorised.
+/// [Blaheta1994]. A tangent that is not positive, as it may be far from equilibrium, is factorised without regard to
+/// symmetry, others by Cholesky's method.
 /// Results do not depend on the number of threads.
 template <int n>
 class TangentExtension : public MeshExtension<n> {
@@ -41,13 +45,17 @@ class TangentExtension : public MeshExtension<n> {
   void update() override;
   void solve(const std::vector<double>& right, std::vector<double>& field, double tolerance) override;
   void solve(const std::vector<double>& right, std::vector<double>& field) { solve(right, field, options_.tolerance); }
-  bool iterates() const override { return iterative_ && !solver_.factorised(); }
+  bool iterates() const override { return iterative_ && !factorised(); }
   double memory_mib() const override;
   int iterations() const override { return iterations_; }
 
  private:
   void set_up_multigrid();
+  bool factorised() const { return cholesky_.factorised() || solver_.factorised(); }
   void factorise();
+  void solve_by_factors(const std::vector<double>& b, double tolerance, std::vector<double>& x) const;
+  /// out = A v among inner entries
+  void apply(const std::vector<double>& v, std::vector<double>& out) const;
   bool iterate(const std::vector<double>& right, std::vector<double>& x, double tolerance);
   void precondition(const std::vector<double>& r, std::vector<double>& z);
 
@@ -62,7 +70,8 @@ class TangentExtension : public MeshExtension<n> {
   ScalarMultigrid multigrid_[n];  ///< of each component
   std::vector<int> rows_of_[n];   ///< the rows of each component
   SparseMatrix columns_;
-  DirectSolver solver_;
+  CholeskySolver cholesky_;
+  DirectSolver solver_;  ///< of a tangent that is not positive
   std::vector<float> single_r_, single_z_;
   int iterations_ = 0;
 };

@@ -55,6 +55,30 @@ struct TangentProblem {
   }
 };
 
+TEST(TangentExtension, FactorsInSinglePrecisionAreCorrectedAsFarAsDemanded) {
+  const TangentProblem problem;
+  TangentExtensionOptions few_digits = direct_tangent();
+  few_digits.single_precision = true;
+  TangentExtension<3> single(problem.tangent, problem.inner, few_digits),
+      twice(problem.tangent, problem.inner, direct_tangent());
+  single.update();
+  twice.update();
+  EXPECT_FALSE(single.iterates());
+  EXPECT_LT(single.memory_mib(), 0.75 * twice.memory_mib());
+  double before = 1e-4;
+  for (const double tolerance : {1e-3, 1e-8, 1e-12}) {
+    auto field = problem.field;
+    single.solve(problem.right, field, tolerance);
+    const double left = problem.residual(field);
+    EXPECT_LT(left, 10 * tolerance);
+    EXPECT_LE(left, before);
+    if (tolerance == 1e-3) {
+      EXPECT_GT(left, 1e-10) << "in single precision";
+    }
+    before = left;
+  }
+}
+
 TEST(TangentExtension, IterationAndFactorisationAgree) {
   const TangentProblem problem;
   TangentExtension<3> by_factors(problem.tangent, problem.inner, direct_tangent()),
