@@ -30,6 +30,7 @@ std::unique_ptr<MeshExtension<n>> make_extension(const JacobianBlocks<n>& blocks
   return std::make_unique<HarmonicExtension<n>>(*blocks.mesh_laplacian, std::move(inner), options, blocks.fluid_frames);
 }
 
+constexpr std::int64_t apart_from = 2000;  // unknowns: factors of smaller systems take no time, and solve them exactly
 constexpr std::int64_t single_from = 10000;  // unknowns: smaller factors lie in the processor's cache anyway
 
 /// \param few_digits  are asked for
@@ -138,7 +139,8 @@ FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& op
 
 template <int n>
 void FastSolver<n>::make_factors() {
-  if (n == 2 && (blocks_.mesh_laplacian || blocks_.mesh_tangent)) {
+  const bool mesh_moves = blocks_.mesh_laplacian || blocks_.mesh_tangent;
+  if (n == 2 && mesh_moves && blocks_.numbering.size >= apart_from) {
     direct_.reset();  // it came of a rescue
     if (!factorised_) factorised_ = std::make_unique<Factorised>(blocks_);
   } else if (!direct_) {

@@ -2,9 +2,9 @@
 and the headers they include. BUILD holds compile_commands.json, made for COMPILER.
 
 Much of the time goes to headers, which are searched anew for each source. So sources are put behind each other into few
-texts, whose headers are searched once. Where they do not compile as one text, because two of them give one name to different
-things, those that the compiler stumbles over make texts of their own. The analyser looks at each source by itself, with the
-flags of its own: in a longer text it finds less.
+texts, whose headers are searched once. Two that give one name to different things do not compile as one text: those whose own
+names are alike are kept apart from the start, and of a text that does not compile those that the compiler stumbles over make
+texts of their own. The analyser looks at each source by itself, with the flags of its own: in a longer text it finds less.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
@@ -29,6 +30,13 @@ LARGEST_TEXT = 600_000
 # The analyser follows this many steps through a function; with its own 225000 the whole takes three times as long.
 STEPS = 20_000
 INCLUDE = re.compile(r"\s*#\s*include\s*(\S+)")
+UNNAMED = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.MULTILINE | re.DOTALL)
+# What a line without indent defines: a class, a type, what stands before a value, or before parameters, which are a part of
+# a function's name.
+DEFINED = re.compile(
+    r"^(?:struct|class|enum(?: class)?) (\w+)|^using (\w+)(?= =)|^(?=\w)[\w:<>,&* ]*?\b(\w+(?:\(.*|(?= = |\{|\[|;)))",
+    re.MULTILINE,
+)
 
 
 def compiler_flags(build: Path, compiler: str) -> dict[str, list[str]]:
@@ -83,16 +91,38 @@ def sources_of(root: Path, flags: dict[str, list[str]]) -> list[Path]:
     return sorted(path for path in found if str(path) in flags)
 
 
+@dataclass
+class Text:
+    """Sources that are read behind each other."""
+
+    sources: list[Path] = field(default_factory=list)
+    names: set[str] = field(default_factory=set)  # that are the sources' own
+    size: int = 0  # characters
+
+
+def own_names(source: Path) -> set[str]:
+    """What its unnamed namespaces define, as far as that is seen without a compiler."""
+    return {
+        match[match.lastindex or 0] for part in UNNAMED.findall(source.read_text()) for match in DEFINED.finditer(part)
+    }
+
+
 def groups(flags: dict[str, list[str]], sources: list[Path]) -> list[list[Path]]:
-    """The sources in lists that make texts of at most LARGEST_TEXT; largest first."""
-    found: dict[tuple[tuple[str, ...], ...], list[list[Path]]] = {}
+    """The sources in lists that make texts of at most LARGEST_TEXT, in which no two have a name of their own in common;
+    largest first."""
+    found: dict[tuple[tuple[str, ...], ...], list[Text]] = {}
     for source in sources:
-        lists = found.setdefault(text_kind(flags[str(source)]), [[]])
-        if lists[-1] and sum(path.stat().st_size for path in lists[-1] + [source]) > LARGEST_TEXT:
-            lists.append([])
-        lists[-1].append(source)
-    everything = [group for lists in found.values() for group in lists]
-    return sorted(everything, key=lambda group: -sum(path.stat().st_size for path in group))
+        texts = found.setdefault(text_kind(flags[str(source)]), [])
+        names, size = own_names(source), source.stat().st_size
+        fitting = (text for text in texts if not names & text.names and text.size + size <= LARGEST_TEXT)
+        text = next(fitting, None)
+        if text is None:
+            texts.append(text := Text())
+        text.sources.append(source)
+        text.names |= names
+        text.size += size
+    everything = [text for texts in found.values() for text in texts]
+    return [text.sources for text in sorted(everything, key=lambda text: -text.size)]
 
 
 def text_of(sources: list[Path]) -> tuple[str, list[tuple[Path, int]]]:
@@ -203,27 +233,18 @@ def parted(clang_tidy: str, root: Path, flags: dict[str, list[str]], sources: li
     return [together, [source for source in sources if source not in together]]
 
 
-def texts_of(
-    clang_tidy: str, root: Path, flags: dict[str, list[str]], pool: ThreadPoolExecutor | None = None
-) -> list[list[Path]]:
-    """All sources, in lists that compile as one text each. What stands apart from several of them shares texts again."""
-    texts: list[list[Path]] = []
-    left = sources_of(root, flags)
-    while left:
-        part = partial(parted, clang_tidy, root, flags)
-        pairs = list(pool.map(part, groups(flags, left)) if pool else map(part, groups(flags, left)))
-        texts += [together for together, _ in pairs]
-        left = sorted(source for _, apart in pairs for source in apart)
-    return texts
-
-
 def check_text(clang_tidy: str, root: Path, flags: dict[str, list[str]], sources: list[Path]) -> str:
-    """What all but the analyser finds in the sources as one text; empty: nothing is wrong."""
-    return written(clang_tidy, root, text_flags(flags, sources), sources, "-clang-analyzer-*")
+    """What all but the analyser finds in the sources, as one text where they compile as one; empty: nothing is wrong."""
+    said = written(clang_tidy, root, text_flags(flags, sources), sources, "-clang-analyzer-*")
+    if "[clang-diagnostic-error]" not in said or len(sources) == 1:
+        return said
+    parts = [part for part in parted(clang_tidy, root, flags, sources) if part]
+    return "\n".join(found for part in parts if (found := check_text(clang_tidy, root, flags, part)))
 
 
-def jobs(clang_tidy: str, root: Path, flags: dict[str, list[str]], texts: list[list[Path]]) -> list[Callable[[], str]]:
+def jobs(clang_tidy: str, root: Path, flags: dict[str, list[str]]) -> list[Callable[[], str]]:
     """What is to be done, each job for one core: the long ones first. Each gives its findings."""
+    texts = groups(flags, sources_of(root, flags))
     long = [partial(check_text, clang_tidy, root, flags, sources) for sources in texts]
     short = [partial(analysed, clang_tidy, root, flags[str(source)], source) for sources in texts for source in sources]
     return [*long, *short]
@@ -235,13 +256,12 @@ def main() -> int:
     if not sources_of(root, flags):
         raise SystemExit(f"clang_tidy.py: error: no source files in {root}")
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        texts = texts_of(clang_tidy, root, flags, pool)
-        found = [result for result in pool.map(lambda job: job(), jobs(clang_tidy, root, flags, texts)) if result]
+        found = [result for result in pool.map(lambda job: job(), jobs(clang_tidy, root, flags)) if result]
     print("\n".join(found))
     if found:
         print("clang_tidy.py: error: see the findings above; .clang-tidy says which checks there are", file=sys.stderr)
         return 1
-    print(f"{sum(len(sources) for sources in texts)} files have no findings")
+    print(f"{len(sources_of(root, flags))} files have no findings")
     return 0
 
 

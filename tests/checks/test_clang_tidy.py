@@ -7,7 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from clang_tidy import compiler_flags, groups, jobs, sources_of, text_flags, text_of, texts_of
+from clang_tidy import compiler_flags, groups, jobs, own_names, parted, sources_of, text_flags, text_of
 
 HERE = Path(__file__).resolve().parent
 GOOD = '#include "mesh/header.hpp"\nint one(int x) { return twice(x); }\n'
@@ -15,6 +15,10 @@ GOOD = '#include "mesh/header.hpp"\nint one(int x) { return twice(x); }\n'
 NULL = '#include "mesh/header.hpp"\n\nint two(int* x) {\n  if (x) return twice(*x);\n  return *x;\n}\n'
 POINTER = "\nint* three() { return 0; }\n"
 HEADER = "#pragma once\ninline int twice(int x) { return 2 * x; }\n"
+
+
+def names_of(texts: list[list[Path]]) -> list[list[str]]:
+    return [[source.stem for source in text] for text in texts if text]
 
 
 class ClangTidy(unittest.TestCase):
@@ -26,7 +30,7 @@ class ClangTidy(unittest.TestCase):
         shutil.copy(HERE.parents[1] / ".clang-tidy", self.root)
 
     def found(self, **sources: str) -> str:
-        """Findings of common/mesh/NAME.cpp for each name, or of common/FOLDER/NAME.cpp for FOLDER__NAME; all in one text."""
+        """Findings of common/mesh/NAME.cpp for each name, or of common/FOLDER/NAME.cpp for FOLDER__NAME."""
         compiler = os.environ.get("CXX", "c++")
         (self.root / "common/mesh/header.hpp").write_text(HEADER)
         commands = []
@@ -39,12 +43,12 @@ class ClangTidy(unittest.TestCase):
             commands.append({"directory": str(self.root), "file": str(file), "command": command})
         (self.root / "compile_commands.json").write_text(json.dumps(commands))
         flags = compiler_flags(self.root, compiler)
-        self.assertEqual(len(groups(flags, sources_of(self.root, flags))), 1)
-        program = os.environ.get("CLANG_TIDY", "clang-tidy")
-        texts = texts_of(program, self.root, flags)
+        texts = groups(flags, sources_of(self.root, flags))
         self.assertEqual(sorted(source for text in texts for source in text), sources_of(self.root, flags))
-        self.texts = [[source.stem for source in text] for text in texts]
-        return "\n".join(found for job in jobs(program, self.root, flags, texts) if (found := job()))
+        self.texts = names_of(texts)
+        program = os.environ.get("CLANG_TIDY", "clang-tidy")
+        self.parts = names_of(parted(program, self.root, flags, texts[0]))
+        return "\n".join(found for job in jobs(program, self.root, flags) if (found := job()))
 
     def test_nothing_is_found_in_a_clean_tree(self) -> None:
         self.assertEqual(self.found(a=GOOD, b=GOOD.replace("one", "other")), "")
@@ -62,10 +66,28 @@ class ClangTidy(unittest.TestCase):
         self.assertIn("other.hpp:2:", self.found(a=GOOD, b='#include "mesh/other.hpp"\n'))
 
     def test_one_name_of_two_things_hides_no_finding(self) -> None:
-        local = "namespace {\nconstexpr int size = 2;\n}\n"
+        local = "namespace {\nconstexpr int size = 2;\n}  // namespace\n"
         found = self.found(a=local + "int a() { return size; }\n", b=local + NULL)
+        self.assertEqual(self.texts, [["b"], ["a"]])
         self.assertIn("common/mesh/b.cpp:8:", found)
         self.assertNotIn("redefinition", found)
+
+    def test_one_name_of_two_things_that_is_seen_by_the_compiler_only_hides_no_finding(self) -> None:
+        local = "namespace {\nconstexpr int size = 2;\n}\n"
+        found = self.found(a=local + "int a() { return size; }\n", b=local + NULL)
+        self.assertEqual(self.texts, [["a", "b"]])
+        self.assertEqual(sorted(self.parts), [["a"], ["b"]])
+        self.assertIn("common/mesh/b.cpp:8:", found)
+        self.assertNotIn("redefinition", found)
+
+    def test_names_of_its_own(self) -> None:
+        file = self.root / "common/mesh/a.cpp"
+        file.write_text(
+            "int none();\nnamespace {\nconstexpr double size = 2;\nstruct Part {\n  int member = 0;\n};\n"
+            "template <int n>\nstd::vector<int> list(int given) {\n  int local = given;\n  return {local};\n}\n"
+            "using Name = int;\n}  // namespace\nint other() { return 1; }\n"
+        )
+        self.assertEqual(own_names(file), {"Part", "size", "list(int given) {", "Name"})
 
     def test_one_name_of_two_things_in_two_folders_hides_no_finding(self) -> None:
         local = "namespace {\nconstexpr int size = 2;\n}\n"
@@ -91,7 +113,7 @@ class ClangTidy(unittest.TestCase):
         own = "namespace fsi {\nnamespace {\nstruct State {};\n}\nint a() { return sizeof(State); }\n}\n"
         other = '#include "mesh/state.hpp"\nnamespace fsi {{\nvoid {}(State& s) {{ s = State(); }}\n}}\n'
         self.assertEqual(self.found(a=own, **{name: other.format(name) for name in "bcd"}), "")
-        self.assertEqual(self.texts, [["b", "c", "d"], ["a"]])
+        self.assertEqual(self.parts, [["b", "c", "d"], ["a"]])
 
     def test_a_header_is_looked_for_beside_its_source(self) -> None:
         (self.root / "common/other").mkdir()
