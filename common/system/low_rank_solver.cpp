@@ -55,11 +55,15 @@ void LowRankLinearSolver<n>::update() {
 template <int n>
 LinearReport LowRankLinearSolver<n>::prepare(Effort effort) {
   LinearReport report;
-  preparing_iterations_ = 0;
+  // Counted apart from those of the step that happens to need it: after a restart it is another one.
+  const auto count = [this](int iterations) {
+    if (blocks_.profile && iterations > 0)
+      blocks_.profile->count("linear iterations that prepare openings", iterations);
+  };
   for (Term& term : of_system_) {
     report = effort == Effort::any ? solver_->solve(term.rows, tolerance_of_terms, term.solution)
                                    : solver_->try_to_solve(term.rows, tolerance_of_terms, term.solution);
-    preparing_iterations_ += report.iterations;
+    count(report.iterations);
     if (!report.converged) return report;
   }
   const std::size_t m = of_system_.size();
@@ -122,14 +126,12 @@ double LowRankLinearSolver<n>::norm_of(const std::vector<double>& equations) con
 
 template <int n>
 LinearReport LowRankLinearSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
-  int iterations = 0;
   if (!prepared_) {
     LinearReport preparing = prepare(Effort::any);
-    iterations = preparing_iterations_;
     if (!prepared_) return preparing;
   }
   LinearReport report = solver_->solve(b, tolerance, x);
-  iterations += report.iterations;
+  int iterations = report.iterations;
   if (!report.converged) return report;
   std::vector<double> gaps;
   for (const OpeningTerm& term : terms_) gaps.push_back(term.gap);

@@ -86,7 +86,6 @@ class LowRankLinearSolver : public LinearSolver {
   std::vector<double> inverse_;  ///< of 1 + S V^T Y, or V^T Y over its diagonal, row by row
   bool prepared_ = false;
   std::unique_ptr<LowRankCycle> cycle_;
-  int preparing_iterations_ = 0;
   std::vector<double> residual_, correction_, pressures_;
 };
 
