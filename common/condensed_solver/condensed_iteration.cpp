@@ -179,6 +179,16 @@ LinearReport CondensedIteration<n>::solve(const std::vector<double>& b, double t
 }
 
 template <int n>
+double CondensedIteration<n>::left_by_a_correction(const std::vector<double>& b, const InnerSolver& inner_solver) {
+  LinearReport report;
+  residual_ = b;
+  correct(loosest_extension, inner_solver, report);
+  jacobian_.multiply(correction_, jacobian_times_x_);
+  for (std::size_t i = 0; i < b.size(); ++i) residual_[i] -= jacobian_times_x_[i];
+  return norm_of_all(residual_) / norm_of_all(b);
+}
+
+template <int n>
 double CondensedIteration<n>::quick_residual(const std::vector<double>& b, double norm_b, double tolerance,
                                              const ProductAtRest& product_at_rest) {
   if (!product_at_rest || tolerance < quick_from || (extension_ && extension_->iterates()))

@@ -47,6 +47,9 @@ class CondensedIteration {
   LinearReport solve(const std::vector<double>& b, double tolerance, const InnerSolver& inner_solver,
                      std::vector<double>& x, const ProductAtRest& product_at_rest = {});
 
+  /// What a single correction leaves of b, over |b|: for want of shape derivatives, where the inner solver is exact.
+  double left_by_a_correction(const std::vector<double>& b, const InnerSolver& inner_solver);
+
   /// The steps of a correction, for an iteration over several systems: what velocities and pressures are to answer of a
   /// residual, and what becomes of their answer, in the order of the layout, the mesh with it.
   /// \param tolerance  of that answer

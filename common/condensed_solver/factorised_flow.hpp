@@ -29,6 +29,7 @@ class FactorisedFlow {
   /// \param solution   overwritten: velocities and pressures, in the order of the layout
   void solve(const std::vector<double>& right, double tolerance, std::vector<double>& solution);
 
+  void discard() { solver_.discard(); }
   double bytes() const;
 
  private:

@@ -58,6 +58,7 @@ class FastSolver : public LinearSolver {
 
   /// Of a system that is not iterated.
   void make_factors();
+  void make_whole_factors();
 
   /// By factors of the whole, where those of a part do not get there, however long it takes: better than no answer.
   LinearReport rescue(const LinearReport& failed, const std::vector<double>& b, double tolerance,
@@ -78,8 +79,8 @@ class FastSolver : public LinearSolver {
   std::shared_ptr<IterationJudge> judge_;  ///< null where size alone decides
   std::optional<bool> verdict_;            ///< on the present values
   std::unique_ptr<Iterative> iterative_;
-  std::unique_ptr<Factorised> factorised_;         ///< with a mesh motion
-  std::unique_ptr<DirectLinearSolver<n>> direct_;  ///< without one, or after a failure of the others
+  std::unique_ptr<Factorised> factorised_;         ///< of a plane system with a mesh motion
+  std::unique_ptr<DirectLinearSolver<n>> direct_;  ///< of others, and where the other two do not serve
   bool ready_ = false;
   bool strengthened_ = false;  ///< the preconditioner, for a system that defeated the usual one
 };
