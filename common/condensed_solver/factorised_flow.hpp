@@ -10,7 +10,7 @@
 namespace fsi {
 
 /// Velocities and pressures of both media by sparse factors: the inner solver of a CondensedIteration. The mesh displacement,
-/// two thirds of what a factorisation of the whole fills in, is left to its own equations; of the shape derivatives those of
+/// which shape derivatives tie to all velocities around, so that it fills in, is left to its own equations; of the shape derivatives those of
 /// the interface's momentum by the interface's displacement are in (interface_shape_derivatives.hpp).
 /// \tparam n  components of a velocity
 template <int n>
