@@ -20,6 +20,9 @@ inline Register<R> block_times(const float* block, const float* x) {
 template <int R, int C>
 struct RegisterBlocks {
   static constexpr int stride = C * padded<R>;  ///< floats a block
+  /// Floats from a block in use to one that memory is asked for meanwhile, 4 KiB on. By themselves not all processors fetch
+  /// ahead as far (docs/performance.md).
+  static constexpr int ahead = 1024;
 
   std::vector<int> offsets{0}, columns;
   std::vector<float> values;
@@ -42,6 +45,7 @@ struct RegisterBlocks {
     Register<R> parts[C] = {};
     const float* a = values.data() + static_cast<std::size_t>(begin) * stride;
     for (int at = begin; at < end; ++at, a += stride) {
+      __builtin_prefetch(a + ahead);
       const float* from = x + static_cast<std::size_t>(columns[at]) * padded<C>;
       for (int k = 0; k < C; ++k) parts[k] += load<R>(a + k * padded<R>) * from[k];
     }

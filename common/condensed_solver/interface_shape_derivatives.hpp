@@ -1,9 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
-#include "algebra/register_blocks.hpp"
+#include "algebra/split_blocks.hpp"
 #include "condensed_solver/velocity_pressure_layout.hpp"
 #include "fem/nodal_layout.hpp"
 
@@ -22,10 +21,9 @@ class InterfaceShapeDerivatives {
  public:
   static constexpr int lanes = padded<n>;
 
-  /// \param momentum  `offsets` and `columns` of the blocks of all velocities that share a cell, columns ascending
-  template <class Pattern>
-  InterfaceShapeDerivatives(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout,
-                            const Pattern& momentum)
+  /// \param position  called as position(row, column): of a block among those of all velocities that share a cell
+  template <class Position>
+  InterfaceShapeDerivatives(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout, Position position)
       : blocks_(blocks), layout_(layout) {
     if (!blocks.shape_derivatives || blocks.numbering.mesh.empty()) return;
     const auto& graph = *blocks.shape_derivatives->graph;
@@ -38,17 +36,14 @@ class InterfaceShapeDerivatives {
         const int column = graph.columns[at];
         if (!moves_with_it[column]) continue;
         const int v = layout.velocity_of_fluid[row], u = layout.velocity_of_fluid[column];
-        const auto end = momentum.columns.begin() + momentum.offsets[v + 1];
-        const auto found = std::lower_bound(momentum.columns.begin() + momentum.offsets[v], end, u);
-        couplings_.push_back({row, column, at, static_cast<int>(found - momentum.columns.begin())});
+        couplings_.push_back({row, column, at, position(v, u)});
       }
   }
 
   /// momentum += the present values.
-  void add_to(RegisterBlocks<n, n>& momentum) const {
+  void add_to(SplitBlocks<n>& momentum) const {
     for_each([&](int position, int i, int k, double value) {
-      momentum.values[static_cast<std::size_t>(position) * RegisterBlocks<n, n>::stride + k * lanes + i] +=
-          static_cast<float>(value);
+      momentum.block(position)[k * lanes + i] += static_cast<float>(value);
     });
   }
   /// y -= what these add to the rows of velocities x, n numbers a velocity node.

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "algebra/register_blocks.hpp"
+#include "algebra/split_blocks.hpp"
 #include "base/parallel_for.hpp"
 #include "condensed_solver/interface_shape_derivatives.hpp"
 #include "condensed_solver/velocity_pressure_blocks.hpp"
@@ -33,8 +33,8 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
       : VelocityPressureBlocks<n>(blocks, layout), layout_(layout) {
     make_momentum_pattern();
     make_continuity_pattern();
-    momentum_.values.resize(momentum_.columns.size() * n * lanes);
-    shape_derivatives_ = std::make_unique<InterfaceShapeDerivatives<n>>(blocks, layout, momentum_);
+    shape_derivatives_ = std::make_unique<InterfaceShapeDerivatives<n>>(
+        blocks, layout, [&](int row, int column) { return momentum_.position(row, column); });
     gradient_.resize(gradient_columns_.size() * lanes);
     divergence_.resize(continuity_velocities_.size() * lanes);
     compressibility_.resize(compressibility_columns_.size());
@@ -74,8 +74,8 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   void multiply(const std::vector<float>& x, std::vector<float>& y) const {
     const float* pressure = x.data() + velocity_size();
     parallel_for(layout_.velocities, layout_.velocities > 500, [&](int v) {
-      const Nodal sum = momentum_product(momentum_.offsets[v], momentum_.offsets[v + 1], x.data());
-      store(sum + gradient_product(v, pressure), y.data() + static_cast<std::size_t>(v) * lanes);
+      store(momentum_.row_product(v, x.data()) + gradient_product(v, pressure),
+            y.data() + static_cast<std::size_t>(v) * lanes);
     });
     multiply_continuity(x, y);
   }
@@ -113,8 +113,6 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     shape_derivatives_->subtract_product(x, y);
   }
 
-  /// Blocks begin ... end - 1 of A times x.
-  Nodal momentum_product(int begin, int end, const float* x) const { return momentum_.product(begin, end, x); }
   /// G p of a velocity node.
   Nodal gradient_product(int v, const float* pressure) const {
     Nodal even{}, odd{};
@@ -129,39 +127,33 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     return even + odd;
   }
 
-  /// A by velocity nodes: sparsity, and blocks of n columns of `lanes` numbers.
-  const std::vector<int>& momentum_offsets() const { return momentum_.offsets; }
-  const std::vector<int>& momentum_columns() const { return momentum_.columns; }
-  /// Block `at` of A, columns padded.
-  const float* momentum(int at) const { return momentum_.values.data() + static_cast<std::size_t>(at) * n * lanes; }
+  /// A by velocity nodes.
+  const SplitBlocks<n>& momentum() const { return momentum_; }
   /// G: pressures of each velocity node, one entry per assembled block.
   const std::vector<int>& gradient_offsets() const { return gradient_offsets_; }
   const std::vector<int>& gradient_columns() const { return gradient_columns_; }
   const float* gradient(int at) const { return gradient_.data() + static_cast<std::size_t>(at) * lanes; }
 
   std::size_t bytes() const {
-    return sizeof(float) * (momentum_.values.size() + gradient_.size() + divergence_.size() + compressibility_.size()) +
-           sizeof(int) * (momentum_.columns.size() + gradient_columns_.size() + continuity_velocities_.size() +
-                          compressibility_columns_.size());
+    return momentum_.bytes() + sizeof(float) * (gradient_.size() + divergence_.size() + compressibility_.size()) +
+           sizeof(int) * (gradient_columns_.size() + continuity_velocities_.size() + compressibility_columns_.size());
   }
 
  private:
   void make_momentum_pattern() {
-    momentum_.offsets = {0};
     gradient_offsets_ = {0};
-    std::vector<int> row;
+    std::vector<std::vector<int>> rows(layout_.velocities);
     for (int v = 0; v < layout_.velocities; ++v) {
-      row.clear();
+      auto& row = rows[v];
       for_blocks_of(v, [&](const double*, int u, int p, double) {
         if (u >= 0) row.push_back(u);
         if (p >= 0) gradient_columns_.push_back(p);
       });
       std::sort(row.begin(), row.end());
       row.erase(std::unique(row.begin(), row.end()), row.end());
-      momentum_.columns.insert(momentum_.columns.end(), row.begin(), row.end());
-      momentum_.offsets.push_back(static_cast<int>(momentum_.columns.size()));
       gradient_offsets_.push_back(static_cast<int>(gradient_columns_.size()));
     }
+    momentum_ = SplitBlocks<n>(rows);
   }
 
   void make_continuity_pattern() {
@@ -181,9 +173,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   void fill_momentum() {
 #pragma omp parallel for schedule(static) if (layout_.velocities > 500)
     for (int v = 0; v < layout_.velocities; ++v) {
-      const int begin = momentum_.offsets[v], end = momentum_.offsets[v + 1];
-      std::fill(momentum_.values.begin() + static_cast<std::size_t>(begin) * n * lanes,
-                momentum_.values.begin() + static_cast<std::size_t>(end) * n * lanes, 0.0f);
+      momentum_.clear_row(v);
       int gradient_at = gradient_offsets_[v];
       for_blocks_of(v, [&](const double* block, int u, int p, double factor) {
         if (p >= 0) {
@@ -191,8 +181,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
           for (int i = 0; i < n; ++i) g[i] = static_cast<float>(block[MixedLayout<n>::in_block(i, n)]);
         }
         if (u < 0) return;
-        const auto column = std::lower_bound(momentum_.columns.begin() + begin, momentum_.columns.begin() + end, u);
-        float* a = momentum_.values.data() + static_cast<std::size_t>(column - momentum_.columns.begin()) * n * lanes;
+        float* a = momentum_.block(momentum_.position(v, u));
         for (int i = 0; i < n; ++i)
           for (int k = 0; k < n; ++k)
             a[k * lanes + i] += static_cast<float>(factor * block[MixedLayout<n>::in_block(i, k)]);
@@ -216,7 +205,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   }
 
   const VelocityPressureLayout<n>& layout_;
-  RegisterBlocks<n, n> momentum_;  ///< A
+  SplitBlocks<n> momentum_;  ///< A
   std::unique_ptr<const InterfaceShapeDerivatives<n>> shape_derivatives_;
   std::vector<int> gradient_offsets_, gradient_columns_;
   std::vector<float> gradient_;  ///< `lanes` numbers a block

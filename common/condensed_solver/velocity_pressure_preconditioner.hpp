@@ -40,10 +40,7 @@ class VelocityPressurePreconditioner {
   };
 
   explicit VelocityPressurePreconditioner(const Matrix& matrix, const Options& options = {})
-      : matrix_(matrix),
-        layout_(matrix.layout()),
-        options_(options),
-        chunks_(matrix.momentum_offsets(), matrix.momentum_columns()) {
+      : matrix_(matrix), layout_(matrix.layout()), options_(options), chunks_(matrix.momentum()) {
     make_pressure_pattern();
     inverse_diagonal_.resize(static_cast<std::size_t>(layout_.velocities) * n * lanes);
     for (auto* x : {&velocity_residual_, &velocity_, &sweep_, &sweep_residual_, &upper_part_, &inverse_lumped_})
@@ -104,10 +101,11 @@ class VelocityPressurePreconditioner {
     apply(r, z);
     const bool once = options_.momentum_sweeps == 1 && !coarse_;
     const std::vector<float>&x = once ? velocity_ : sweep_, &left = once ? velocity_residual_ : sweep_residual_;
+    const SplitBlocks<n>& momentum = matrix_.momentum();
     parallel_for(layout_.velocities, layout_.velocities > 500, [&](int v) {
       const std::size_t at = static_cast<std::size_t>(v) * lanes;
-      const Nodal lower = matrix_.momentum_product(matrix_.momentum_offsets()[v], chunks_.diagonal[v] + 1, x.data());
-      const Nodal beyond = matrix_.momentum_product(chunks_.last[v], matrix_.momentum_offsets()[v + 1], x.data());
+      const Nodal lower = momentum.lower.product(momentum.lower_begin(v), momentum.lower_end(v), x.data());
+      const Nodal beyond = momentum.upper.product(chunks_.last[v], momentum.upper_end(v), x.data());
       Matrix::store(Matrix::load(r.data() + at) - Matrix::load(left.data() + at) +
                         Matrix::load(upper_part_.data() + at) + lower + beyond,
                     product.data() + at);
@@ -236,23 +234,23 @@ class VelocityPressurePreconditioner {
   void find_sweep_residual() {
     parallel_for(layout_.velocities, layout_.velocities > 2000, [&](int v) {
       const std::size_t at = static_cast<std::size_t>(v) * lanes;
-      const Nodal product =
-          matrix_.momentum_product(matrix_.momentum_offsets()[v], matrix_.momentum_offsets()[v + 1], velocity_.data());
-      Matrix::store(Matrix::load(velocity_residual_.data() + at) - product, sweep_residual_.data() + at);
+      Matrix::store(Matrix::load(velocity_residual_.data() + at) - matrix_.momentum().row_product(v, velocity_.data()),
+                    sweep_residual_.data() + at);
     });
   }
 
   /// x = (D/w + U)^-1 (2/w - 1) D (D/w + L)^-1 r within chunks, w being the relaxation and D the diagonal blocks;
   /// upper_part_ = U x.
   void symmetric_sweep(const std::vector<float>& r, std::vector<float>& x) {
+    const SplitBlocks<n>& momentum = matrix_.momentum();
     chunks_.forward([&](int v) {  // x = (D/w + L)^-1 r
       const std::size_t at = static_cast<std::size_t>(v) * lanes;
-      const Nodal before = matrix_.momentum_product(chunks_.first[v], chunks_.diagonal[v], x.data());
+      const Nodal before = momentum.lower.product(chunks_.first[v], chunks_.diagonal[v], x.data());
       Matrix::store(relaxation_ * solve_diagonal(v, Matrix::load(r.data() + at) - before), x.data() + at);
     });
     chunks_.backward([&](int v) {  // x = (2 - w) x - w D^-1 U x
       const std::size_t at = static_cast<std::size_t>(v) * lanes;
-      const Nodal after = matrix_.momentum_product(chunks_.diagonal[v] + 1, chunks_.last[v], x.data());
+      const Nodal after = momentum.upper.product(momentum.upper_begin(v), chunks_.last[v], x.data());
       Matrix::store(after, upper_part_.data() + at);
       Matrix::store((2 - relaxation_) * Matrix::load(x.data() + at) - relaxation_ * solve_diagonal(v, after),
                     x.data() + at);

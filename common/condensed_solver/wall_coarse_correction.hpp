@@ -30,12 +30,11 @@ class WallCoarseCorrection {
     auto graph = std::make_shared<NodeGraph>();
     graph->offsets.push_back(0);
     for (int v : nodes_) {
-      for (int at = matrix.momentum_offsets()[v]; at < matrix.momentum_offsets()[v + 1]; ++at) {
-        const int u = matrix.momentum_columns()[at];
-        if (number[u] < 0) continue;
-        positions_.push_back(at);
+      matrix.momentum().for_row(v, [&](int u, int position) {
+        if (number[u] < 0) return;
+        positions_.push_back(position);
         graph->columns.push_back(number[u]);
-      }
+      });
       graph->offsets.push_back(static_cast<int>(graph->columns.size()));
     }
     stiffness_ = BlockMatrix<n, n>(graph);
@@ -46,7 +45,7 @@ class WallCoarseCorrection {
   /// Takes the present values of the matrix.
   void set_up(const typename RigidMotionMultigrid<n>::Options& options) {
     for (std::size_t at = 0; at < positions_.size(); ++at) {
-      const float* from = matrix_.momentum(positions_[at]);
+      const float* from = matrix_.momentum().block(positions_[at]);
       double* to = stiffness_.block(static_cast<int>(at));
       for (int i = 0; i < n; ++i)
         for (int k = 0; k < n; ++k) to[i * n + k] = from[k * lanes + i];

@@ -34,7 +34,7 @@ VelocityPressureSystem<n>::VelocityPressureSystem(const JacobianBlocks<n>& block
         }
         return pattern;
       }()),
-      shape_derivatives_(blocks, layout, pattern_),
+      shape_derivatives_(blocks, layout, [this](int row, int column) { return pattern_.position(row, column); }),
       row_scale_(petsc_vector(communicator_, shared_.pressure_rows)),
       x_velocities_(velocity_view()),
       x_pressures_(pressure_view()),
@@ -119,16 +119,14 @@ void VelocityPressureSystem<n>::fill_momentum() {
   petsc_check(MatZeroEntries(momentum_));
   {
     const MatrixArrays arrays(momentum_);
-    const auto block_of = [&](std::ptrdiff_t position) {
+    const auto block_of = [&](int position) {
       return (shared_.owns_velocity[pattern_.columns[position]] ? arrays.own() : arrays.other()) +
              block_at_[position] * n * n;
     };
     for (const int v : shared_.own_velocities) {
-      const auto begin = pattern_.columns.begin() + pattern_.offsets[v],
-                 end = pattern_.columns.begin() + pattern_.offsets[v + 1];
       blocks_.for_blocks_of(v, [&](const double* block, int u, int, double factor) {
         if (u < 0) return;
-        double* a = block_of(std::lower_bound(begin, end, u) - pattern_.columns.begin());
+        double* a = block_of(pattern_.position(v, u));
         for (int i = 0; i < n; ++i)
           for (int k = 0; k < n; ++k) a[k * n + i] += factor * block[MixedLayout<n>::in_block(i, k)];
       });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -71,7 +72,11 @@ class VelocityPressureSystem {
  private:
   /// A's blocks in this process's rows, by velocities of the layout; columns ascend in a row.
   struct Pattern {
-    std::vector<int> offsets, columns;
+    std::vector<int> offsets, columns;  ///< ascending in each row
+    int position(int row, int column) const {
+      const auto found = std::lower_bound(columns.begin() + offsets[row], columns.begin() + offsets[row + 1], column);
+      return static_cast<int>(found - columns.begin());
+    }
   };
 
   void make_momentum();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "algebra/node_graph.hpp"
+#include "algebra/split_blocks.hpp"
 #include "base/parallel_for.hpp"
 #include "base/threads.hpp"
 
@@ -49,27 +50,48 @@ struct SweepChunks {
   SweepChunks() = default;
   /// \param offsets, columns  sparsity by rows, columns ascending, every diagonal entry present
   SweepChunks(const std::vector<int>& offsets, const std::vector<int>& columns) {
-    const int size = static_cast<int>(offsets.size()) - 1;
-    const int parts = size < count * smallest ? 1 : count;
-    for (int c = 0; c <= parts; ++c) begin.push_back(static_cast<int>(static_cast<long long>(size) * c / parts));
-    for (int c = 0; c < parts; ++c) longest = std::max(longest, begin[c + 1] - begin[c]);
-    first.resize(size);
-    diagonal.resize(size);
-    last.resize(size);
-    for (int c = 0; c < parts; ++c)
-      for (int row = begin[c]; row < begin[c + 1]; ++row) {
-        int at = offsets[row];
-        while (columns[at] < begin[c]) ++at;
-        first[row] = at;
-        while (columns[at] < row) ++at;
-        assert(at < offsets[row + 1] && columns[at] == row);
-        diagonal[row] = at;
-        while (at < offsets[row + 1] && columns[at] < begin[c + 1]) ++at;
-        last[row] = at;
-      }
+    divide(static_cast<int>(offsets.size()) - 1);
+    for_rows([&](int row, int from, int to) {
+      int at = offsets[row];
+      while (columns[at] < from) ++at;
+      first[row] = at;
+      while (columns[at] < row) ++at;
+      assert(at < offsets[row + 1] && columns[at] == row);
+      diagonal[row] = at;
+      while (at < offsets[row + 1] && columns[at] < to) ++at;
+      last[row] = at;
+    });
+  }
+  /// Of triangles: `first` and `diagonal` are positions in the lower one, `last` in the upper one.
+  template <int n>
+  explicit SweepChunks(const SplitBlocks<n>& a) {
+    divide(a.rows());
+    for_rows([&](int row, int from, int to) {
+      int at = a.lower_begin(row);
+      while (a.lower.columns[at] < from) ++at;
+      first[row] = at;
+      diagonal[row] = a.lower_end(row) - 1;
+      assert(a.lower.columns[diagonal[row]] == row);
+      at = a.upper_begin(row);
+      while (at < a.upper_end(row) && a.upper.columns[at] < to) ++at;
+      last[row] = at;
+    });
   }
 
  private:
+  void divide(int size) {
+    const int parts = size < count * smallest ? 1 : count;
+    for (int c = 0; c <= parts; ++c) begin.push_back(static_cast<int>(static_cast<long long>(size) * c / parts));
+    for (int c = 0; c < parts; ++c) longest = std::max(longest, begin[c + 1] - begin[c]);
+    for (auto* positions : {&first, &diagonal, &last}) positions->resize(size);
+  }
+  /// Calls visit(row, first row of its chunk, first row of the next).
+  template <class Visit>
+  void for_rows(Visit visit) const {
+    for (int c = 0; c < chunks(); ++c)
+      for (int row = begin[c]; row < begin[c + 1]; ++row) visit(row, begin[c], begin[c + 1]);
+  }
+
   /// Two chunks where every thread then still has some.
   int chunks_together() const { return 2 * threads() <= chunks() ? 2 : 1; }
 

@@ -3,6 +3,7 @@
 
 #include "algebra/block_products.hpp"
 #include "algebra/register_blocks.hpp"
+#include "algebra/split_blocks.hpp"
 
 namespace fsi::test {
 
@@ -63,6 +64,43 @@ TEST(RegisterBlocks, MultiplyAsTheirBlocksDo) {
   check_register_blocks<2>();
   check_register_blocks<3>();
   check_register_blocks<6>();
+}
+
+/// Blocks of a row in one half or the other, found again, and together the row.
+TEST(SplitBlocks, HoldWhatTheWholeHolds) {
+  const std::vector<std::vector<int>> rows{{0}, {0, 1, 3}, {2}, {0, 2, 3, 4}, {1, 4}};
+  SplitBlocks<3> a(rows);
+  ASSERT_EQ(a.rows(), 5);
+  std::vector<float> x(5 * padded<3>, 0.0f);
+  for (int node = 0; node < 5; ++node)
+    for (int k = 0; k < 3; ++k) x[node * padded<3> + k] = static_cast<float>(node * 3 + k - 4);
+  const auto number = [](int row, int column, int i, int k) {
+    return static_cast<float>(7 * row + 5 * column + i - k);
+  };
+  for (int row = 0; row < 5; ++row)
+    for (const int column : rows[row])
+      for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k) a.block(a.position(row, column))[k * padded<3> + i] = number(row, column, i, k);
+  EXPECT_EQ(a.lower.columns, (std::vector<int>{0, 0, 1, 2, 0, 2, 3, 1, 4}));
+  EXPECT_EQ(a.upper.columns, (std::vector<int>{4, 3}));  // of rows 3 and 1: the last row comes first
+  for (int row = 0; row < 5; ++row) {
+    std::vector<int> columns;
+    a.for_row(row, [&](int column, int position) {
+      columns.push_back(column);
+      EXPECT_EQ(position, a.position(row, column));
+    });
+    EXPECT_EQ(columns, rows[row]);
+    const auto product = a.row_product(row, x.data());
+    for (int i = 0; i < 3; ++i) {
+      float sum = 0;
+      for (const int column : rows[row])
+        for (int k = 0; k < 3; ++k) sum += number(row, column, i, k) * x[column * padded<3> + k];
+      EXPECT_EQ(product[i], sum) << row;
+    }
+  }
+  a.clear_row(3);
+  for (int row = 0; row < 5; ++row)
+    a.for_row(row, [&](int, int position) { EXPECT_EQ(a.block(position)[1] == 0, row == 3) << row; });
 }
 
 }  // namespace

@@ -13,11 +13,19 @@ namespace fsi::test {
 
 namespace {
 
-/// Of a tridiagonal matrix.
+/// Columns of a tridiagonal matrix.
+std::vector<std::vector<int>> tridiagonal(int rows) {
+  std::vector<std::vector<int>> columns(rows);
+  for (int row = 0; row < rows; ++row)
+    for (int column = std::max(0, row - 1); column <= std::min(rows - 1, row + 1); ++column)
+      columns[row].push_back(column);
+  return columns;
+}
+
 SweepChunks chunks_of(int rows) {
   std::vector<int> offsets{0}, columns;
-  for (int row = 0; row < rows; ++row) {
-    for (int column = std::max(0, row - 1); column <= std::min(rows - 1, row + 1); ++column) columns.push_back(column);
+  for (const auto& row : tridiagonal(rows)) {
+    columns.insert(columns.end(), row.begin(), row.end());
     offsets.push_back(static_cast<int>(columns.size()));
   }
   return SweepChunks(offsets, columns);
@@ -50,6 +58,21 @@ TEST(SweepChunks, SeeEachRowOnceAndAfterItsNeighbourInTheChunk) {
     }
   }
   set_threads(0);
+}
+
+/// The same couplings within chunks, wherever they are stored.
+TEST(SweepChunks, OfTrianglesAreThoseOfTheWhole) {
+  for (const int size : {1, 7, 3203}) {
+    const SweepChunks whole = chunks_of(size);
+    const SplitBlocks<2> split(tridiagonal(size));
+    const SweepChunks chunks(split);
+    EXPECT_EQ(chunks.begin, whole.begin);
+    for (int row = 0; row < size; ++row) {
+      EXPECT_EQ(chunks.diagonal[row] - chunks.first[row], whole.diagonal[row] - whole.first[row]) << row;
+      EXPECT_EQ(split.lower.columns[chunks.diagonal[row]], row);
+      EXPECT_EQ(chunks.last[row] - split.upper_begin(row), whole.last[row] - whole.diagonal[row] - 1) << row;
+    }
+  }
 }
 
 }  // namespace
