@@ -1,7 +1,5 @@
 #include "condensed_solver/fast_solver.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -186,10 +184,7 @@ const char* FastSolver<n>::preparation() {
 
 template <int n>
 std::string FastSolver<n>::decides() const {
-  if (!judge_) return "";
-  return fmt::format(
-      "each Jacobian is iterated on where its wall's stiffness is below {:g} times its inertia, else factorised",
-      FastOptions::judged_below);
+  return judge_ ? PlaneJudge<n>::says() : "";
 }
 
 template <int n>

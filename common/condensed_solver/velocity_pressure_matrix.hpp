@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "algebra/split_blocks.hpp"
@@ -29,8 +30,13 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   static Nodal load(const float* from) { return fsi::load<n>(from); }
   static void store(Nodal x, float* to) { fsi::store<n>(x, to); }
 
-  VelocityPressureMatrix(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout)
-      : VelocityPressureBlocks<n>(blocks, layout), layout_(layout) {
+  /// \param owns_velocity, owns_pressure  whether each has rows here; empty: all have. Those of others are zero.
+  VelocityPressureMatrix(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout,
+                         std::vector<char> owns_velocity = {}, std::vector<char> owns_pressure = {})
+      : VelocityPressureBlocks<n>(blocks, layout),
+        layout_(layout),
+        owns_velocity_(std::move(owns_velocity)),
+        owns_pressure_(std::move(owns_pressure)) {
     make_momentum_pattern();
     make_continuity_pattern();
     shape_derivatives_ = std::make_unique<InterfaceShapeDerivatives<n>>(
@@ -140,15 +146,20 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   }
 
  private:
+  static bool has_rows(const std::vector<char>& owns, int i) { return owns.empty() || owns[i]; }
+
   void make_momentum_pattern() {
     gradient_offsets_ = {0};
     std::vector<std::vector<int>> rows(layout_.velocities);
     for (int v = 0; v < layout_.velocities; ++v) {
       auto& row = rows[v];
-      for_blocks_of(v, [&](const double*, int u, int p, double) {
-        if (u >= 0) row.push_back(u);
-        if (p >= 0) gradient_columns_.push_back(p);
-      });
+      if (has_rows(owns_velocity_, v))
+        for_blocks_of(v, [&](const double*, int u, int p, double) {
+          if (u >= 0) row.push_back(u);
+          if (p >= 0) gradient_columns_.push_back(p);
+        });
+      else
+        row.push_back(v);
       std::sort(row.begin(), row.end());
       row.erase(std::unique(row.begin(), row.end()), row.end());
       gradient_offsets_.push_back(static_cast<int>(gradient_columns_.size()));
@@ -160,11 +171,12 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     continuity_offsets_ = {0};
     compressibility_offsets_ = {0};
     for (int p = 0; p < layout_.pressures; ++p) {
-      for_blocks_of_node(layout_.wall_pressure[p], layout_.node_of_pressure[p],
-                         [&](const double*, int v, int q, double) {
-                           continuity_velocities_.push_back(std::max(v, 0));  // without one zeros are stored
-                           if (q >= 0) compressibility_columns_.push_back(q);
-                         });
+      if (has_rows(owns_pressure_, p))
+        for_blocks_of_node(layout_.wall_pressure[p], layout_.node_of_pressure[p],
+                           [&](const double*, int v, int q, double) {
+                             continuity_velocities_.push_back(std::max(v, 0));  // without one zeros are stored
+                             if (q >= 0) compressibility_columns_.push_back(q);
+                           });
       continuity_offsets_.push_back(static_cast<int>(continuity_velocities_.size()));
       compressibility_offsets_.push_back(static_cast<int>(compressibility_columns_.size()));
     }
@@ -174,6 +186,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
 #pragma omp parallel for schedule(static) if (layout_.velocities > 500)
     for (int v = 0; v < layout_.velocities; ++v) {
       momentum_.clear_row(v);
+      if (!has_rows(owns_velocity_, v)) continue;
       int gradient_at = gradient_offsets_[v];
       for_blocks_of(v, [&](const double* block, int u, int p, double factor) {
         if (p >= 0) {
@@ -192,6 +205,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   void fill_continuity() {
 #pragma omp parallel for schedule(static) if (layout_.pressures > 500)
     for (int p = 0; p < layout_.pressures; ++p) {
+      if (!has_rows(owns_pressure_, p)) continue;
       int at = continuity_offsets_[p], compressibility_at = compressibility_offsets_[p];
       for_blocks_of_node(
           layout_.wall_pressure[p], layout_.node_of_pressure[p], [&](const double* block, int v, int q, double factor) {
@@ -205,6 +219,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   }
 
   const VelocityPressureLayout<n>& layout_;
+  std::vector<char> owns_velocity_, owns_pressure_;
   SplitBlocks<n> momentum_;  ///< A
   std::unique_ptr<const InterfaceShapeDerivatives<n>> shape_derivatives_;
   std::vector<int> gradient_offsets_, gradient_columns_;

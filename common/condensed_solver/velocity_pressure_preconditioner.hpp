@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -9,10 +8,10 @@
 #include "base/parallel_for.hpp"
 #include "condensed_solver/block_preconditioner_choices.hpp"
 #include "condensed_solver/momentum_diagonals.hpp"
+#include "condensed_solver/momentum_sweep.hpp"
 #include "condensed_solver/schur_complement_inverse.hpp"
 #include "condensed_solver/velocity_pressure_matrix.hpp"
 #include "condensed_solver/wall_coarse_correction.hpp"
-#include "solvers/smoothed_aggregation/sweep_chunks.hpp"
 
 namespace fsi {
 
@@ -40,10 +39,9 @@ class VelocityPressurePreconditioner {
   };
 
   explicit VelocityPressurePreconditioner(const Matrix& matrix, const Options& options = {})
-      : matrix_(matrix), layout_(matrix.layout()), options_(options), chunks_(matrix.momentum()) {
+      : matrix_(matrix), layout_(matrix.layout()), options_(options), gauss_seidel_(matrix.momentum()) {
     make_pressure_pattern();
-    inverse_diagonal_.resize(static_cast<std::size_t>(layout_.velocities) * n * lanes);
-    for (auto* x : {&velocity_residual_, &velocity_, &sweep_, &sweep_residual_, &upper_part_, &inverse_lumped_})
+    for (auto* x : {&velocity_residual_, &velocity_, &sweep_, &sweep_residual_, &inverse_lumped_})
       x->resize(matrix.velocity_size());
     pressure_residual_.resize(layout_.pressures);
     pressure_.resize(layout_.pressures);
@@ -67,7 +65,7 @@ class VelocityPressurePreconditioner {
       if (!coarse_) coarse_ = std::make_unique<WallCoarseCorrection<n>>(matrix_);
       coarse_->set_up(options_.wall);
     }
-    relaxation_ = static_cast<float>(options_.relaxation(wall_stiffness()));
+    gauss_seidel_.set_relaxation(options_.relaxation(wall_stiffness()));
     fill_schur_complement();
     if (const double factor = options_.wall_diagonal_factor(wall_stiffness(), has_few_pressures()); factor != 1)
       scale_wall_diagonal(factor);
@@ -101,13 +99,9 @@ class VelocityPressurePreconditioner {
     apply(r, z);
     const bool once = options_.momentum_sweeps == 1 && !coarse_;
     const std::vector<float>&x = once ? velocity_ : sweep_, &left = once ? velocity_residual_ : sweep_residual_;
-    const SplitBlocks<n>& momentum = matrix_.momentum();
     parallel_for(layout_.velocities, layout_.velocities > 500, [&](int v) {
       const std::size_t at = static_cast<std::size_t>(v) * lanes;
-      const Nodal lower = momentum.lower.product(momentum.lower_begin(v), momentum.lower_end(v), x.data());
-      const Nodal beyond = momentum.upper.product(chunks_.last[v], momentum.upper_end(v), x.data());
-      Matrix::store(Matrix::load(r.data() + at) - Matrix::load(left.data() + at) +
-                        Matrix::load(upper_part_.data() + at) + lower + beyond,
+      Matrix::store(Matrix::load(r.data() + at) - Matrix::load(left.data() + at) + gauss_seidel_.product(v, x.data()),
                     product.data() + at);
     });
     matrix_.multiply_continuity(z, product);
@@ -115,7 +109,7 @@ class VelocityPressurePreconditioner {
 
   const SchurComplementInverse& inverse_schur() const { return inverse_schur_; }
   std::size_t bytes() const {
-    return sizeof(float) * (inverse_diagonal_.size() + 6 * velocity_.size()) + 8 * diagonals_.inverse().size() +
+    return gauss_seidel_.bytes() + sizeof(float) * 6 * velocity_.size() + 8 * diagonals_.inverse().size() +
            schur_.bytes() + inverse_schur_.bytes() + (coarse_ ? coarse_->bytes() : 0);
   }
 
@@ -159,12 +153,8 @@ class VelocityPressurePreconditioner {
 
   /// A's block diagonal, inverted, and what is made of its diagonals.
   void fill_diagonals() {
-    diagonals_.fill(matrix_, has_few_pressures(), [&](int v, const Eigen::Matrix<double, n, n>& diagonal) {
-      const Eigen::Matrix<double, n, n> inverse = diagonal.inverse();
-      float* to = inverse_diagonal_.data() + static_cast<std::size_t>(v) * n * lanes;
-      for (int k = 0; k < n; ++k)
-        for (int i = 0; i < lanes; ++i) to[k * lanes + i] = i < n ? static_cast<float>(inverse(i, k)) : 0.0f;
-    });
+    diagonals_.fill(matrix_, has_few_pressures(),
+                    [&](int v, const auto& diagonal) { gauss_seidel_.set_diagonal(v, diagonal); });
     for (int v = 0; v < layout_.velocities; ++v)
       for (int k = 0; k < n; ++k)
         inverse_lumped_[static_cast<std::size_t>(v) * lanes + k] =
@@ -217,7 +207,7 @@ class VelocityPressurePreconditioner {
   /// velocity_ = approximate A^-1 velocity_residual_: symmetric sweeps, and where the wall is stiff its coarse correction
   /// and sweeps again.
   void solve_momentum() {
-    symmetric_sweep(velocity_residual_, velocity_);
+    gauss_seidel_.apply(velocity_residual_, velocity_);
     for (int sweep = 1; sweep < options_.momentum_sweeps; ++sweep) sweep_again();
     if (!coarse_) return;
     find_sweep_residual();
@@ -227,7 +217,7 @@ class VelocityPressurePreconditioner {
 
   void sweep_again() {
     find_sweep_residual();
-    symmetric_sweep(sweep_residual_, sweep_);
+    gauss_seidel_.apply(sweep_residual_, sweep_);
     for (std::size_t i = 0; i < velocity_.size(); ++i) velocity_[i] += sweep_[i];
   }
 
@@ -239,44 +229,16 @@ class VelocityPressurePreconditioner {
     });
   }
 
-  /// x = (D/w + U)^-1 (2/w - 1) D (D/w + L)^-1 r within chunks, w being the relaxation and D the diagonal blocks;
-  /// upper_part_ = U x.
-  void symmetric_sweep(const std::vector<float>& r, std::vector<float>& x) {
-    const SplitBlocks<n>& momentum = matrix_.momentum();
-    chunks_.forward([&](int v) {  // x = (D/w + L)^-1 r
-      const std::size_t at = static_cast<std::size_t>(v) * lanes;
-      const Nodal before = momentum.lower.product(chunks_.first[v], chunks_.diagonal[v], x.data());
-      Matrix::store(relaxation_ * solve_diagonal(v, Matrix::load(r.data() + at) - before), x.data() + at);
-    });
-    chunks_.backward([&](int v) {  // x = (2 - w) x - w D^-1 U x
-      const std::size_t at = static_cast<std::size_t>(v) * lanes;
-      const Nodal after = momentum.upper.product(momentum.upper_begin(v), chunks_.last[v], x.data());
-      Matrix::store(after, upper_part_.data() + at);
-      Matrix::store((2 - relaxation_) * Matrix::load(x.data() + at) - relaxation_ * solve_diagonal(v, after),
-                    x.data() + at);
-    });
-  }
-  /// D^-1 r of a node.
-  Nodal solve_diagonal(int v, Nodal r) const {
-    const float* inverse = inverse_diagonal_.data() + static_cast<std::size_t>(v) * n * lanes;
-    Nodal sum{};
-    for (int k = 0; k < n; ++k) sum += Matrix::load(inverse + k * lanes) * r[k];
-    return sum;
-  }
-
   const Matrix& matrix_;
   const VelocityPressureLayout<n>& layout_;
   Options options_;
-  float relaxation_ = 1;
   std::unique_ptr<WallCoarseCorrection<n>> coarse_;  ///< null where sweeps do
-  SweepChunks chunks_;
-  std::vector<float> inverse_diagonal_;  ///< n columns of `lanes` numbers a node
-  MomentumDiagonals<n> diagonals_;       ///< D^-1
-  std::vector<float> inverse_lumped_;    ///< the same in this layout
+  MomentumSweep<n> gauss_seidel_;
+  MomentumDiagonals<n> diagonals_;     ///< D^-1
+  std::vector<float> inverse_lumped_;  ///< the same in this layout
   CsrMatrix<double> schur_;
   SchurComplementInverse inverse_schur_;
   std::vector<float> velocity_residual_, velocity_, sweep_, sweep_residual_, pressure_residual_, pressure_;
-  std::vector<float> upper_part_;  ///< U x of the last sweep
 };
 
 }  // namespace fsi

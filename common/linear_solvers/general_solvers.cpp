@@ -7,9 +7,9 @@
 #include "base/error.hpp"
 #include "condensed_solver/fast_solver.hpp"
 #include "fem/dimensions.hpp"
+#include "linear_solvers/judged_on_processes.hpp"
 #include "petsc_solver/petsc_factories.hpp"
 #include "petsc_solver/small_systems.hpp"
-#include "system/central_direct_solver.hpp"
 #include "system/direct_linear_solver.hpp"
 
 namespace fsi {
@@ -22,8 +22,11 @@ using Blocks = JacobianBlocks<n>;
 template <int n>
 std::unique_ptr<LinearSolver> make_fast(const Blocks<n>& blocks, const FastOptions& fast) {
   if (blocks.numbering.processes->is_alone()) return std::make_unique<FastSolver<n>>(blocks, fast);
-  if (is_factorised_at_first(blocks.numbering.whole_size(), n, fast))
+  const auto unknowns = blocks.numbering.whole_size();
+  if (is_factorised_at_first(unknowns, n, fast)) {
+    if (blocks.coupled() && fast.are_judged(n, unknowns)) return std::make_unique<JudgedOnProcesses<n>>(blocks, fast);
     return std::make_unique<CentralDirectSolver<n>>(blocks);
+  }
   return make_petsc_solver<n>(blocks, fast);
 }
 
@@ -89,7 +92,11 @@ std::string other_solver_on_processes(const std::string& name, const FastOptions
     const std::string other = "linear_solver = \"petsc\" in place of \"fast\", which works on one process";
     const auto bound = factorised_at_first_below(dimension, fast);
     return bound == 0 ? other
-                      : fmt::format("{}; systems below {} unknowns are factorised at the first process", other, bound);
+                      : fmt::format("{}; systems below {} unknowns are factorised at the first process{}", other, bound,
+                                    fast.are_judged(dimension, bound - 1)
+                                        ? fmt::format(", but for coupled ones from {} on that the wall decides about",
+                                                      FastOptions::judged_from)
+                                        : "");
   }
   if (name == "direct") return "linear_solver = \"direct\" factorises by MUMPS, since UMFPACK works on one process";
   return "";

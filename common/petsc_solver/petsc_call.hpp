@@ -65,6 +65,7 @@ class PetscOwned {
 using OwnedMat = PetscOwned<Mat, MatDestroy>;
 using OwnedVec = PetscOwned<Vec, VecDestroy>;
 using OwnedKsp = PetscOwned<KSP, KSPDestroy>;
+using OwnedScatter = PetscOwned<VecScatter, VecScatterDestroy>;
 
 /// A vector with this many entries here; its numbers are in an array of others (VecPlaceArray) or its own.
 OwnedVec petsc_view(MPI_Comm communicator, PetscInt entries);

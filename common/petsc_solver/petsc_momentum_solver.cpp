@@ -5,6 +5,10 @@
 
 namespace fsi {
 
+namespace {
+constexpr const char* options_prefix = "fsi_velocity_";
+}
+
 template <int n>
 struct PetscMomentumSolver<n>::WallLevels {
   bool smoothed;
@@ -14,17 +18,26 @@ struct PetscMomentumSolver<n>::WallLevels {
 };
 
 template <int n>
+PetscMomentumSolver<n>::PetscMomentumSolver(VelocityPressureSystem<n>& system)
+    : system_(system), by_petsc_(has_petsc_options(options_prefix)) {}
+
+template <int n>
 void PetscMomentumSolver<n>::set_up(const BlockPreconditionerChoices& choices) {
   const double stiffness = system_.diagonals().stiffness();
   const bool wall_levels = choices.has_coarse_levels(stiffness);
+  system_.products().set_up(choices, stiffness);
   if (!wall_levels) wall_.reset();
+  if (!wall_levels && !by_petsc_) {
+    solver_.reset();
+    return;
+  }
   if (!solver_ || around_wall_ != wall_levels) make_sweeps(wall_levels);
   if (wall_levels) set_up_wall(choices.smooths_aggregates(stiffness));
   for (PC sweep : sweeps_) {
     PetscBool is_sweep = PETSC_FALSE;
     petsc_check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(sweep), PCSOR, &is_sweep));
     PetscBool set = PETSC_FALSE;
-    petsc_check(PetscOptionsHasName(nullptr, "fsi_velocity_", "-pc_sor_its", &set));
+    petsc_check(PetscOptionsHasName(nullptr, options_prefix, "-pc_sor_its", &set));
     if (is_sweep && !set) petsc_check(PCSORSetIterations(sweep, choices.momentum_sweeps, 1));
   }
   petsc_check(KSPSetOperators(solver_, system_.momentum(), system_.momentum()));
@@ -36,21 +49,21 @@ void PetscMomentumSolver<n>::make_sweeps(bool wall_levels) {
   around_wall_ = wall_levels;
   sweeps_.clear();
   petsc_check(KSPCreate(system_.communicator(), solver_.fresh()));
-  petsc_check(KSPSetOptionsPrefix(solver_, "fsi_velocity_"));
+  petsc_check(KSPSetOptionsPrefix(solver_, options_prefix));
   petsc_check(KSPSetType(solver_, KSPPREONLY));
   petsc_check(KSPSetOperators(solver_, system_.momentum(), system_.momentum()));
   PC pc = nullptr;
   petsc_check(KSPGetPC(solver_, &pc));
   if (!wall_levels) {
-    petsc_check(PCSetType(pc, PCSOR));
-    petsc_check(PCSORSetSymmetric(pc, SOR_LOCAL_SYMMETRIC_SWEEP));
+    make_sweep(pc);
     petsc_check(KSPSetFromOptions(solver_));
     sweeps_ = {pc};
     return;
   }
   petsc_check(PCSetType(pc, PCCOMPOSITE));
   petsc_check(PCCompositeSetType(pc, PC_COMPOSITE_MULTIPLICATIVE));
-  for (const char* type : {PCSOR, PCSHELL, PCSOR}) petsc_check(PCCompositeAddPCType(pc, type));
+  const char* const sweep = by_petsc_ ? PCSOR : PCSHELL;
+  for (const char* type : {sweep, PCSHELL, sweep}) petsc_check(PCCompositeAddPCType(pc, type));
   for (const PetscInt i : {0, 1, 2}) {
     PC part = nullptr;
     petsc_check(PCCompositeGetPC(pc, i, &part));
@@ -59,11 +72,32 @@ void PetscMomentumSolver<n>::make_sweeps(bool wall_levels) {
       petsc_check(PCShellSetApply(part, apply_wall));
       continue;
     }
-    petsc_check(PCSORSetSymmetric(part, SOR_LOCAL_SYMMETRIC_SWEEP));
-    petsc_check(PCSetOptionsPrefix(part, "fsi_velocity_"));
+    make_sweep(part);
+    petsc_check(PCSetOptionsPrefix(part, options_prefix));
     petsc_check(PCSetFromOptions(part));
     sweeps_.push_back(part);
   }
+}
+
+template <int n>
+void PetscMomentumSolver<n>::make_sweep(PC pc) {
+  if (by_petsc_) {
+    petsc_check(PCSetType(pc, PCSOR));
+    petsc_check(PCSORSetSymmetric(pc, SOR_LOCAL_SYMMETRIC_SWEEP));
+    return;
+  }
+  petsc_check(PCSetType(pc, PCSHELL));
+  petsc_check(PCShellSetContext(pc, &system_.products()));
+  petsc_check(PCShellSetApply(pc, apply_sweeps));
+  petsc_check(PCShellSetName(pc, "symmetric Gauss-Seidel within each process, single precision"));
+}
+
+template <int n>
+PetscErrorCode PetscMomentumSolver<n>::apply_sweeps(PC shell, Vec x, Vec y) {
+  void* context = nullptr;
+  if (const auto code = PCShellGetContext(shell, &context); code != 0) return code;
+  static_cast<SharedProducts<n>*>(context)->sweep(x, y);
+  return 0;
 }
 
 template <int n>
@@ -141,7 +175,10 @@ PetscErrorCode PetscMomentumSolver<n>::apply_wall(PC shell, Vec x, Vec y) {
 
 template <int n>
 void PetscMomentumSolver<n>::apply(Vec residual, Vec velocities) {
-  petsc_check(KSPSolve(solver_, residual, velocities));
+  if (!solver_)
+    system_.products().sweep(residual, velocities);
+  else
+    petsc_check(KSPSolve(solver_, residual, velocities));
 }
 
 #define FSI_INSTANTIATE(n) template class PetscMomentumSolver<n>;

@@ -12,6 +12,7 @@
 #include "petsc_solver/petsc_momentum_solver.hpp"
 #include "petsc_solver/petsc_options.hpp"
 #include "petsc_solver/velocity_pressure_system.hpp"
+#include "solvers/krylov/single_gmres.hpp"
 
 namespace fsi {
 
@@ -29,7 +30,8 @@ std::unique_ptr<MeshExtension<n>> make_extension(const JacobianBlocks<n>& blocks
 template <int n>
 struct PetscSolver<n>::Iterative {
   /// Pressures below which S is factorised: half the iterations, and a solve takes no longer than a cycle.
-  static constexpr double factorised_pressures = 2000;
+  static constexpr double factorised_pressures =
+      BlockPreconditionerChoices::factorises_schur_complement(n) ? 20000 : 2000;
 
   VelocityPressureLayout<n> layout;
   VelocityPressureSystem<n> system;
@@ -117,7 +119,7 @@ struct PetscSolver<n>::Iterative {
   static PetscErrorCode multiply(Mat shell, Vec in, Vec out) {
     void* context = nullptr;
     if (const auto code = MatShellGetContext(shell, &context); code != 0) return code;
-    return guarded([&] { static_cast<Iterative*>(context)->system.multiply(in, out); });
+    return guarded([&] { static_cast<Iterative*>(context)->system.products().multiply(in, out); });
   }
 
   static PetscErrorCode precondition(PC shell, Vec in, Vec out) {
@@ -132,13 +134,14 @@ struct PetscSolver<n>::Iterative {
         of_out(system, out_velocities, out_pressures, out, true);
     system.reduce(in, pressure_residual);
     petsc_check(KSPSolve(pressure, pressure_residual, out_pressures));
-    petsc_check(MatMult(system.gradient(), out_pressures, velocity_residual));
-    petsc_check(VecAYPX(velocity_residual, -1, in_velocities));
+    petsc_check(VecCopy(in_velocities, velocity_residual));
+    system.products().subtract_gradient(out_pressures, velocity_residual);
     momentum.apply(velocity_residual, out_velocities);
   }
 
   /// solution = approximate F^-1 right, see CondensedIteration.
   int solve(const std::vector<double>& right, double tolerance, std::vector<double>& solution) {
+    tolerance = std::max(tolerance, SingleGmres::smallest_tolerance);  // the products' precision
     const auto& shared = system.shared();
     double* to = nullptr;
     petsc_check(VecGetArrayWrite(b, &to));

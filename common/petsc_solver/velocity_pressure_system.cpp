@@ -35,12 +35,8 @@ VelocityPressureSystem<n>::VelocityPressureSystem(const JacobianBlocks<n>& block
         return pattern;
       }()),
       shape_derivatives_(blocks, layout, [this](int row, int column) { return pattern_.position(row, column); }),
-      row_scale_(petsc_vector(communicator_, shared_.pressure_rows)),
-      x_velocities_(velocity_view()),
-      x_pressures_(pressure_view()),
-      y_velocities_(velocity_view()),
-      y_pressures_(pressure_view()) {
-  make_momentum();
+      products_(blocks, layout, shared_, communicator_),
+      row_scale_(petsc_vector(communicator_, shared_.pressure_rows)) {
   make_lists();
 }
 
@@ -76,16 +72,14 @@ void VelocityPressureSystem<n>::make_momentum() {
 
 template <int n>
 void VelocityPressureSystem<n>::make_lists() {
-  std::vector<PetscInt> gradient_rows, gradient_columns, scaled_rows, scaled_columns, rows, columns;
+  std::vector<PetscInt> scaled_rows, scaled_columns, rows, columns;
   for (const int v : shared_.own_velocities)
     blocks_.for_blocks_of(v, [&](const double*, int, int p, double) {
       for (int k = 0; k < n && p >= 0; ++k) {
-        gradient_rows.push_back(shared_.velocity_number[v] * n + k);
         scaled_rows.push_back(shared_.velocity_place[v] + k);
-        gradient_columns.push_back(shared_.pressure_number[p]);
+        scaled_columns.push_back(shared_.pressure_number[p]);
       }
     });
-  scaled_columns = gradient_columns;
   for (const int p : shared_.own_pressures) {
     scaled_rows.push_back(shared_.pressure_place[p]);
     scaled_columns.push_back(shared_.pressure_number[p]);
@@ -101,17 +95,22 @@ void VelocityPressureSystem<n>::make_lists() {
                                });
   }
   continuity_ = {communicator_, shared_.pressure_rows, shared_.rows(), std::move(rows), columns};
-  gradient_ = {communicator_, shared_.velocity_rows, shared_.pressure_rows, std::move(gradient_rows), gradient_columns};
   scaled_gradient_ = {communicator_, shared_.rows(), shared_.pressure_rows, std::move(scaled_rows), scaled_columns};
 }
 
 template <int n>
 void VelocityPressureSystem<n>::fill() {
-  diagonals_.fill(
-      blocks_, has_few_pressures(), [](int, const auto&) {}, shared_.owns_velocity, processes_);
-  fill_momentum();
-  fill_gradient();
+  products_.fill(diagonals_, has_few_pressures(), processes_);
+  momentum_filled_ = false;
+  fill_scaled_gradient();
   fill_continuity();
+}
+
+template <int n>
+Mat VelocityPressureSystem<n>::momentum() {
+  if (!momentum_) make_momentum();
+  if (!std::exchange(momentum_filled_, true)) fill_momentum();
+  return momentum_;
 }
 
 template <int n>
@@ -139,17 +138,14 @@ void VelocityPressureSystem<n>::fill_momentum() {
 }
 
 template <int n>
-void VelocityPressureSystem<n>::fill_gradient() {
-  const auto for_entries = [&](auto work) {
-    for (const int v : shared_.own_velocities)
-      blocks_.for_blocks_of(v, [&](const double* block, int, int p, double) {
-        for (int k = 0; k < n && p >= 0; ++k) work(v, k, block[MixedLayout<n>::in_block(k, n)]);
-      });
-  };
-  gradient_.fill([&](auto add) { for_entries([&](int, int, double g) { add(g); }); });
+void VelocityPressureSystem<n>::fill_scaled_gradient() {
   const auto& inverse = diagonals_.inverse();
   scaled_gradient_.fill([&](auto add) {
-    for_entries([&](int v, int k, double g) { add(-inverse[VectorLayout<n>::vector(v) + k] * g); });
+    for (const int v : shared_.own_velocities)
+      blocks_.for_blocks_of(v, [&](const double* block, int, int p, double) {
+        for (int k = 0; k < n && p >= 0; ++k)
+          add(-inverse[VectorLayout<n>::vector(v) + k] * block[MixedLayout<n>::in_block(k, n)]);
+      });
     for (std::size_t i = 0; i < shared_.own_pressures.size(); ++i) add(1.0);
   });
 }
@@ -203,20 +199,12 @@ void VelocityPressureSystem<n>::reduce(Vec rows, Vec of_pressures) {
     for (int k = 0; k < n; ++k, ++at) to[at] = inverse[VectorLayout<n>::vector(v, k)] * from[at];
   std::fill_n(to + at, shared_.own_pressures.size(), 0.0);
   petsc_check(VecRestoreArrayWrite(predicted_, &to));
-  petsc_check(MatMult(continuity_, predicted_, of_pressures));
+  products_.divergence(predicted_, of_pressures);
   petsc_check(VecGetArray(of_pressures, &to));
   for (std::size_t i = 0; i < shared_.own_pressures.size(); ++i)
     to[i] = layout_.row_scale(shared_.own_pressures[i]) * (from[at + i] - to[i]);
   petsc_check(VecRestoreArray(of_pressures, &to));
   petsc_check(VecRestoreArrayRead(rows, &from));
-}
-
-template <int n>
-void VelocityPressureSystem<n>::multiply(Vec x, Vec y) {
-  const Parts of_x(*this, x_velocities_, x_pressures_, x, false), of_y(*this, y_velocities_, y_pressures_, y, true);
-  petsc_check(MatMult(momentum_, x_velocities_, y_velocities_));
-  petsc_check(MatMultAdd(gradient_, x_pressures_, y_velocities_, y_velocities_));
-  petsc_check(MatMult(continuity_, x, y_pressures_));
 }
 
 template <int n>
@@ -285,8 +273,8 @@ std::unique_ptr<typename VelocityPressureSystem<n>::WallMomentum> VelocityPressu
 }
 
 template <int n>
-void VelocityPressureSystem<n>::fill_wall_momentum(WallMomentum& wall) const {
-  const MatrixArrays arrays(momentum_);
+void VelocityPressureSystem<n>::fill_wall_momentum(WallMomentum& wall) {
+  const MatrixArrays arrays(momentum());
   wall.matrix.fill([&](auto add) {
     for (const int at : wall.from) {
       const double* block =
@@ -298,9 +286,8 @@ void VelocityPressureSystem<n>::fill_wall_momentum(WallMomentum& wall) const {
 
 template <int n>
 double VelocityPressureSystem<n>::bytes() const {
-  double sum = 0;
-  for (Mat matrix : {Mat(momentum_), Mat(gradient_), Mat(continuity_), Mat(scaled_gradient_), Mat(schur_)})
-    sum += petsc_bytes(matrix);
+  double sum = products_.bytes();
+  for (Mat matrix : {Mat(momentum_), Mat(continuity_), Mat(scaled_gradient_), Mat(schur_)}) sum += petsc_bytes(matrix);
   return sum;
 }
 

@@ -10,12 +10,14 @@
 #include "condensed_solver/velocity_pressure_blocks.hpp"
 #include "petsc_solver/listed_matrix.hpp"
 #include "petsc_solver/shared_layout.hpp"
+#include "petsc_solver/shared_products.hpp"
 
 namespace fsi {
 
-/// The Jacobian of velocities and pressures F = [A G; B C] and its Schur complement S = C - B D^-1 G as matrices of
-/// PETSc, by rows of all processes. Of the mesh motion A has what InterfaceShapeDerivatives gives. All numbers go to
-/// places that are worked out once: A, in blocks of n x n, straight into PETSc's arrays, those of the others as ListedMatrix does.
+/// The Jacobian of velocities and pressures F = [A G; B C], by rows of all processes: products with it in single precision
+/// (SharedProducts), and as matrices of PETSc its Schur complement S = C - B D^-1 G and, for those who ask, A. Of the mesh
+/// motion A has what InterfaceShapeDerivatives gives. All numbers go to places that are worked out once: A, in blocks of n x n,
+/// straight into PETSc's arrays, those of the others as ListedMatrix does.
 template <int n>
 class VelocityPressureSystem {
  public:
@@ -24,16 +26,14 @@ class VelocityPressureSystem {
   /// Takes the present values of the block matrices.
   void fill();
 
-  /// y = F x, in the rows of SharedLayout.
-  void multiply(Vec x, Vec y);
-
   const SharedLayout<n>& shared() const { return shared_; }
   const MomentumDiagonals<n>& diagonals() const { return diagonals_; }
   /// Most velocity nodes carry no pressure, those of all processes counted.
   bool has_few_pressures() const;
   MPI_Comm communicator() const { return communicator_; }
-  Mat momentum() const { return momentum_; }  ///< A
-  Mat gradient() const { return gradient_; }  ///< G
+  /// A in double precision: made when it is first asked for, and filled when that is after a fill(). By all processes together.
+  Mat momentum();
+  SharedProducts<n>& products() { return products_; }
   /// S, with the wall's rows scaled and, where that is asked for, a larger diagonal.
   /// \param wall_diagonal_factor  of the diagonal in the wall
   void make_schur_complement(double wall_diagonal_factor);
@@ -49,7 +49,7 @@ class VelocityPressureSystem {
     std::vector<int> from;  ///< A's blocks that it has, in the order of its entries
   };
   std::unique_ptr<WallMomentum> make_wall_momentum() const;
-  void fill_wall_momentum(WallMomentum& wall) const;
+  void fill_wall_momentum(WallMomentum& wall);
 
   /// x's part of velocities and of pressures, for as long as these live.
   class Parts {
@@ -82,7 +82,7 @@ class VelocityPressureSystem {
   void make_momentum();
   void make_lists();
   void fill_momentum();
-  void fill_gradient();
+  void fill_scaled_gradient();
   void fill_continuity();
 
   VelocityPressureBlocks<n> blocks_;
@@ -93,13 +93,13 @@ class VelocityPressureSystem {
   Pattern pattern_;
   InterfaceShapeDerivatives<n> shape_derivatives_;
   MomentumDiagonals<n> diagonals_;
+  SharedProducts<n> products_;
   OwnedMat momentum_, schur_;
-  ListedMatrix gradient_;
+  bool momentum_filled_ = false;
   ListedMatrix continuity_;       ///< [B C], columns in the rows of both
   ListedMatrix scaled_gradient_;  ///< [-D^-1 G; 1]: S = [B C] times this
   OwnedVec row_scale_, predicted_;
   std::vector<std::size_t> block_at_;  ///< of A's blocks in the arrays of the part with own columns, then of the other
-  OwnedVec x_velocities_, x_pressures_, y_velocities_, y_pressures_;
 };
 
 }  // namespace fsi

@@ -124,6 +124,34 @@ class Agreement(Processes):
         self.assertSameTables(first, again)
 
 
+class JudgedByTheWall(FolderTest):
+    """A plane system of 10,000 unknowns or more is iterated where its wall is light to solve, and factorised where it is not,
+    by several processes as by one."""
+
+    def test_each_as_on_one_process(self):
+        mesh = make_mesh(
+            self.base / "tube.msh",
+            *("--axisymmetric", "--for", "p2p1", "--lumen-cells", 6, "--media-cells", 2, "--adventitia-cells", 2),
+            *("--axial-cells", 96),
+        )
+        for step, steps, iterates in ((1 / 32, 3, True), (1.0, 2, False)):
+            with self.subTest(step=step):
+                settings = (
+                    *(f"mesh.file={mesh}", "geometry=axisymmetric", "element=p2p1", "inlet.until=100"),
+                    *("inlet.pressure=0.1", f"time.step={step}", f"time.end={steps * step}", "output.every=0"),
+                    *tight(MONOLITHIC),
+                )
+                alone, folder = (
+                    run(MONOLITHIC, NEO_HOOKEAN, self.base / f"{step}-{n}", *settings, processes=n) for n in (None, 2)
+                )
+                self.assertGreater(summary(alone)["unknowns"]["coupled"], 10000)
+                for place in (alone, folder):
+                    self.assertEqual("set-up: coupled" in summary(place)["phases"], iterates)
+                    self.assertEqual("factorisation: coupled" in summary(place)["phases"], not iterates)
+                self.assertIn("below 4 times its inertia", (folder / "run.log").read_text())
+                self.assertLess(apart(folder, alone), BOUND)
+
+
 class Restart(Processes):
     def test_three_to_two(self):
         kind = ("p1", "3d")
