@@ -149,7 +149,8 @@ class JudgedByTheWall(FolderTest):
                     self.assertEqual("set-up: coupled" in summary(place)["phases"], iterates)
                     self.assertEqual("factorisation: coupled" in summary(place)["phases"], not iterates)
                 self.assertIn("below 4 times its inertia", (folder / "run.log").read_text())
-                self.assertLess(apart(folder, alone), BOUND)
+                # The wave has not reached the outlet: its flow is rounding.
+                self.assertLess(apart(folder, alone, ("centerline_pressure.csv", "wall_displacement.csv")), BOUND)
 
 
 class Restart(Processes):
