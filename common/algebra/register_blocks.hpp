@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
@@ -21,8 +23,8 @@ template <int R, int C>
 struct RegisterBlocks {
   static constexpr int stride = C * padded<R>;  ///< floats a block
   /// Floats from a block in use to one that memory is asked for meanwhile, 4 KiB on. By themselves not all processors fetch
-  /// ahead as far (docs/performance.md).
-  static constexpr int ahead = 1024;
+  /// ahead as far (docs/performance.md). For who goes through the rows from the last to the first: 4 KiB before.
+  static constexpr std::ptrdiff_t ahead = 1024, behind = -ahead;
 
   std::vector<int> offsets{0}, columns;
   std::vector<float> values;
@@ -40,12 +42,13 @@ struct RegisterBlocks {
   std::size_t bytes() const { return values.size() * sizeof(float) + (columns.size() + offsets.size()) * sizeof(int); }
 
   /// Blocks begin ... end - 1 times x. One accumulator a column keeps the chains of additions short.
+  template <std::ptrdiff_t next = ahead>
   Register<R> product(int begin, int end, const float* x) const {
     if constexpr (R == 2 && C == 2) return product_of_small(begin, end, x);
     Register<R> parts[C] = {};
     const float* a = values.data() + static_cast<std::size_t>(begin) * stride;
     for (int at = begin; at < end; ++at, a += stride) {
-      __builtin_prefetch(a + ahead);
+      __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(a) + next * sizeof(float)));
       const float* from = x + static_cast<std::size_t>(columns[at]) * padded<C>;
       for (int k = 0; k < C; ++k) parts[k] += load<R>(a + k * padded<R>) * from[k];
     }

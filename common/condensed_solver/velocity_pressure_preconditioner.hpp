@@ -208,25 +208,40 @@ class VelocityPressurePreconditioner {
   /// and sweeps again.
   void solve_momentum() {
     gauss_seidel_.apply(velocity_residual_, velocity_);
-    for (int sweep = 1; sweep < options_.momentum_sweeps; ++sweep) sweep_again();
+    if (options_.momentum_sweeps == 1 && !coarse_) return;
+    leave(velocity_residual_, velocity_);
+    sweep_again(options_.momentum_sweeps - 1);
     if (!coarse_) return;
-    find_sweep_residual();
+    if (options_.momentum_sweeps > 1) leave(sweep_residual_, sweep_);
     coarse_->add(sweep_residual_, velocity_);
-    for (int sweep = 0; sweep < options_.momentum_sweeps; ++sweep) sweep_again();
-  }
-
-  void sweep_again() {
-    find_sweep_residual();
-    gauss_seidel_.apply(sweep_residual_, sweep_);
-    for (std::size_t i = 0; i < velocity_.size(); ++i) velocity_[i] += sweep_[i];
-  }
-
-  void find_sweep_residual() {
-    parallel_for(layout_.velocities, layout_.velocities > 2000, [&](int v) {
+    for_velocities([&](int v) {
       const std::size_t at = static_cast<std::size_t>(v) * lanes;
       Matrix::store(Matrix::load(velocity_residual_.data() + at) - matrix_.momentum().row_product(v, velocity_.data()),
                     sweep_residual_.data() + at);
     });
+    sweep_again(options_.momentum_sweeps);
+  }
+
+  /// Sweeps on sweep_residual_, which the last one answers to.
+  void sweep_again(int count) {
+    for (int sweep = 0; sweep < count; ++sweep) {
+      if (sweep > 0) leave(sweep_residual_, sweep_);
+      gauss_seidel_.apply(sweep_residual_, sweep_);
+      for (std::size_t i = 0; i < velocity_.size(); ++i) velocity_[i] += sweep_[i];
+    }
+  }
+
+  /// sweep_residual_ = r - A x of the last sweep, which made x of r.
+  void leave(const std::vector<float>& r, const std::vector<float>& x) {
+    for_velocities([&](int v) {
+      const std::size_t at = static_cast<std::size_t>(v) * lanes;
+      Matrix::store(Matrix::load(r.data() + at) - gauss_seidel_.product(v, x.data()), sweep_residual_.data() + at);
+    });
+  }
+
+  template <class Work>
+  void for_velocities(Work work) const {
+    parallel_for(layout_.velocities, layout_.velocities > 500, work);
   }
 
   const Matrix& matrix_;

@@ -82,7 +82,7 @@ TEST(SplitBlocks, HoldWhatTheWholeHolds) {
       for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) a.block(a.position(row, column))[k * padded<3> + i] = number(row, column, i, k);
   EXPECT_EQ(a.lower.columns, (std::vector<int>{0, 0, 1, 2, 0, 2, 3, 1, 4}));
-  EXPECT_EQ(a.upper.columns, (std::vector<int>{4, 3}));  // of rows 3 and 1: the last row comes first
+  EXPECT_EQ(a.upper.columns, (std::vector<int>{3, 4}));
   for (int row = 0; row < 5; ++row) {
     std::vector<int> columns;
     a.for_row(row, [&](int column, int position) {
