@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
@@ -48,7 +47,7 @@ struct RegisterBlocks {
     Register<R> parts[C] = {};
     const float* a = values.data() + static_cast<std::size_t>(begin) * stride;
     for (int at = begin; at < end; ++at, a += stride) {
-      __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(a) + next * sizeof(float)));
+      __builtin_prefetch(a + next);
       const float* from = x + static_cast<std::size_t>(columns[at]) * padded<C>;
       for (int k = 0; k < C; ++k) parts[k] += load<R>(a + k * padded<R>) * from[k];
     }
