@@ -1,7 +1,5 @@
 #include "petsc_solver/shared_products.hpp"
 
-#include <utility>
-
 #include "fem/dimensions.hpp"
 
 namespace fsi {
@@ -32,16 +30,15 @@ SharedProducts<n>::SharedProducts(const JacobianBlocks<n>& blocks, const Velocit
     to.push_back(matrix_.velocity_size() + p);
     pressures_to.push_back(to.back());
   }
-  of_both_ = make_ghosts(petsc_vector(communicator, shared.rows()), from, std::move(to));
-  of_pressures_ =
-      make_ghosts(petsc_vector(communicator, shared.pressure_rows), pressures_from, std::move(pressures_to));
+  of_both_ = make_ghosts(petsc_vector(communicator, shared.rows()), from, to);
+  of_pressures_ = make_ghosts(petsc_vector(communicator, shared.pressure_rows), pressures_from, pressures_to);
 }
 
 template <int n>
 typename SharedProducts<n>::Ghosts SharedProducts<n>::make_ghosts(Vec pattern, const std::vector<PetscInt>& from,
-                                                                  std::vector<std::size_t> places) const {
+                                                                  const std::vector<std::size_t>& places) const {
   Ghosts ghosts;
-  ghosts.places = std::move(places);
+  ghosts.places = places;
   const auto count = static_cast<PetscInt>(from.size());
   petsc_check(VecCreateSeq(PETSC_COMM_SELF, count, ghosts.received.fresh()));
   IS numbers = nullptr;

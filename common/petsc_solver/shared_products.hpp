@@ -43,7 +43,7 @@ class SharedProducts {
     OwnedVec received;
     std::vector<std::size_t> places;  ///< in `local_`
   };
-  Ghosts make_ghosts(Vec pattern, const std::vector<PetscInt>& from, std::vector<std::size_t> places) const;
+  Ghosts make_ghosts(Vec pattern, const std::vector<PetscInt>& from, const std::vector<std::size_t>& places) const;
   /// local_ has the values of x that its owners have.
   void receive(Vec x, Ghosts& ghosts);
   void take_velocities(const double* from, std::vector<float>& to) const;
