@@ -34,7 +34,6 @@ struct SplitBlocks {
   int lower_end(int v) const { return lower.offsets[v + 1]; }
   int upper_begin(int v) const { return upper.offsets[v]; }
   int upper_end(int v) const { return upper.offsets[v + 1]; }
-  std::size_t blocks() const { return lower.columns.size() + upper.columns.size(); }
 
   /// Of a block among all, the lower ones first. It must be there.
   int position(int row, int column) const {

@@ -1,5 +1,6 @@
 #include "petsc_solver/shared_products.hpp"
 
+#include "base/parallel_for.hpp"
 #include "fem/dimensions.hpp"
 
 namespace fsi {
@@ -64,9 +65,13 @@ void SharedProducts<n>::set_up(const BlockPreconditionerChoices& choices, double
 }
 
 template <int n>
-void SharedProducts<n>::take_velocities(const double* from, std::vector<float>& to) const {
+void SharedProducts<n>::take_velocities(Vec x, std::vector<float>& to) const {
+  const double* array = nullptr;
+  petsc_check(VecGetArrayRead(x, &array));
+  const double* from = array;
   for (const int v : shared_.own_velocities)
     for (int k = 0; k < n; ++k) to[std::size_t{lanes} * v + k] = static_cast<float>(*from++);
+  petsc_check(VecRestoreArrayRead(x, &array));
 }
 
 template <int n>
@@ -88,9 +93,9 @@ void SharedProducts<n>::receive(Vec x, Ghosts& ghosts) {
 template <int n>
 void SharedProducts<n>::multiply(Vec x, Vec y) {
   receive(x, of_both_);
+  take_velocities(x, local_);
   const double* from = nullptr;
   petsc_check(VecGetArrayRead(x, &from));
-  take_velocities(from, local_);
   for (std::size_t i = 0; i < shared_.own_pressures.size(); ++i)
     local_[matrix_.velocity_size() + shared_.own_pressures[i]] = static_cast<float>(from[shared_.velocity_rows + i]);
   petsc_check(VecRestoreArrayRead(x, &from));
@@ -106,14 +111,12 @@ void SharedProducts<n>::multiply(Vec x, Vec y) {
 template <int n>
 void SharedProducts<n>::divergence(Vec x, Vec pressures) {
   receive(x, of_both_);
-  const double* from = nullptr;
-  petsc_check(VecGetArrayRead(x, &from));
-  take_velocities(from, local_);
-  petsc_check(VecRestoreArrayRead(x, &from));
+  take_velocities(x, local_);
   double* to = nullptr;
   petsc_check(VecGetArrayWrite(pressures, &to));
-  for (std::size_t i = 0; i < shared_.own_pressures.size(); ++i)
-    to[i] = matrix_.divergence_product(shared_.own_pressures[i], local_.data());
+  const auto& own = shared_.own_pressures;
+  parallel_for(own.size(), own.size() > 500,
+               [&](std::size_t i) { to[i] = matrix_.divergence_product(own[i], local_.data()); });
   petsc_check(VecRestoreArrayWrite(pressures, &to));
 }
 
@@ -128,19 +131,17 @@ void SharedProducts<n>::subtract_gradient(Vec pressures, Vec velocities) {
   petsc_check(VecRestoreArrayRead(pressures, &from));
   double* to = nullptr;
   petsc_check(VecGetArray(velocities, &to));
-  for (std::size_t i = 0; i < shared_.own_velocities.size(); ++i) {
-    const auto gradient = matrix_.gradient_product(shared_.own_velocities[i], local);
+  const auto& own = shared_.own_velocities;
+  parallel_for(own.size(), own.size() > 2000, [&](std::size_t i) {
+    const auto gradient = matrix_.gradient_product(own[i], local);
     for (int k = 0; k < n; ++k) to[n * i + k] -= gradient[k];
-  }
+  });
   petsc_check(VecRestoreArray(velocities, &to));
 }
 
 template <int n>
 void SharedProducts<n>::sweep(Vec residual, Vec velocities) {
-  const double* from = nullptr;
-  petsc_check(VecGetArrayRead(residual, &from));
-  take_velocities(from, residual_);
-  petsc_check(VecRestoreArrayRead(residual, &from));
+  take_velocities(residual, residual_);
   sweep_.apply(residual_, velocity_);
   for (int sweep = 1; sweep < sweeps_; ++sweep) {
     const float* const last = (sweep == 1 ? velocity_ : again_).data();

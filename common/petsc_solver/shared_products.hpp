@@ -46,7 +46,7 @@ class SharedProducts {
   Ghosts make_ghosts(Vec pattern, const std::vector<PetscInt>& from, const std::vector<std::size_t>& places) const;
   /// local_ has the values of x that its owners have.
   void receive(Vec x, Ghosts& ghosts);
-  void take_velocities(const double* from, std::vector<float>& to) const;
+  void take_velocities(Vec x, std::vector<float>& to) const;
   void give_velocities(const std::vector<float>& from, double* to) const;
 
   const VelocityPressureLayout<n>& layout_;
