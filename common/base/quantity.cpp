@@ -67,7 +67,8 @@ const Quantity& viscosity() {
 }
 
 const Quantity& pressure() {
-  static const Quantity q{"kPa", {{"mmHg", 0.133322, 60, 300}, {"Pa", 1e-3, 300, 5e4}, {"dyn/cm^2", 1e-4, 5e4, 5e5}}};
+  static const Quantity q{
+      "kPa", {{"mmHg", 0.133322, 60, 300}, {"Pa", 1e-3, 300, 5e4}, {"dyn/cm^2", 1e-4, 5e4, 5e5}}, true};
   return q;
 }
 
@@ -83,11 +84,6 @@ const Quantity& bulk_modulus() {
 
 const Quantity& time() {
   static const Quantity q{"ms", {{"s", 1e3, 1e-5, 1e-3}}};
-  return q;
-}
-
-const Quantity& time_step() {
-  static const Quantity q{"ms", {{"s", 1e3, 1e-5, 1e-3}, {"us", 1e-3, 100, 5000}}};
   return q;
 }
 

@@ -33,6 +33,7 @@ struct OtherUnit {
 struct Quantity {
   const char* unit;  ///< empty: a pure number
   std::vector<OtherUnit> others;
+  bool borne_by_wall = false;  ///< what a wall bears: its stiffness tells whether a value may be meant as it stands
 };
 
 /// A value in the wrong unit.
@@ -54,7 +55,6 @@ const Quantity& pressure();
 const Quantity& stiffness();
 const Quantity& bulk_modulus();
 const Quantity& time();
-const Quantity& time_step();
 const Quantity& rate();     ///< 1/ms
 const Quantity& bedding();  ///< of a spring per area
 const Quantity& bedding_damping();

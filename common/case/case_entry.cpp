@@ -138,8 +138,14 @@ void CaseEntry::remark(const std::string& text) const {
 bool CaseEntry::warn_of_unit(const Quantity& quantity, double value) const {
   const auto slip = unit_slip(quantity, value);
   if (!slip) return false;
-  warn(fmt::format("{:g} looks like a value in {}", value, slip->unit),
-       fmt::format("did you mean {:.3g} {}?", slip->meant, quantity.unit));
+  const std::string warning = InputError(source_->place(key_, node_->source()), one_line(key_),
+                                         fmt::format("{:g} looks like a value in {}", value, slip->unit),
+                                         fmt::format("did you mean {:.3g} {}?", slip->meant, quantity.unit))
+                                  .what();
+  if (quantity.borne_by_wall)
+    source_->doubts.push_back({key_, value, warning});
+  else
+    source_->warnings.push_back(warning);
   return true;
 }
 

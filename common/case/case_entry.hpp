@@ -18,12 +18,20 @@ std::string one_line(std::string text);
 /// Sizes of numbers in any unit that anyone measures in. Beyond them squares and quotients are not numbers any more.
 constexpr double smallest_size = 1e-100, largest_size = 1e100;
 
+/// A value that seems to be in a wrong unit unless the wall is stiff enough to bear it (case/pressure_doubts.hpp).
+struct UnitDoubt {
+  std::string key;
+  double value;
+  std::string warning;
+};
+
 /// Where the entries of a case come from, for messages.
 struct CaseSource {
   std::string file;                  ///< as the user wrote it
   std::set<std::string> overridden;  ///< key paths that --set has put in place; all below them counts as well
   /// What looks wrong without being refused. Collected while entries are read, which only look at their source.
   mutable std::vector<std::string> warnings;
+  mutable std::vector<UnitDoubt> doubts{};     ///< warnings that the whole case decides about
   mutable std::vector<std::string> remarks{};  ///< what was done with what is given, for the log
 
   bool is_overridden(const std::string& key) const;
@@ -53,7 +61,7 @@ class CaseEntry {
 
   void warn(const std::string& problem, const std::string& remedy) const;
   void remark(const std::string& text) const;
-  /// Warns when the value seems to be in a wrong unit. \return whether it does
+  /// Warns when the value seems to be in a wrong unit; of what a wall bears once the wall is known. \return whether it seems so
   bool warn_of_unit(const Quantity& quantity, double value) const;
 
   // Conversions; each throws InputError when the entry is of another type.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/input_file.hpp"
@@ -18,7 +19,9 @@
 #include "case/network_keys.hpp"
 #include "case/opening_keys.hpp"
 #include "case/periodic_end.hpp"
+#include "case/pressure_doubts.hpp"
 #include "case/support_keys.hpp"
+#include "case/table_times.hpp"
 #include "case/viscosity_keys.hpp"
 #include "case/windkessel_units.hpp"
 #include "time/time_schemes.hpp"
@@ -209,6 +212,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   check_closed(whole_case, scene);
   set_lumped_start(whole_case, scene);
   warn_of_windkessel_units(whole_case, scene);
+  warn_of_table_times(whole_case, scene);
   if (scene.structure) scene.structure->stabilisation = wall_stabilisation(scene);
   check_axis(whole_case, scene);
   check_supports(whole_case, scene);
@@ -223,6 +227,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   warn_of_stabilisation(whole_case, scene);
   warn_of_damped_mesh(whole_case, scene);
   scene.warnings = source.warnings;
+  for (auto& warning : warnings_of_doubts(source.doubts, scene)) scene.warnings.push_back(std::move(warning));
   scene.remarks = source.remarks;
   return scene;
 }

@@ -208,7 +208,7 @@ void read_step(const CaseEntry& entry, TimeData& time) {
     const std::string given = entry.text();
     if (edit_distance(given, "adaptive") <= 3) entry.refuse_name("is unknown", "did you mean \"adaptive\"?");
   }
-  number(at(&TimeData::step), positive, quantity::time_step()).read(entry, time);
+  number(at(&TimeData::step), positive, quantity::time()).read(entry, time);
 }
 
 /// Adaptive steps: smallest <= first <= largest <= end, and none that vanishes beside the end.
@@ -281,17 +281,17 @@ std::vector<CaseKey<TimeData>> time_keys() {
       leaf<TimeData>(
           "step", required, "time step in {unit}, or \"adaptive\"",
           {read_step, [](const TimeData& time) { return time.adaptive ? "adaptive" : fmt::format("{}", time.step); },
-           "", quantity::time_step().unit},
+           "", quantity::time().unit},
           KeyRole::running),
       leaf("tolerance", optional, "error that adaptive steps aim at, relative to the solution, default {}",
            number(at(&TimeData::tolerance), Bounds{0, 1, false, false}), KeyRole::running),
       leaf("first_step", optional,
            "of adaptive ones, at the start and after each jump of the load, in {unit}; without it found from the scene",
-           number(at(&TimeData::first_step), positive, quantity::time_step()), KeyRole::running),
+           number(at(&TimeData::first_step), positive, quantity::time()), KeyRole::running),
       leaf("smallest_step", optional, "of adaptive ones, in {unit}; without it found from the scene",
-           number(at(&TimeData::smallest_step), positive, quantity::time_step()), KeyRole::running),
+           number(at(&TimeData::smallest_step), positive, quantity::time()), KeyRole::running),
       leaf("largest_step", optional, "of adaptive ones, in {unit}; without it found from the scene",
-           number(at(&TimeData::largest_step), positive, quantity::time_step()), KeyRole::running),
+           number(at(&TimeData::largest_step), positive, quantity::time()), KeyRole::running),
       leaf("retries", optional,
            "times that a step which finds no solution is halved before the run gives up, default {}",
            whole(at(&TimeData::retries), 0, 20), KeyRole::running),

@@ -19,6 +19,8 @@ namespace fsi {
 
 namespace {
 
+constexpr const char *time_unit_key = "time_unit", *value_unit_key = "value_unit";
+
 /// Sorted by time, two rows at most of one time. \param refuse  says what is wrong with the last row, and what to do
 template <class Refuse>
 void check_last_row(const std::vector<std::pair<double, double>>& points, Refuse refuse) {
@@ -68,9 +70,35 @@ struct ColumnFactors {
   bool time_named = false, value_named = false;
 };
 
-/// \param refuse  says what is wrong with the header, and what to do
+/// The unit that a key beside the table names. \throws InputError
+std::optional<ColumnUnit> unit_of_key(const CaseEntry& entry, const char* key, ColumnKind kind) {
+  if (!entry.has(key)) return std::nullopt;
+  const CaseEntry given = entry.child(key);
+  const std::string word = given.line();
+  std::string problem = "is no known unit";
+  try {
+    if (auto unit = column_unit(word, kind)) return unit;
+  } catch (const std::invalid_argument& wrong) {
+    problem = wrong.what();
+  }
+  given.refuse_name(problem, "give " + known_units(kind));
+}
+
+/// What was converted, in words; empty: nothing.
+std::string text_of_factors(const std::optional<ColumnUnit>& time, const std::optional<ColumnUnit>& value,
+                            const TableKind& kind) {
+  std::string said;
+  if (time && time->factor != 1) said += fmt::format("times in {}, times {:g} in ms", time->name, time->factor);
+  if (value && value->factor != 1)
+    said += fmt::format("{}{} in {}, times {:.6g} in {}", said.empty() ? "" : "; ", kind.plural, value->name,
+                        value->factor, kind.values.unit);
+  return said;
+}
+
+/// \param section  that the file stands in
+/// \param refuse   says what is wrong with the header, and what to do
 template <class Refuse>
-ColumnFactors factors_of(std::string_view header, const CaseEntry& entry, const TableKind& kind, Refuse refuse) {
+ColumnFactors factors_of(std::string_view header, const CaseEntry& section, const TableKind& kind, Refuse refuse) {
   const auto comma = header.find_first_of(",;");
   const std::string_view columns[] = {trimmed(header.substr(0, comma)), trimmed(header.substr(comma + 1))};
   std::optional<ColumnUnit> units[2];
@@ -82,22 +110,25 @@ ColumnFactors factors_of(std::string_view header, const CaseEntry& entry, const 
       refuse(fmt::format("column {}: {}", i + 1, wrong.what()),
              fmt::format("give it in {}: {}", i == 0 ? "ms" : kind.values.unit, known_units(wanted)));
     }
+    const char* key = i == 0 ? time_unit_key : value_unit_key;
+    const auto told = unit_of_key(section, key, wanted);
+    if (told && units[i] && told->factor != units[i]->factor)
+      refuse(fmt::format("column {} is in {}, but {} = \"{}\"", i + 1, units[i]->name, key, told->name),
+             fmt::format("leave {} out, or mend the header", key));
+    if (told) units[i] = told;
   }
   ColumnFactors factors;
   if (units[0]) factors.time = units[0]->factor;
   if (units[1]) factors.value = units[1]->factor;
   factors.time_named = units[0].has_value();
   factors.value_named = units[1].has_value();
-  std::string said;
-  if (factors.time != 1) said += fmt::format("times in {}, times {:g} in ms", units[0]->name, factors.time);
-  if (factors.value != 1)
-    said += fmt::format("{}{} in {}, times {:.6g} in {}", said.empty() ? "" : "; ", kind.plural, units[1]->name,
-                        factors.value, kind.values.unit);
-  if (!said.empty()) entry.remark("the file has " + said);
+  const std::string said = text_of_factors(units[0], units[1], kind);
+  if (!said.empty()) section.child("file").remark("the file has " + said);
   return factors;
 }
 
-void read_file(const CaseEntry& entry, const TableKind& kind, TableInput& input) {
+void read_file(const CaseEntry& section, const TableKind& kind, TableInput& input) {
+  const CaseEntry entry = section.child("file", "path of a CSV file");
   const auto file = path_of(entry);
   const std::string remedy =
       fmt::format("give a CSV file with a header and two columns, time in ms and {} in {}", kind.key, kind.values.unit);
@@ -122,7 +153,7 @@ void read_file(const CaseEntry& entry, const TableKind& kind, TableInput& input)
       if (row)
         refuse("the first line is a row of numbers", "put a header above it, like time_ms," + std::string(kind.key));
       if (line.find_first_of(",;") == std::string::npos) refuse("the first line is no header of two columns", remedy);
-      factors = factors_of(line, entry, kind, refuse);
+      factors = factors_of(line, section, kind, refuse);
       continue;
     }
     if (trimmed(line).empty()) continue;
@@ -137,6 +168,47 @@ void read_file(const CaseEntry& entry, const TableKind& kind, TableInput& input)
     });
   }
   if (points.empty()) entry.refuse(fmt::format("\"{}\" has no row below its header", file.string()), remedy);
+}
+
+/// Rows of the case file itself. \param factors  of their units
+void read_rows(const CaseEntry& entry, const TableKind& kind, const ColumnFactors& factors, TableInput& input) {
+  bool warned_of_time = factors.time_named, warned_of_value = factors.value_named;  // once is enough
+  auto& points = input.table.points;
+  const auto rows = entry.elements();
+  if (rows.size() > most_table_rows)
+    entry.refuse(fmt::format("a table of {} rows", rows.size()), fmt::format("give at most {}", most_table_rows));
+  for (const auto& row : rows) {
+    const auto pair = row.is_array() ? row.elements() : std::vector<CaseEntry>{};
+    if (pair.size() != 2) row.refuse_value("is no pair", fmt::format("give [time, {}]", kind.key));
+    const double time = pair[0].number(), value = pair[1].number();
+    points.emplace_back(factors.time * time, factors.value * value);
+    if (!warned_of_time) warned_of_time = pair[0].warn_of_unit(quantity::time(), time);
+    if (!warned_of_value) warned_of_value = pair[1].warn_of_unit(kind.values, value);
+    check_last_row(points,
+                   [&](const std::string& problem, const std::string& remedy) { row.refuse_value(problem, remedy); });
+  }
+  if (points.empty()) entry.refuse_name("is empty", fmt::format("give at least one row [time, {}]", kind.key));
+}
+
+/// { file = NAME } or { rows = [...] }, with the words for units where the numbers are not in ms and the kind's unit.
+void read_section(const CaseEntry& entry, const TableKind& kind, TableInput& input) {
+  refuse_unknown_keys(entry, {"file", "rows", time_unit_key, value_unit_key});
+  input.is_table = true;
+  if (entry.has("file") && entry.has("rows")) entry.child("rows").refuse("stands beside file", "keep one of the two");
+  if (!entry.has("rows")) {
+    if (!entry.has("file")) entry.refuse_missing("file", "add it (path of a CSV file), or rows");
+    read_file(entry, kind, input);
+    return;
+  }
+  const auto time = unit_of_key(entry, time_unit_key, ColumnKind::time);
+  const auto value = unit_of_key(entry, value_unit_key, kind.column);
+  ColumnFactors factors;
+  if (time) factors.time = time->factor;
+  if (value) factors.value = value->factor;
+  factors.time_named = time.has_value();
+  factors.value_named = value.has_value();
+  read_rows(entry.child("rows"), kind, factors, input);
+  if (const auto said = text_of_factors(time, value, kind); !said.empty()) entry.remark("the rows have " + said);
 }
 
 }  // namespace
@@ -154,10 +226,7 @@ const TableKind& flow_rate_kind(bool plane) {
 
 void read_table(const CaseEntry& entry, const TableKind& kind, bool with_file, TableInput& input) {
   if (with_file && entry.is_section()) {
-    refuse_unknown_keys(entry, {"file"});
-    if (!entry.has("file")) entry.refuse_missing("file", "add it (path of a CSV file)");
-    input.is_table = true;
-    read_file(entry.child("file", "path of a CSV file"), kind, input);
+    read_section(entry, kind, input);
     return;
   }
   input.is_table = entry.is_array();
@@ -165,21 +234,7 @@ void read_table(const CaseEntry& entry, const TableKind& kind, bool with_file, T
     input.table.points = {{0.0, entry.number(kind.values)}};
     return;
   }
-  bool warned_of_time = false, warned_of_value = false;  // once is enough
-  auto& points = input.table.points;
-  const auto rows = entry.elements();
-  if (rows.size() > most_table_rows)
-    entry.refuse(fmt::format("a table of {} rows", rows.size()), fmt::format("give at most {}", most_table_rows));
-  for (const auto& row : rows) {
-    const auto pair = row.is_array() ? row.elements() : std::vector<CaseEntry>{};
-    if (pair.size() != 2) row.refuse_value("is no pair", fmt::format("give [time, {}]", kind.key));
-    points.emplace_back(pair[0].number(), pair[1].number());
-    if (!warned_of_time) warned_of_time = pair[0].warn_of_unit(quantity::time(), points.back().first);
-    if (!warned_of_value) warned_of_value = pair[1].warn_of_unit(kind.values, points.back().second);
-    check_last_row(points,
-                   [&](const std::string& problem, const std::string& remedy) { row.refuse_value(problem, remedy); });
-  }
-  if (points.empty()) entry.refuse_name("is empty", fmt::format("give at least one row [time, {}]", kind.key));
+  read_rows(entry, kind, {}, input);
 }
 
 void read_until(const CaseEntry& entry, TableInput& input) {

@@ -32,9 +32,10 @@ struct TableInput {
   std::optional<double> period;
 };
 
-/// Reads a number, a table of [time, value] or { file = "NAME.csv" }, two columns below a header line. A unit that the
-/// header names (case/table_units.hpp) is converted, with a remark. \throws InputError that names the row, or file and line
-/// \param with_file  whether a file is allowed
+/// Reads a number, a table of [time, value], { file = "NAME.csv" }, two columns below a header line, or { rows = [...] }.
+/// A unit that the header, time_unit or value_unit beside it name (case/table_units.hpp) is converted, with a remark.
+/// \throws InputError that names the row, or file and line
+/// \param with_file  whether a section is allowed
 void read_table(const CaseEntry& entry, const TableKind& kind, bool with_file, TableInput& input);
 void read_until(const CaseEntry& entry, TableInput& input);
 void read_period(const CaseEntry& entry, TableInput& input);

@@ -17,27 +17,6 @@ constexpr double millilitres = 1e3 / kilopascal;  // of a ml/mmHg in mm^3/kPa
 
 constexpr double unusual = 20;  // kPa: more than is found in arteries at rest
 
-/// What the mean pressure comes to once compliances are full; empty where the case does not determine it by flow and laws.
-std::optional<double> mean_pressure(const Case& scene) {
-  double flow = 0, conductance = 0, behind = 0;
-  for (const auto& opening : openings_of(scene)) {
-    if (opening.flow_rate) {
-      const auto& table = opening.flow_rate->table;
-      flow += table.mean(0, table.period > 0 ? table.period : scene.time->end);
-    } else if (opening.law) {
-      const auto law = opening.law->make();
-      const double resistance = law->slope(0);  // to a steady flow
-      if (!(resistance > 0)) return std::nullopt;
-      conductance += 1 / resistance;
-      behind += law->pressure(0, law->start().data(), 0) / resistance;
-    } else if (opening.demanded) {
-      return std::nullopt;
-    }
-  }
-  if (!(flow > 0) || !(conductance > 0)) return std::nullopt;
-  return (flow + behind) / conductance;
-}
-
 /// The largest pressure that the case gives for what is behind its openings, kPa.
 double given_pressure(const Case& scene) {
   double pressure = scene.prestress ? scene.prestress->pressure : 0;
@@ -78,9 +57,29 @@ std::optional<Beat> beat_of(const Case& scene, bool pressure_is_right) {
 
 }  // namespace
 
+std::optional<double> mean_pressure_of_flow(const Case& scene) {
+  double flow = 0, conductance = 0, behind = 0;
+  for (const auto& opening : openings_of(scene)) {
+    if (opening.flow_rate) {
+      const auto& table = opening.flow_rate->table;
+      flow += table.mean(0, table.period > 0 ? table.period : scene.time->end);
+    } else if (opening.law) {
+      const auto law = opening.law->make();
+      const double resistance = law->slope(0);  // to a steady flow
+      if (!(resistance > 0)) return std::nullopt;
+      conductance += 1 / resistance;
+      behind += law->pressure(0, law->start().data(), 0) / resistance;
+    } else if (opening.demanded) {
+      return std::nullopt;
+    }
+  }
+  if (!(flow > 0) || !(conductance > 0)) return std::nullopt;
+  return (flow + behind) / conductance;
+}
+
 void warn_of_windkessel_units(const CaseEntry& whole_case, const Case& scene) {
   if (!scene.fluid || !scene.time) return;
-  const auto pressure = mean_pressure(scene);
+  const auto pressure = mean_pressure_of_flow(scene);
   const bool high = pressure && too_high(*pressure, given_pressure(scene));
   bool said_high = false;
   for (const auto& [surface, conditions] : scene.openings) {

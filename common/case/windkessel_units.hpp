@@ -1,9 +1,15 @@
 #pragma once
 
+#include <optional>
+
 #include "case/case.hpp"
 #include "case/case_entry.hpp"
 
 namespace fsi {
+
+/// What the mean pressure behind the openings comes to once compliances are full, kPa: in the steady state
+/// p = (Q + sum p_d/R) / sum 1/R. Empty where flows and laws of the case do not determine it.
+std::optional<double> mean_pressure_of_flow(const Case& scene);
 
 /// Warns of outflow laws that look like values in mmHg s/ml and ml/mmHg, the usual units of the clinic:
 /// - by the pressure that the mean flow into the fluid would raise behind all of them: in the steady state p is

@@ -66,6 +66,7 @@ void announce(RunParts<n>& parts, const RunCheckpoints<n>& checkpoints, Console&
                                     : fmt::format("{} steps", parts.loads.steps()));
   console.line(text);
   log.info(text);
+  if (const std::string numbers = text_of_numbers(parts.loaded.numbers); !numbers.empty()) log.info(numbers);
   log.info(fmt::format("threads: {}, {}", parts.threads.count, parts.threads.reason));
   announce_steps(parts, log);
   const auto& monolithic = parts.setup.monolithic;

@@ -73,6 +73,7 @@ void describe_scene(const Case& setup, const LoadedScene<n>& loaded, const Scene
                                                     unit_of_volume(setup))});
   }
   describe_openings(setup, loaded.mesh.surfaces, lines);
+  describe_numbers(loaded.numbers, lines);
   describe_supports(setup, loaded.mesh.surfaces, lines);
   describe_samples(setup, loaded.points, lines);
   lines.push_back(

@@ -275,6 +275,8 @@ LoadedScene<Element::components> load(const Case& setup, const LoadingScene& loa
   auto& said = *loaded.scene;
   said.remarks.insert(said.remarks.begin(), remarks.begin(), remarks.end());
   said.notices.insert(said.notices.begin(), notices.begin(), notices.end());
+  loaded.numbers = derived_numbers(setup, said);
+  for (auto& warning : implausible_numbers(loaded.numbers)) said.notices.push_back(std::move(warning));
   if (setup.prestress && (loading.find_prestress || !setup.prestress->file.empty()))
     loaded.prestress = apply_prestress(setup, loaded.mesh.hash, *loaded.scene, loading.prestress_goes_on);
   loaded.derived = make_derived_quantities<Element>(setup, mesh, *loaded.scene, whole);

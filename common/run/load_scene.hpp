@@ -12,6 +12,7 @@
 #include "io/fields_writer.hpp"
 #include "observers/grid_share.hpp"
 #include "observers/observation.hpp"
+#include "run/plausibility.hpp"
 #include "scene/scene.hpp"
 
 namespace fsi {
@@ -30,6 +31,7 @@ template <int n>
 struct LoadedScene {
   MeshFacts mesh;
   std::unique_ptr<Scene<n>> scene;
+  DerivedNumbers numbers;  ///< that tell whether units are right; their warnings are among the scene's notices
   ObservationPoints points;
   DerivedQuantities<n> derived;         ///< refers to the scene
   std::vector<FieldGrid> grids;         ///< of fluid and wall here, where they are, without fields

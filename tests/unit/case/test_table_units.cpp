@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "base/error.hpp"
 #include "case/case_reader.hpp"
 #include "case/table_units.hpp"
 #include "support/temporary_folder.hpp"
@@ -86,6 +87,61 @@ TEST_F(TableFiles, WithoutAUnitAreDoubtedAsNumbersAre) {
   const Case setup = read("time,pressure\n0,100\n1,120\n", "pressure");
   ASSERT_EQ(setup.warnings.size(), 1u);
   EXPECT_NE(setup.warnings[0].find("looks like a value in mmHg"), std::string::npos);
+}
+
+TEST_F(TableFiles, TakeUnitsFromKeysBesideThem) {
+  using Points = std::vector<std::pair<double, double>>;
+  const auto of = [&](const std::string& value) {
+    return parse_case(
+        "[mesh]\nfile = \"a.msh\"\n[fluid]\ndensity = 1.0\nviscosity = 1.0\n[time]\nstep = 1.0\nend = "
+        "800.0\n[[opening]]\nsurface = \"left\"\npressure = " +
+            value + "\n",
+        folder_ / "case.toml");
+  };
+  const Points expected{{0, 100 * 0.133322}, {250, 80 * 0.133322}};
+  const std::string units = R"(, time_unit = "s", value_unit = "mmHg" })";
+  write_text(folder_ / "a.csv", "t,p\n0,100\n0.25,80\n");
+  const Case file = of(R"({ file = "a.csv")" + units), rows = of("{ rows = [[0, 100], [0.25, 80]]" + units);
+  for (const Case* setup : {&file, &rows}) {
+    EXPECT_EQ(setup->openings.at("left").pressure->points, expected);
+    ASSERT_EQ(setup->remarks.size(), 1u);
+    EXPECT_NE(setup->remarks[0].find("times in s, times 1000 in ms; pressures in mmHg, times 0.133322 in kPa"),
+              std::string::npos)
+        << setup->remarks[0];
+    EXPECT_TRUE(setup->warnings.empty());
+  }
+  const auto refused = [&](const std::string& value) -> std::string {
+    try {
+      of(value);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refused(R"({ rows = [[0, 1]], time_unit = "hours" })").find("is no known unit; give ms, s"),
+            std::string::npos);
+  EXPECT_NE(refused(R"({ rows = [[0, 1]], value_unit = "ml/s" })").find("is a unit of flow rate, not of pressure"),
+            std::string::npos);
+  EXPECT_NE(refused(R"({ rows = [[0, 1]], file = "a.csv" })").find("stands beside file"), std::string::npos);
+  write_text(folder_ / "a.csv", "t_ms,p\n0,100\n");
+  EXPECT_NE(refused(R"({ file = "a.csv", time_unit = "s" })").find("column 1 is in ms, but time_unit = \"s\""),
+            std::string::npos);
+}
+
+TEST_F(TableFiles, InSecondsWithoutAWordAreNoticed) {
+  const std::string beat = "t,flow\n0,1\n0.2,5\n0.4,3\n0.8,1\n";
+  const Case one = read(beat, "flow_rate");
+  ASSERT_EQ(one.warnings.size(), 1u);
+  EXPECT_NE(one.warnings[0].find("opening.left.flow_rate: the table ends at 0.8 ms, within the first step of 1 ms: its "
+                                 "times look like seconds"),
+            std::string::npos)
+      << one.warnings[0];
+  const Case periodic = read(beat, "period = 800.0\nflow_rate");
+  ASSERT_EQ(periodic.warnings.size(), 1u);
+  EXPECT_NE(periodic.warnings[0].find("ends at 0.8 ms beside a period of 800 ms"), std::string::npos);
+  EXPECT_TRUE(read("t_s,flow\n0,1\n0.2,5\n0.4,3\n0.8,1\n", "period = 800.0\nflow_rate").warnings.empty());
+  EXPECT_TRUE(read("t,flow\n0,1\n200,5\n400,3\n750,1\n", "period = 800.0\nflow_rate").warnings.empty());
+  EXPECT_TRUE(read("t,flow\n0,0\n1,5\n2,3\n3,1\n", "flow_rate").warnings.empty()) << "a start of three steps";
 }
 
 }  // namespace

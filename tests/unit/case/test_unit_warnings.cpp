@@ -89,6 +89,45 @@ TEST(UnitWarnings, ComeForTheUsualSlips) {
   EXPECT_NE(seconds[0].find("time.step: 0.000125 looks like a value in s; did you mean 0.125 ms?"), std::string::npos);
 }
 
+/// A block under a load from outside.
+Lines warnings_of_block(const std::string& layer, double traction) {
+  return parse_case(fmt::format(R"(mesh.file = "block.msh"
+static.load_steps = 5
+structure = {{ density = 1, bulk_modulus = 1e5, layers.w = {{ {} }} }}
+support.pull.traction = [0, 0, {}]
+)",
+                                layer, traction),
+                    "case.toml")
+      .warnings;
+}
+
+TEST(UnitWarnings, OfPressuresAskWhatTheWallBears) {
+  const std::string stiff = R"(material = "artery", c10 = 7.64, k1 = 996.6, k2 = 524.6, alpha = 49.98)";
+  EXPECT_EQ(warnings_of_block(stiff, 200), Lines{});
+  EXPECT_EQ(warnings_of_block(stiff, 1333.333), Lines{});
+  const Lines said = warnings_of_block(R"(material = "neo-hookean", c10 = 3)", 200);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("200 looks like a value in mmHg; did you mean 26.7 kPa?"), std::string::npos) << said[0];
+  // In a vessel of R / h = 5 the strain is five times p / E: 200 kPa are half of it at 2,000 kPa.
+  EXPECT_EQ(warnings_with({"structure.layers.media.c10=600", "inlet.pressure=200"}), Lines{});
+  EXPECT_EQ(warnings_with({"structure.layers.media.c10=60", "inlet.pressure=200"}).size(), 1u);
+}
+
+TEST(UnitWarnings, OfLongStepsAskWhatAPeriodHas) {
+  EXPECT_EQ(warnings_with({"time.step=100", "time.end=12000"}), Lines{});
+  const auto opened = [](double period) {
+    return parse_case(good_case + fmt::format("[[opening]]\nsurface = \"outlet\"\nflow_rate = [[0, 0], [{0}, 1], [{1}, "
+                                              "0]]\nperiod = {1}\n",
+                                              period / 2, period),
+                      "case.toml", {"time.step=125", "time.end=12000"})
+        .warnings;
+  };
+  EXPECT_EQ(opened(800), Lines{});
+  EXPECT_EQ(opened(400),
+            Lines{"--set: time.step: 125 ms are 0.312 of the period of 400 ms, which looks like a step in us; did you "
+                  "mean 0.125 ms?"});
+}
+
 TEST(UnitWarnings, DoubtTheWallsDensityOnlyWithoutAFluidInTheRightUnit) {
   EXPECT_EQ(warnings_with({"structure.density=1200"}), Lines{}) << "a study of the added mass";
   const auto both = warnings_with({"fluid.density=1060", "structure.density=1200"});
