@@ -66,7 +66,8 @@ void warn_of_table_times(const CaseEntry& whole_case, const Case& scene) {
   if (!scene.time) return;
   double shortest_period = 0;
   for (const auto& [entry, table] : tables_of(whole_case, scene)) {
-    if (const std::string sign = sign_of_seconds(*table, *scene.time); !sign.empty())
+    const bool doubted = entry.is_array() && unit_slip(quantity::time(), table->points.back().first);  // row by row
+    if (const std::string sign = sign_of_seconds(*table, *scene.time); !sign.empty() && !doubted)
       entry.warn(
           fmt::format("the table {}: its times look like seconds", sign),
           "times are in ms; or say so: time_s in the header of a file, or time_unit = \"s\" beside file or rows");

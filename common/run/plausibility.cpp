@@ -27,7 +27,7 @@ constexpr double usual_velocity = 3, least_velocity = 1e-3, usual_reynolds = 1e4
 constexpr double usual_of_waves = 0.5, usual_strain = 0.6;
 
 /// Largest size of a value up to `end`.
-double largest_size(const PressureTable& table, double end) {
+double largest_magnitude(const PressureTable& table, double end) {
   double largest = std::abs(table.at(end));
   for (const auto& [time, value] : table.points)
     if (time <= end) largest = std::max(largest, std::abs(value));
@@ -37,7 +37,7 @@ double largest_size(const PressureTable& table, double end) {
 /// Largest difference of a table's values from one, up to `end`.
 double largest_change(PressureTable table, double from, double end) {
   for (auto& [time, value] : table.points) value -= from;
-  return largest_size(table, end);
+  return largest_magnitude(table, end);
 }
 
 /// Pressures that the case gives to its fluid, kPa: their largest distance from that at rest.
@@ -171,7 +171,7 @@ DerivedNumbers derived_numbers(const Case& setup, const Scene<n>& scene) {
     flow.surface = boundary.name();
     flow.diameter = setup.geometry == Geometry::plane ? area : 2 * std::sqrt(area / pi);
     flow.by_pressure = !table;
-    flow.velocity = table ? largest_size(*table, end) / area : driven_velocity(setup, load, flow.diameter, length);
+    flow.velocity = table ? largest_magnitude(*table, end) / area : driven_velocity(setup, load, flow.diameter, length);
     flow.reynolds = rho * flow.velocity * flow.diameter / mu;
     const double period = table ? table->period : opening->pressure->period;
     if (period > 0) flow.womersley = flow.diameter / 2 * std::sqrt(2 * pi * rho / (period * mu));
