@@ -1,5 +1,7 @@
-"""clang_tidy.py CLANG_TIDY ROOT BUILD COMPILER: fails on any finding of .clang-tidy in the programs' and libraries' sources
-and the headers they include. BUILD holds compile_commands.json, made for COMPILER.
+"""clang_tidy.py CLANG_TIDY ROOT BUILD COMPILER [--since FILE]: fails on any finding of .clang-tidy in the programs' and
+libraries' sources and the headers they include. BUILD holds compile_commands.json, made for COMPILER. FILE names a commit at
+which there was no finding: then only sources that have changed since, and those that include a changed header, are looked at;
+all, where the clone does not have that commit or .clang-tidy has changed.
 
 Much of the time goes to headers, which are searched anew for each source. So sources are put behind each other into few
 texts, whose headers are searched once. Two that give one name to different things do not compile as one text: those whose own
@@ -89,6 +91,32 @@ def sources_of(root: Path, flags: dict[str, list[str]]) -> list[Path]:
     """Those that are compiled; not those of an option that this build does without, such as MPI."""
     found = (path for folder in FOLDERS for path in (root / folder).rglob("*.cpp"))
     return sorted(path for path in found if str(path) in flags)
+
+
+def changed_since(root: Path, record: Path) -> set[Path] | None:
+    """Files that are not as they were at the commit that the record names; None: that cannot be told."""
+    commit = record.read_text().split()[0]
+    git = ["git", "-C", str(root)]
+    done = subprocess.run(
+        [*git, "diff", "--name-only", commit], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    new = subprocess.run([*git, "ls-files", "--others", "--exclude-standard"], stdout=subprocess.PIPE, text=True)
+    if done.returncode != 0 or new.returncode != 0:
+        return None
+    changed = {root / name for name in (*done.stdout.splitlines(), *new.stdout.splitlines())}
+    return None if root / ".clang-tidy" in changed else changed
+
+
+def touched(root: Path, sources: list[Path], changed: set[Path]) -> list[Path]:
+    """The sources that have changed, or that include a header that has. Headers are named from the folders that hold the
+    rooms, as "fem/elements.hpp"."""
+    headers = {str(path.relative_to(root)) for path in changed if path.suffix == ".hpp" and path.is_relative_to(root)}
+    names = headers | {name.split("/", 1)[1] for name in headers if "/" in name}
+
+    def includes_changed(source: Path) -> bool:
+        return any(line[1].strip('"<>') in names for line in map(INCLUDE.match, source.read_text().split("\n")) if line)
+
+    return [source for source in sources if source in changed or includes_changed(source)]
 
 
 @dataclass
@@ -242,26 +270,35 @@ def check_text(clang_tidy: str, root: Path, flags: dict[str, list[str]], sources
     return "\n".join(found for part in parts if (found := check_text(clang_tidy, root, flags, part)))
 
 
-def jobs(clang_tidy: str, root: Path, flags: dict[str, list[str]]) -> list[Callable[[], str]]:
+def jobs(clang_tidy: str, root: Path, flags: dict[str, list[str]], sources: list[Path]) -> list[Callable[[], str]]:
     """What is to be done, each job for one core: the long ones first. Each gives its findings."""
-    texts = groups(flags, sources_of(root, flags))
+    texts = groups(flags, sources)
     long = [partial(check_text, clang_tidy, root, flags, sources) for sources in texts]
     short = [partial(analysed, clang_tidy, root, flags[str(source)], source) for sources in texts for source in sources]
     return [*long, *short]
 
 
 def main() -> int:
-    clang_tidy, root, build, compiler = sys.argv[1], Path(sys.argv[2]).resolve(), Path(sys.argv[3]), sys.argv[4]
+    clang_tidy, root, build, compiler, *rest = sys.argv[1:]
+    return run(
+        clang_tidy, Path(root).resolve(), Path(build), compiler, Path(rest[1]) if rest[:1] == ["--since"] else None
+    )
+
+
+def run(clang_tidy: str, root: Path, build: Path, compiler: str, record: Path | None) -> int:
     flags = compiler_flags(build, compiler)
-    if not sources_of(root, flags):
+    everything = sources_of(root, flags)
+    if not everything:
         raise SystemExit(f"clang_tidy.py: error: no source files in {root}")
+    changed = changed_since(root, record) if record else None
+    sources = everything if changed is None else touched(root, everything, changed)
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        found = [result for result in pool.map(lambda job: job(), jobs(clang_tidy, root, flags)) if result]
+        found = [result for result in pool.map(lambda job: job(), jobs(clang_tidy, root, flags, sources)) if result]
     print("\n".join(found))
     if found:
         print("clang_tidy.py: error: see the findings above; .clang-tidy says which checks there are", file=sys.stderr)
         return 1
-    print(f"{len(sources_of(root, flags))} files have no findings")
+    print(f"{len(sources)} of {len(everything)} files were looked at and have no findings")
     return 0
 
 

@@ -3,11 +3,23 @@
 import json
 import os
 import shutil
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
-from clang_tidy import compiler_flags, groups, jobs, own_names, parted, sources_of, text_flags, text_of
+from clang_tidy import (
+    changed_since,
+    compiler_flags,
+    groups,
+    jobs,
+    own_names,
+    parted,
+    sources_of,
+    text_flags,
+    text_of,
+    touched,
+)
 
 HERE = Path(__file__).resolve().parent
 GOOD = '#include "mesh/header.hpp"\nint one(int x) { return twice(x); }\n'
@@ -48,10 +60,37 @@ class ClangTidy(unittest.TestCase):
         self.texts = names_of(texts)
         program = os.environ.get("CLANG_TIDY", "clang-tidy")
         self.parts = names_of(parted(program, self.root, flags, texts[0]))
-        return "\n".join(found for job in jobs(program, self.root, flags) if (found := job()))
+        return "\n".join(
+            found for job in jobs(program, self.root, flags, sources_of(self.root, flags)) if (found := job())
+        )
 
     def test_nothing_is_found_in_a_clean_tree(self) -> None:
         self.assertEqual(self.found(a=GOOD, b=GOOD.replace("one", "other")), "")
+
+    def test_what_has_changed_since_a_commit(self) -> None:
+        def git(*words: str) -> str:
+            who = ["-c", "user.name=a", "-c", "user.email=a@b"]
+            return subprocess.run(["git", "-C", str(self.root), *who, *words], capture_output=True, text=True).stdout
+
+        self.found(a=GOOD, b="int two();\n", c="int three();\n")
+        git("init", "-q")
+        git("add", "-A")
+        git("commit", "-q", "-m", "first")
+        record = self.root.parent / "record.txt"
+        record.write_text(git("rev-parse", "HEAD") + "A commit.\n")
+        sources = sorted((self.root / "common/mesh").glob("*.cpp"))
+
+        def names() -> list[str]:
+            changed = changed_since(self.root, record)
+            return [source.stem for source in touched(self.root, sources, changed or set())]
+
+        self.assertEqual(names(), [])
+        (self.root / "common/mesh/b.cpp").write_text("int two(int);\n")
+        self.assertEqual(names(), ["b"])
+        (self.root / "common/mesh/header.hpp").write_text(HEADER + "inline int thrice(int x) { return 3 * x; }\n")
+        self.assertEqual(names(), ["a", "b"])
+        record.write_text("0123456789012345678901234567890123456789\n")
+        self.assertIsNone(changed_since(self.root, record), "a commit that the clone does not have")
 
     def test_a_finding_is_told_with_its_own_file_and_line(self) -> None:
         found = self.found(a=GOOD, b=NULL, c=POINTER)
