@@ -126,10 +126,11 @@ struct StructureData {
   double bulk_modulus = 0;              ///< kPa, of layers whose material has none of its own
   std::optional<double> stabilisation;  ///< alpha of the wall's tau (docs/theory.md, section 4.2); empty: standard
   LayerPressure layer_pressure = LayerPressure::separate;
-  FibreFrame fibre_frame = FibreFrame::cylinder;
+  std::optional<FibreFrame> fibre_frame{};     ///< empty: by the wall's shape (scene/fibre_frame.hpp)
   Point gravity{0, 0, 0};                      ///< mm/ms^2, acceleration of all its mass, a load that does not change
   Point axis_origin{0, 0, 0};                  ///< mm; a point on the axis of the fibres' cylindrical frame
   Point axis_direction{0, 0, 1};               ///< need not be normalised
+  bool axis_is_named = false;                  ///< by the case, one of these two
   std::map<std::string, MaterialData> layers;  ///< with the parts that regions cut out of them, NAME/REGION
   std::vector<RegionData> regions{};           ///< in their order
 };

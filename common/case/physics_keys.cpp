@@ -133,6 +133,24 @@ KeyValue<Data> parameter_value(const Row& p, std::map<std::string, double> Data:
 
 // [structure].
 
+/// Where none is named the scene decides, and says what a checkpoint depends on (Scene::fibre_frame); without fibres what
+/// stands here makes no difference.
+KeyValue<StructureData> fibre_frame_value() {
+  KeyValue<StructureData> value = name_from(at(&StructureData::fibre_frame), fibre_frames());
+  value.write = [](const StructureData& data) {
+    return std::string(fibre_frames().name_of(data.fibre_frame.value_or(FibreFrame::cylinder)));
+  };
+  return value;
+}
+
+KeyValue<StructureData> named_axis(KeyValue<StructureData> value) {
+  value.read = [read = value.read](const CaseEntry& entry, StructureData& data) {
+    read(entry, data);
+    data.axis_is_named = true;
+  };
+  return value;
+}
+
 std::vector<CaseKey<StructureData>> structure_keys() {
   return {
       leaf("density", required, "density in {unit}",
@@ -146,15 +164,16 @@ std::vector<CaseKey<StructureData>> structure_keys() {
            name_from(at(&StructureData::layer_pressure), layer_pressures())),
       leaf("fibre_frame", optional,
            "frame of the fibre directions: {}; cylinder: about the axis below; laplace: on a wall of any shape, by "
-           "potentials between its inner and outer faces and between its ends",
-           name_from(at(&StructureData::fibre_frame), fibre_frames())),
+           "potentials between its inner and outer faces and between its ends; default cylinder for a wall that is one "
+           "about that axis, else laplace",
+           fibre_frame_value()),
       leaf("gravity", optional, "acceleration [x, y, z] in mm/ms^2 that loads all of the wall's mass, default {}",
            point(at(&StructureData::gravity), false)),
       leaf("axis_origin", optional,
            "point on the artery's axis in {unit}, default {}; of plane scenes where the upright axis stands",
-           point(at(&StructureData::axis_origin), false)),
+           named_axis(point(at(&StructureData::axis_origin), false))),
       leaf("axis_direction", optional, "direction of the artery's axis in 3d, default {}",
-           point(at(&StructureData::axis_direction), true)),
+           named_axis(point(at(&StructureData::axis_direction), true))),
       layers_key(),
       regions_key(),
   };

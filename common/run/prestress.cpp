@@ -39,7 +39,10 @@ std::string wall_text(const Case& setup, const Scene<n>& scene) {
     if (entry.key == "element" || entry.key == "geometry" || entry.key == "prestress.pressure" ||
         (begins_with(entry.key, "structure.") && entry.key != "structure.density") ||
         (begins_with(entry.key, "support.") && ends_with(entry.key, ".fixed")))
-      text += fmt::format("{} = {}\n", entry.key, entry.value);
+      text += fmt::format("{} = {}\n", entry.key,
+                          entry.key == "structure.fibre_frame" && scene.fibre_frame
+                              ? fibre_frames().name_of(*scene.fibre_frame)
+                              : entry.value);
   const auto loads = support_loads_of(setup);
   const auto at_rest = support_loads_at_rest(setup);
   for (std::size_t i = 0; i < loads.size(); ++i)

@@ -7,7 +7,6 @@
 #include "base/memory.hpp"
 #include "base/threads.hpp"
 #include "base/version.hpp"
-#include "case/case_hash.hpp"
 #include "fem/dimensions.hpp"
 #include "io/summary.hpp"
 #include "run/cost_summary.hpp"
@@ -17,7 +16,8 @@ namespace fsi {
 namespace {
 
 template <int n>
-nlohmann::json scene_json(const std::string& program, const Case& setup, const MeshFacts& mesh, const Scene<n>& scene) {
+nlohmann::json scene_json(const std::string& program, const Case& setup, const std::string& case_hash,
+                          const MeshFacts& mesh, const Scene<n>& scene) {
   nlohmann::json json;
   json["program"] = program;
   json["version"] = version;
@@ -25,7 +25,7 @@ nlohmann::json scene_json(const std::string& program, const Case& setup, const M
   json["build"] = build_json();
   json["title"] = setup.title;
   json["case"] = setup.path.string();
-  json["case_hash"] = hash_of_case(setup);
+  json["case_hash"] = case_hash;
   json["threads"] = threads();
   json["element"] = element_pairs().name_of(setup.element);
   json["geometry"] = geometries().name_of(setup.geometry);
@@ -51,7 +51,8 @@ nlohmann::json scene_json(const std::string& program, const Case& setup, const M
 template <int n>
 void RunAccount<n>::begin() {
   auto& summary = parts_.voice.summary;
-  summary = scene_json(parts_.program, parts_.setup, parts_.loaded.mesh, parts_.scene);
+  summary = scene_json(parts_.program, parts_.setup, parts_.case_hash, parts_.loaded.mesh, parts_.scene);
+  if (parts_.scene.fibre_frame) summary["fibre_frame"] = fibre_frames().name_of(*parts_.scene.fibre_frame);
   first_step_ = parts_.state.step;
   if (first_step_ > 0) summary["restarted_from_step"] = first_step_;
 }

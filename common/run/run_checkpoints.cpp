@@ -69,8 +69,8 @@ Checkpoint RunCheckpoints<n>::of_now() {
   keep_method(memory);
   Checkpoint checkpoint;
   checkpoint.program = parts_.program;
-  checkpoint.case_hash = hash_of_case(parts_.setup);
-  checkpoint.case_text = readable_dump(parts_.setup);
+  checkpoint.case_hash = parts_.case_hash;
+  checkpoint.case_text = parts_.case_text;
   checkpoint.mesh_hash = parts_.loaded.mesh.hash;
   checkpoint.step = parts_.state.step;
   checkpoint.time = parts_.state.time;
@@ -130,8 +130,7 @@ std::optional<EarlierTables> RunCheckpoints<n>::recall() {
   const auto file = checkpoint_file(parts_.line.restart);
   const CheckpointReader reader(file, parts_.processes);
   const Checkpoint& head = reader.head();
-  require_same_run(file, head, parts_.program, hash_of_case(parts_.setup), parts_.loaded.mesh.hash,
-                   difference_of_cases(head.case_text, readable_dump(parts_.setup)));
+  require_same_run(file, head, parts_.program, parts_.case_hash, parts_.loaded.mesh.hash, difference_to(head));
   const State rest = parts_.scene.at_rest();
   RecalledMemory memory(
       file, head,
@@ -162,6 +161,18 @@ std::optional<EarlierTables> RunCheckpoints<n>::recall() {
   warnings_ = memory.warnings();
   if (in_place(parts_.line)) saved_ = state.step;
   return earlier;
+}
+
+/// What differs between the case of a checkpoint and this one, for a message.
+template <int n>
+std::string RunCheckpoints<n>::difference_to(const Checkpoint& head) const {
+  std::string difference = difference_of_cases(head.case_text, parts_.case_text);
+  const bool frame_differs = difference.rfind("structure.fibre_frame ", 0) == 0;
+  if (frame_differs && !parts_.setup.structure->fibre_frame)
+    difference +=
+        ", which the shape of the wall decides where the case names no frame; structure.fibre_frame names that of the "
+        "earlier run";
+  return difference;
 }
 
 /// "time.step is 0.0625 ms from step 3 on, 0.125 ms before: 8 steps to come"

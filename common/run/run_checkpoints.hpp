@@ -49,6 +49,7 @@ class RunCheckpoints {
   /// What march and stepper keep.
   void keep_method(Memory& memory);
   void keep_scheme(Memory& memory);
+  std::string difference_to(const Checkpoint& head) const;
   std::string text_of_change(const Stretch& before) const;
 
   RunParts<n>& parts_;

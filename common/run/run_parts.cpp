@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/threads.hpp"
+#include "case/case_hash.hpp"
 #include "fem/dimensions.hpp"
 #include "scene/time_scheme.hpp"
 
@@ -20,6 +21,13 @@ template <int n>
 const Communicator& shared_by_all(const Scene<n>& scene) {
   if (scene.processes().size() == Communicator::world().size()) return scene.processes();
   throw InputError("mpirun", "", "this scene works on one process", "start the program by itself");
+}
+
+/// The case with what the scene has decided in its place.
+template <int n>
+Case as_computed(Case setup, const Scene<n>& scene) {
+  if (setup.structure && scene.fibre_frame) setup.structure->fibre_frame = scene.fibre_frame;
+  return setup;
 }
 
 /// Cells with a mean of the error indicator.
@@ -44,6 +52,8 @@ RunParts<n>::RunParts(const std::string& named, const CommandLine& of_line, cons
         threads = set_as_chosen(threads_of_process(line.threads, cells, watch, Communicator::world()));
       }))),
       scene(*loaded.scene),
+      case_hash(hash_of_case(as_computed(setup, scene))),
+      case_text(readable_dump(as_computed(setup, scene))),
       processes(shared_by_all(scene)),
       first(processes),
       about_processes(scene),

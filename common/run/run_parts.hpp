@@ -52,6 +52,7 @@ struct RunParts {
   LoadingReport loading;  ///< what was said when there was no log
   LoadedScene<n> loaded;
   Scene<n>& scene;
+  const std::string case_hash, case_text;  ///< of the case as it is computed, for checkpoints
   const Communicator& processes;
   FirstProcess first;
   ProcessSummary<n> about_processes;

@@ -72,7 +72,12 @@ void build_wall(const Case& setup, WallParts<Element> parts, Scene<Element::comp
   }
   auto wall = std::make_unique<WallProblem<Element>>(
       std::move(parts.part), WallConstants{s.density, s.bulk_modulus, wall_stabilisation(setup)}, parts.layers,
-      cylinder_axis(s), std::move(parts.pressurised), parts.frame);
+      cylinder_axis(s), std::move(parts.pressurised), parts.frame ? parts.frame->fields : FrameFields());
+  if (parts.frame) {
+    scene.fibre_frame = parts.frame->kind;
+    scene.remarks.push_back(parts.frame->remark);
+    if (!parts.frame->notice.empty()) scene.notices.push_back(parts.frame->notice);
+  }
   std::size_t number = 0;
   for (const auto& [name, layer] : s.layers) wall->set_viscosity(number++, layer.viscosity);
   std::vector<std::vector<MaxwellBranch>> branches;

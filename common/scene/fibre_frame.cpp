@@ -1,17 +1,20 @@
 #include "scene/fibre_frame.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "base/error.hpp"
 #include "fem/elements.hpp"
-#include "mesh/boundary.hpp"
-#include "mesh/group_names.hpp"
-#include "mesh/symmetry_planes.hpp"
+#include "mesh/flat_parts.hpp"
+#include "mesh/point_math.hpp"
+#include "scene/cylindrical_wall.hpp"
+#include "scene/vessel_ends.hpp"
 
 namespace fsi {
 
@@ -54,24 +57,23 @@ void mark(const PartOf<Element>& wall, const typename MeshOf<Element>::Facet& fa
   for (int node : facet) marks[wall.local_node[node]] = 1;
 }
 
+/// Marks start and end among the connected pieces of the ends.
+/// \param body     sets of nodes of the mesh that the wall's cells make
+/// \param subject  what needs ends, for messages
 template <class Element>
-std::array<int, Element::dim> vertices_of(const typename MeshOf<Element>::Facet& facet) {
-  std::array<int, Element::dim> vertices;
-  std::copy_n(facet.begin(), vertices.size(), vertices.begin());
-  std::sort(vertices.begin(), vertices.end());
-  return vertices;
-}
-
-/// Marks start and end among the pieces of `wall_ends`.
-/// \param body  sets of nodes of the mesh that the wall's cells make
-template <class Element>
-void mark_ends(const MeshOf<Element>& mesh, const PartOf<Element>& wall, const FacetsOf<Element>& ends,
+void mark_ends(const MeshOf<Element>& mesh, const PartOf<Element>& wall, const VesselFaces<Element>& faces,
                ConnectedNodes& body, const std::vector<int>& bodies, const std::string& case_file,
-               FrameBoundary& boundary) {
+               const std::string& subject, FrameBoundary& boundary) {
   ConnectedNodes piece(mesh.nodes.size());
-  for (const auto& facet : ends) piece.connect(facet);
+  for (const auto& facet : faces.ends) piece.connect(facet);
   std::map<int, double> area;  // per piece
-  for (const auto& facet : ends) area[piece.root(facet[0])] += area_of(mesh.nodes, facet);
+  std::map<int, Point> moment;
+  for (const auto& facet : faces.ends) {
+    const int root = piece.root(facet[0]);
+    const double size = area_of(mesh.nodes, facet);
+    area[root] += size;
+    for (int i = 0; i < 3; ++i) moment[root] = moment[root] + (size / 3) * mesh.nodes[facet[i]];
+  }
   std::map<int, int> start, count;  // per body
   for (const auto& [root, size] : area) {
     const int of = body.root(root);
@@ -84,12 +86,18 @@ void mark_ends(const MeshOf<Element>& mesh, const PartOf<Element>& wall, const F
     if (count[of] < 2)
       throw InputError(
           case_file, key,
-          "the frame \"laplace\" runs from one end of the wall to the others, and the surface wall_ends has " +
-              std::to_string(count[of]) + (count[of] == 1 ? " connected piece" : " connected pieces") + " on this wall",
-          std::string("name two or more end faces of the wall wall_ends in the mesh, or ") + other_frame);
+          fmt::format("{} runs from one end of the wall to the others, and {} found on this wall: pieces of the "
+                      "surface wall_ends, faces without a name that meet the inner face at an edge, planes of "
+                      "symmetry across the vessel{}",
+                      subject, count[of] == 1 ? "1 end is" : "0 ends are",
+                      faces.unclear.empty() ? "" : "; " + faces.unclear),
+          fmt::format("name two or more end faces of the wall wall_ends in the mesh{}, or {}",
+                      faces.unclear.empty() ? "" : " and planes of symmetry symmetry", other_frame));
+  for (const auto& [root, size] : area)
+    (start[body.root(root)] == root ? boundary.from : boundary.to).push_back((1 / size) * moment[root]);
   boundary.start.assign(wall.nodes.size(), 0);
   boundary.end = boundary.start;
-  for (const auto& facet : ends) {
+  for (const auto& facet : faces.ends) {
     const int root = piece.root(facet[0]);
     mark<Element>(wall, facet, start[body.root(root)] == root ? boundary.start : boundary.end);
   }
@@ -97,26 +105,28 @@ void mark_ends(const MeshOf<Element>& mesh, const PartOf<Element>& wall, const F
   wall.spread_to_copies(boundary.end);
 }
 
+std::string text_of(const std::vector<Point>& places) {
+  std::string text;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < places.size() ? ", " : " and ") + place_of(places[i]);
+  return text;
+}
+
+/// "the axis through (0, 0, 0) mm along (0, 0, 1)"
+template <class Element>
+std::string text_of_axis(const StructureData& data) {
+  if (Element::axisymmetric) return "the axis of the body of revolution";
+  const auto& d = Element::dim == 3 ? data.axis_direction : Point{0, 0, 1};
+  return fmt::format("the axis through {} along ({:g}, {:g}, {:g})", place_of(data.axis_origin), d[0], d[1], d[2]);
+}
+
 }  // namespace
 
 template <class Element>
 FrameBoundary frame_boundary(const MeshOf<Element>& mesh, const PartOf<Element>& wall,
-                             const std::vector<int>& wall_regions, const std::string& case_file) {
-  const auto inner = inner_surface<Element>(mesh, wall_regions);
-  FacetsOf<Element> ends;
-  for (const auto& facet : group_facets(mesh, group::wall_ends))
-    if (std::all_of(facet.begin(), facet.end(), [&](int node) { return wall.local_node[node] >= 0; }))
-      ends.push_back(facet);
-
-  std::vector<std::array<int, Element::dim>> others;
-  const auto leave_out = [&](const FacetsOf<Element>& facets) {
-    for (const auto& facet : facets) others.push_back(vertices_of<Element>(facet));
-  };
-  leave_out(inner);
-  leave_out(ends);
-  for (const auto& plane : symmetry_planes(mesh)) leave_out(plane.group->facets);
-  std::sort(others.begin(), others.end());
-
+                             const std::vector<WallFacet<Element>>& facets, const std::string& case_file,
+                             const std::string& subject) {
+  const VesselFaces<Element> faces = vessel_faces<Element>(mesh, facets);
   ConnectedNodes body(mesh.nodes.size());
   for (const auto& cell : wall.cells) {
     auto nodes = cell;
@@ -131,35 +141,83 @@ FrameBoundary frame_boundary(const MeshOf<Element>& mesh, const PartOf<Element>&
   boundary.inner.assign(wall.nodes.size(), 0);
   boundary.outer = boundary.inner;
   std::map<int, bool> has_inner, has_outer;
-  for (const auto& facet : inner) {
+  for (const auto& facet : faces.inner) {
     mark<Element>(wall, facet, boundary.inner);
     has_inner[body.root(facet[0])] = true;
   }
-  for (const auto& facet : boundary_facets(mesh, wall_regions))
-    if (!std::binary_search(others.begin(), others.end(), vertices_of<Element>(facet.nodes))) {
-      mark<Element>(wall, facet.nodes, boundary.outer);
-      has_outer[body.root(facet.nodes[0])] = true;
-    }
+  for (const auto& facet : faces.outer) {
+    mark<Element>(wall, facet, boundary.outer);
+    has_outer[body.root(facet[0])] = true;
+  }
   for (int of : bodies)
     for (const auto& [known, name] : {std::pair{has_inner[of], "inner"}, std::pair{has_outer[of], "outer"}})
       if (!known)
         throw InputError(
             case_file, key,
-            std::string("the frame \"laplace\" runs from the inner to the outer face of the wall, and it has "
-                        "no ") +
-                name + " face",
+            fmt::format("{} runs from the inner to the outer face of the wall, and it has no {} face", subject, name),
             std::string(name == std::string("inner") ? "name the inner face inner in the mesh, or "
                                                      : "leave a part of the boundary without a name, or ") +
                 other_frame);
   wall.spread_to_copies(boundary.inner);
   wall.spread_to_copies(boundary.outer);
-  if constexpr (Element::dim == 3) mark_ends<Element>(mesh, wall, ends, body, bodies, case_file, boundary);
+  if constexpr (Element::dim == 3) mark_ends<Element>(mesh, wall, faces, body, bodies, case_file, subject, boundary);
   return boundary;
 }
 
-#define FSI_INSTANTIATE(Element)                                                                 \
-  template FrameBoundary frame_boundary<Element>(const MeshOf<Element>&, const PartOf<Element>&, \
-                                                 const std::vector<int>&, const std::string&);
+template <class Element>
+WallFrame wall_frame(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& wall,
+                     const std::vector<int>& wall_regions) {
+  const StructureData& data = *setup.structure;
+  const std::string axis = text_of_axis<Element>(data);
+  const auto facets = wall_boundary<Element>(mesh, wall_regions);
+  WallFrame frame;
+  const auto take_cylinder = [&](const std::string& why) {
+    frame.kind = FibreFrame::cylinder;
+    frame.remark = fmt::format("{} = cylinder: {}", key, why);
+  };
+  const auto take_own = [&](const std::string& subject, const std::string& why) {
+    const FrameBoundary boundary = frame_boundary<Element>(mesh, wall, facets, setup.path.string(), subject);
+    frame.fields = frame_fields<Element>(wall, boundary);
+    frame.kind = FibreFrame::laplace;
+    frame.remark = fmt::format("{} = laplace: {}", key, why);
+    if (!boundary.from.empty())
+      frame.remark += fmt::format(", from {} to {}", text_of(boundary.from), text_of(boundary.to));
+  };
+  if (data.fibre_frame == FibreFrame::laplace) {
+    take_own("the frame \"laplace\"", "fibres follow the wall's own frame");
+    return frame;
+  }
+  const bool is_about_axis = is_cylinder<Element>(mesh, facets, {data.axis_origin, data.axis_direction});
+  if (data.fibre_frame == FibreFrame::cylinder) {
+    take_cylinder(fmt::format("fibres lie about {}{}", axis,
+                              is_about_axis ? "" : ", as the case says, though the wall is no cylinder about it"));
+    return frame;
+  }
+  if (is_about_axis) {
+    take_cylinder("the case names none, and the wall is a cylinder about " + axis);
+    return frame;
+  }
+  try {
+    take_own(
+        fmt::format("no frame is named, and the wall is no cylinder about {}; its own frame", axis),
+        fmt::format("the case names none, and the wall is no cylinder about {}: fibres follow its own frame", axis));
+  } catch (const InputError& error) {
+    if (!data.axis_is_named) throw;
+    take_cylinder(fmt::format("the case names an axis but no frame, and the wall has no frame of its own"));
+    frame.notice = fmt::format(
+        "{}: fibres lie about {}, though the wall is no cylinder about it, since a frame of its own "
+        "cannot be found; name the frame, or see to what that needs [{}]",
+        key, axis, error.what());
+  }
+  return frame;
+}
+
+#define FSI_INSTANTIATE(Element)                                                                             \
+  template FrameBoundary frame_boundary<Element>(const MeshOf<Element>&, const PartOf<Element>&,             \
+                                                 const std::vector<WallFacet<Element>>&, const std::string&, \
+                                                 const std::string&);                                        \
+  template WallFrame wall_frame<Element>(const Case&, const MeshOf<Element>&, const PartOf<Element>&,        \
+                                         const std::vector<int>&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

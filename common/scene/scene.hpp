@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/profile.hpp"
+#include "case/choices.hpp"
 #include "fem/nodal_frames.hpp"
 #include "fluid/fluid.hpp"
 #include "mesh_motion/mesh_motion.hpp"
@@ -66,6 +67,7 @@ class Scene {
     std::vector<double> wall;           ///< (0, p) in the wall, mixed layout
   };
   std::optional<InitialLoad> initial_load;
+  std::optional<FibreFrame> fibre_frame;  ///< that fibres lie in; empty: there are none
   /// Of the constants that are not the same in the whole wall, by name: their means in the wall's cells here.
   std::map<std::string, std::vector<double>> wall_constants;
   std::optional<WholeOrder> wall_cell_order;       ///< of those cells, where processes share them
@@ -184,6 +186,7 @@ class Scene {
       in.acceleration_history = rates.acceleration_history.data();
       in.acceleration_factor = rates.acceleration_factor;
       in.velocity_rate = rates.interface.rate();
+      in.strain_lag = rates.strain_lag;
       if (!rates.wall_reference.empty()) in.velocity_reference = rates.wall_reference.data();
       if (!rates.branches_reference.empty()) in.branch_reference = rates.branches_reference.data();
     }

@@ -8,7 +8,6 @@
 #include "mesh/boundary.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh_motion/stiffening.hpp"
-#include "scene/fibre_frame.hpp"
 #include "scene/moving_openings.hpp"
 #include "scene/restricted_conditions.hpp"
 
@@ -47,10 +46,8 @@ WallParts<Element> find_wall(const Case& setup, const MeshOf<Element>& mesh, con
     wall.layers.push_back({mesh.region_index(name), make_material(data.material, data.values)});
   if (setup.load || setup.prestress)
     wall.pressurised = in_part<Element>(wall.part, inner_surface<Element>(mesh, regions));
-  if (structure.fibre_frame == FibreFrame::laplace &&
-      std::any_of(wall.layers.begin(), wall.layers.end(), [](const auto& layer) { return has_fibres(layer.second); }))
-    wall.frame =
-        frame_fields<Element>(wall.part, frame_boundary<Element>(mesh, wall.part, regions, setup.path.string()));
+  if (std::any_of(wall.layers.begin(), wall.layers.end(), [](const auto& layer) { return has_fibres(layer.second); }))
+    wall.frame = wall_frame<Element>(setup, mesh, wall.part, regions);
   wall.supports = support_facets<Element>(setup, mesh, wall.part);
   return wall;
 }
@@ -128,7 +125,7 @@ void restrict_wall(const PartRestriction& here, const PartOf<Element>& whole, Wa
   wall.whole_cells.assign(cells.begin(), cells.end());
   wall.held = {restricted(wall.held.conditions, here), restricted(wall.held.frames, here)};
   wall.pressurised = here.facets(wall.pressurised);
-  if (!wall.frame.empty()) wall.frame = restricted(wall.frame, here);
+  if (wall.frame && !wall.frame->fields.empty()) wall.frame->fields = restricted(wall.frame->fields, here);
   for (auto& [name, facets] : wall.supports) facets = here.facets(facets);
 }
 

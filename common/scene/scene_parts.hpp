@@ -9,9 +9,9 @@
 #include "case/case.hpp"
 #include "mesh/mesh_share.hpp"
 #include "scene/boundary_conditions.hpp"
+#include "scene/fibre_frame.hpp"
 #include "scene/inflow.hpp"
 #include "scene/wall_supports.hpp"
-#include "wall/fibre_frame.hpp"
 
 namespace fsi {
 
@@ -22,7 +22,7 @@ struct WallParts {
   WallConditions<Element::components> held;
   std::vector<std::pair<int, Material>> layers;  ///< region and material
   FacetsOf<Element> pressurised;                 ///< where the case's pressure acts on a wall without fluid
-  FrameFields frame;                             ///< of fibres; empty: that of a cylinder
+  std::optional<WallFrame> frame;                ///< of fibres; empty: there are none
   SupportFacets<Element> supports;
   std::vector<std::int64_t> whole_cells;  ///< per cell, its number in the whole wall; empty: the part is whole
 };

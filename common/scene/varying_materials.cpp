@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* viscosity_name = MaterialData::viscosity_key;
 
-std::string place_of(const Point& x) {
+std::string place_in_mm(const Point& x) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g}) mm", x[0], x[1], x[2]);
 }
 
@@ -144,14 +144,14 @@ class LayerConstants {
     if (const auto value = field.at(x)) return *value;
     throw InputError(data.file.string(), data.key.empty() ? "structure.layers." + name_ + "." + key : data.key,
                      fmt::format("has a hole at {}: the nearest value is {:.3g} mm away, {:.3g} mm are allowed",
-                                 place_of(x), field.distance_to(x), field.within()),
+                                 place_in_mm(x), field.distance_to(x), field.within()),
                      "give values there, too, or a larger within = ... beside file");
   }
   Material material_of(const ParameterValues& values, const Point& x) const {
     const Material material = materials().at(data_.material).make(values);
     if (!(bulk_modulus(material, setup_.structure->bulk_modulus) > 0))
       throw InputError(setup_.path.string(), "structure.layers." + name_,
-                       fmt::format("its constants at {} make a bulk modulus that is not positive", place_of(x)),
+                       fmt::format("its constants at {} make a bulk modulus that is not positive", place_in_mm(x)),
                        "give a lame_lambda of more than -2/3 lame_mu everywhere");
     return material;
   }

@@ -12,6 +12,7 @@ namespace fsi {
 struct FrameBoundary {
   std::vector<char> inner, outer;  ///< the radial potential is 0 and 1
   std::vector<char> start, end;    ///< the axial potential is 0 and 1; empty in two dimensions
+  std::vector<Point> from, to;     ///< mm, middles of the faces that start and end are, for messages
 };
 
 /// Frame of a wall of any shape from two potentials, each harmonic on the whole wall with no flux through the rest of

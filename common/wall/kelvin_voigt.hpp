@@ -7,11 +7,13 @@ namespace fsi {
 
 /// What a layer of Kelvin and Voigt's adds to an elastic one: a second Piola-Kirchhoff stress along the rate of Green and
 /// Lagrange's strain, and so (docs/theory.md, section 5.10)
-///   (eta F dE/dt, grad w),   dE/dt = (F^T grad v + (F^T grad v)^T) / 2,   F = I + grad d,
-/// to the wall's residual, for test functions w. It takes the power eta dE/dt : dE/dt, never negative. A rigid motion has
-/// no dE/dt.
+///   (eta F dE/dt, grad w),   dE/dt = (F^T grad v + (F^T grad v)^T) / 2,   F = I + grad d - s grad v,
+/// to the wall's residual, for test functions w. It takes the power eta dE/dt : dE/dt, never negative. v is the difference
+/// of two displacements over a time; with the lag s F is the mean of theirs, and dE/dt the difference of their strains over
+/// that time: zero between two places of a rigid body, however far apart.
 struct KelvinVoigt {
   double viscosity;  ///< eta, kPa ms
+  double lag = 0;    ///< s, ms
 
   template <class T>
   struct Prepared {
@@ -23,6 +25,9 @@ struct KelvinVoigt {
   template <class T>
   Prepared<T> prepare(const Mat3<T>& grad_d, const Mat3<T>& grad_v) const {
     Mat3<T> f = grad_d;
+    if (lag != 0)
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) f(i, j) -= Pack(lag) * grad_v(i, j);
     for (int i = 0; i < 3; ++i) f(i, i) += Pack(1.0);
     Mat3<T> rate;
     for (int i = 0; i < 3; ++i)

@@ -37,8 +37,8 @@ LayerConstants<Element> constants_of(const WallLayer<Element>& layer, int thread
 
 /// Where the viscosity varies, that of a viscosity of one, which each point multiplies by its own.
 template <class Element>
-KelvinVoigt form_of(const WallLayer<Element>& layer) {
-  return {layer.varies() ? 1.0 : layer.viscosity};
+KelvinVoigt form_of(const WallLayer<Element>& layer, const WallInput& in) {
+  return {layer.varies() ? 1.0 : layer.viscosity, in.strain_lag};
 }
 
 template <class Element, bool Derivatives>
@@ -79,7 +79,7 @@ void ViscousLayers<Element>::add(const std::vector<WallLayer<Element>>& layers, 
   if (in.velocity_rate == 0) return;
   for (const auto& layer : layers) {
     if (layer.viscosity == 0) continue;
-    const KelvinVoigt form = form_of(layer);
+    const KelvinVoigt form = form_of(layer, in);
     for_each_thread(
         layer.packs, jacobian ? serial_jacobian_elements : serial_residual_elements, [&](int t, const auto& mine) {
           const auto constants = constants_of(layer, t);
@@ -97,7 +97,7 @@ double ViscousLayers<Element>::work(const std::vector<WallLayer<Element>>& layer
   double work = 0;
   for (const auto& layer : layers) {
     if (layer.viscosity == 0) continue;
-    const KelvinVoigt form = form_of(layer);
+    const KelvinVoigt form = form_of(layer, step.balance);
     const Pack rate(step.rate), duration(step.duration);
     work += sum_over_elements<1>(layer.packs, [&](const auto& pack, int thread, std::size_t index) {
       const auto constants = constants_of(layer, thread);

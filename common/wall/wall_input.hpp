@@ -25,6 +25,8 @@ struct WallInput {
   const double* prestress = nullptr;  ///< displacement from the unloaded shape to the mesh, vector layout, mm
   bool finds_unloaded_shape = false;  ///< d is that displacement itself, and the equations hold on the mesh
 
+  double strain_lag = 0;  ///< ms, of the strain's rate (wall/kelvin_voigt.hpp)
+
   // What supports ask besides (wall/supports.hpp).
   const double* velocity_reference = nullptr;  ///< r of v = velocity_rate (d - r), mixed layout, mm; null: not known
   double velocity_rate = 0;                    ///< 1/ms; 0 in statics

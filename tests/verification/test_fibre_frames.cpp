@@ -1,10 +1,11 @@
 // Fibre frames by the wall's own potentials: of a straight tube they are the cylinder's, of a bent one the torus's, to
-// second order with curved quadratic elements and between first and second with linear ones; and what a wall without
-// faces to hold the potentials is told.
+// second order with curved quadratic elements and between first and second with linear ones; which frame a wall has where
+// the case names none; where its ends are found; and what a wall without faces to hold the potentials is told.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "base/error.hpp"
@@ -12,6 +13,7 @@
 #include "fem/function_space.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/mid_edge_nodes.hpp"
+#include "scene/cylindrical_wall.hpp"
 #include "scene/fibre_frame.hpp"
 #include "support/errors.hpp"
 #include "support/meshes.hpp"
@@ -110,6 +112,11 @@ struct Tube {
   }
 };
 
+template <class Element>
+FrameBoundary boundary_of(const MeshOf<Element>& mesh, const PartOf<Element>& part) {
+  return frame_boundary<Element>(mesh, part, wall_boundary<Element>(mesh, {0, 1}), "case.toml", "the frame");
+}
+
 /// Angles between fibres around and along the tube and the tube's directions, radians: the mean squares' roots and the
 /// largest, at all quadrature points of both layers.
 struct Angles {
@@ -119,7 +126,7 @@ template <class Element>
 Angles angles_of(const Tube& tube, int m) {
   const auto mesh = tube.mesh<Element>(m);
   const auto part = split_between_regions(whole(mesh));
-  const auto fields = frame_fields<Element>(part, frame_boundary<Element>(mesh, part, {0, 1}, "case.toml"));
+  const auto fields = frame_fields<Element>(part, boundary_of<Element>(mesh, part));
   const auto space = function_space<Element>(part);
   const ElementPacks<Element> packs(part.nodes, part.cells, all_cells(part), *space.graph());
   Angles angles;
@@ -188,39 +195,186 @@ TEST(FibreFrames, OfABentTubeAreTheToruss) {
   }
 }
 
-std::string complaint(const std::function<void(TetrahedralMesh&)>& change) {
-  auto mesh = Tube{}.mesh<P1Tetrahedron>(1);
-  change(mesh);
+/// A quarter of the tube, 90 degrees about the z axis, with groups `inner` and `wall_ends`; its cuts have no name.
+TetrahedralMesh quarter() {
+  const Tube tube;
+  auto mesh = grid_mesh(
+      {2, 4, 3}, {"media", "adventitia"},
+      [&](int i, int j, int k) { return tube.at(radius + 0.2 * i, pi / 8 * j, 2.0 / 3 * k); },
+      [](int i, int, int) { return i; });
+  mesh.facet_groups = {{group::inner, {}}, {group::wall_ends, {}}};
+  for (const auto& facet : boundary_facets(mesh)) {
+    const auto all = [&](auto lies) {
+      return std::all_of(facet.nodes.begin(), facet.nodes.end(), [&](int node) { return lies(mesh.nodes[node]); });
+    };
+    if (all([](const Point& x) { return std::hypot(x[0], x[1]) < radius + 0.1; }))
+      mesh.facet_groups[0].facets.push_back(facet.nodes);
+    if (all([](const Point& x) { return x[2] < 0.1; }) || all([](const Point& x) { return x[2] > 1.9; }))
+      mesh.facet_groups[1].facets.push_back(facet.nodes);
+  }
+  return mesh;
+}
+
+template <class Mesh>
+Mesh along_x(Mesh mesh) {
+  for (Point& x : mesh.nodes) x = {x[2], x[0], x[1]};
+  return mesh;
+}
+
+Case unnamed() {
+  Case setup;
+  setup.path = "case.toml";
+  setup.structure.emplace();
+  return setup;
+}
+
+template <class Element>
+WallFrame chosen(const MeshOf<Element>& mesh, const Case& setup = unnamed()) {
+  std::vector<int> regions(mesh.regions.size());
+  std::iota(regions.begin(), regions.end(), 0);
+  return wall_frame<Element>(setup, mesh, whole(mesh), regions);
+}
+
+// A tube that lies along x had the directions of the z axis, and no word was said.
+TEST(FibreFrames, AreTheWallsOwnWhereNoneIsNamedUnlessItIsACylinderAboutTheAxis) {
+  const auto straight = Tube{}.mesh<P1Tetrahedron>(1);
+  const WallFrame about_z = chosen<P1Tetrahedron>(straight);
+  EXPECT_EQ(about_z.kind, FibreFrame::cylinder);
+  EXPECT_TRUE(about_z.fields.empty());
+  EXPECT_EQ(about_z.remark,
+            "structure.fibre_frame = cylinder: the case names none, and the wall is a cylinder about the axis through "
+            "(0, 0, 0) mm along (0, 0, 1)");
+  EXPECT_EQ(chosen<P2P1Tetrahedron>(Tube{}.mesh<P2P1Tetrahedron>(1)).kind, FibreFrame::cylinder);
+  EXPECT_EQ(chosen<P1Tetrahedron>(quarter()).kind, FibreFrame::cylinder);
+
+  const auto turned = along_x(straight);
+  const WallFrame about_x = chosen<P1Tetrahedron>(turned);
+  EXPECT_EQ(about_x.kind, FibreFrame::laplace);
+  EXPECT_EQ(about_x.remark,
+            "structure.fibre_frame = laplace: the case names none, and the wall is no cylinder about the axis through "
+            "(0, 0, 0) mm along (0, 0, 1): fibres follow its own frame, from (0, 0, 0) mm to (2, 0, 0) mm");
+  EXPECT_EQ(about_x.notice, "");
+  const WallFrame named = [&] {
+    Case setup = unnamed();
+    setup.structure->fibre_frame = FibreFrame::laplace;
+    return chosen<P1Tetrahedron>(turned, setup);
+  }();
+  EXPECT_EQ(about_x.fields.radial, named.fields.radial);
+  EXPECT_EQ(about_x.fields.axial, named.fields.axial);
+
+  Case axis = unnamed();
+  axis.structure->axis_direction = {2, 0, 0};
+  EXPECT_EQ(chosen<P1Tetrahedron>(turned, axis).kind, FibreFrame::cylinder);
+  EXPECT_EQ(chosen<P1Tetrahedron>(straight, axis).kind, FibreFrame::laplace);
+  auto aside = straight;
+  for (Point& x : aside.nodes) x[0] += 0.5;
+  EXPECT_EQ(chosen<P1Tetrahedron>(aside).kind, FibreFrame::laplace);
+  EXPECT_EQ(chosen<P1Tetrahedron>(Tube{0.4, 4, 6}.mesh<P1Tetrahedron>(1)).kind, FibreFrame::laplace);
+}
+
+TEST(FibreFrames, KnowACylinderByItsShape) {
+  const auto is_one = [](const auto& change) {
+    auto mesh = Tube{}.mesh<P1Tetrahedron>(2);
+    for (Point& x : mesh.nodes) {
+      const double angle = std::atan2(x[1], x[0]), factor = change(angle, x[2]);
+      x = {factor * x[0], factor * x[1], x[2]};
+    }
+    return is_cylinder<P1Tetrahedron>(mesh, wall_boundary<P1Tetrahedron>(mesh, {0, 1}), {});
+  };
+  EXPECT_TRUE(is_one([](double, double) { return 1; }));
+  EXPECT_TRUE(is_one([](double angle, double) {  // as 12 flat faces that were refined
+    return std::cos(pi / 12) / std::cos(std::remainder(angle - pi / 12, pi / 6));
+  }));
+  EXPECT_FALSE(is_one([](double, double z) { return 1 + 0.1 * z; })) << "a cone";
+  EXPECT_FALSE(is_one([](double, double z) { return 1 - 0.3 * std::exp(-std::pow(4 * (z - 1), 2)); })) << "a stenosis";
+  EXPECT_FALSE(is_one([](double angle, double) { return 1 + 0.1 * std::cos(2 * angle); })) << "an oval";
+
+  auto block = grid_mesh(
+      {2, 2, 2}, {"media"},
+      [](int i, int j, int k) {
+        return Point{i - 1.0, j - 1.0, 1.0 * k};
+      },
+      [](int, int, int) { return 0; });
+  EXPECT_FALSE(is_cylinder<P1Tetrahedron>(block, wall_boundary<P1Tetrahedron>(block, {0}), {}));
+}
+
+/// What an action is refused with; "" if it is not.
+std::string refusal(const std::function<void()>& action) {
   try {
-    frame_boundary<P1Tetrahedron>(mesh, whole(mesh), {0, 1}, "case.toml");
+    action();
   } catch (const InputError& error) {
     return error.what();
   }
   return "";
 }
+/// What frame_boundary() says of a mesh after a change.
+std::string complaint(TetrahedralMesh mesh, const std::function<void(TetrahedralMesh&)>& change) {
+  change(mesh);
+  return refusal([&] { boundary_of<P1Tetrahedron>(mesh, whole(mesh)); });
+}
+
+std::vector<std::vector<char>> marks(const TetrahedralMesh& mesh) {
+  const FrameBoundary boundary = boundary_of<P1Tetrahedron>(mesh, whole(mesh));
+  return {boundary.inner, boundary.outer, boundary.start, boundary.end};
+}
+
+// Names of ends may be left out, or be those of supports.
+TEST(FibreFrames, FindEndsByTheirShape) {
+  for (const Tube& tube : {Tube{}, Tube{0.4, 4, 6}}) {
+    const auto named = tube.mesh<P1Tetrahedron>(1);
+    const auto expected = marks(named);
+    auto mesh = named;
+    mesh.facet_groups[1].facets.clear();
+    EXPECT_EQ(marks(mesh), expected);
+    mesh = named;
+    mesh.facet_groups[1].facets.resize(named.facet_groups[1].facets.size() / 2);
+    EXPECT_EQ(marks(mesh), expected);
+    mesh.facet_groups[1].name = "symmetry_z";  // across the vessel
+    EXPECT_EQ(marks(mesh), expected);
+  }
+  auto mesh = quarter();
+  const auto found = boundary_of<P1Tetrahedron>(mesh, whole(mesh));
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
+    const double r = std::hypot(mesh.nodes[a][0], mesh.nodes[a][1]);
+    EXPECT_EQ(found.outer[a] != 0, r > radius + 0.3) << "cuts along the vessel have no potential";
+    EXPECT_EQ(found.start[a] != 0, mesh.nodes[a][2] < 0.1);
+    EXPECT_EQ(found.end[a] != 0, mesh.nodes[a][2] > 1.9);
+  }
+}
 
 TEST(FibreFrames, NeedInnerAndOuterFacesAndTwoEnds) {
-  EXPECT_EQ(complaint([](auto&) {}), "");
-  EXPECT_EQ(complaint([](auto& mesh) { mesh.facet_groups[0].facets.clear(); }),
-            "case.toml: structure.fibre_frame: the frame \"laplace\" runs from the inner to the outer face of the "
-            "wall, and it has "
+  const auto straight = Tube{}.mesh<P1Tetrahedron>(1);
+  EXPECT_EQ(complaint(straight, [](auto&) {}), "");
+  EXPECT_EQ(complaint(straight, [](auto& mesh) { mesh.facet_groups[0].facets.clear(); }),
+            "case.toml: structure.fibre_frame: the frame runs from the inner to the outer face of the wall, and it has "
             "no inner face; name the inner face inner in the mesh, or set fibre_frame = \"cylinder\"");
-  EXPECT_EQ(complaint([](auto& mesh) {
-              mesh.facet_groups[0].facets.clear();
-              for (const auto& facet : boundary_facets(mesh)) mesh.facet_groups[0].facets.push_back(facet.nodes);
-            }),
-            "case.toml: structure.fibre_frame: the frame \"laplace\" runs from the inner to the outer face of the "
-            "wall, and it has "
+  EXPECT_EQ(complaint(straight,
+                      [](auto& mesh) {
+                        mesh.facet_groups[0].facets.clear();
+                        for (const auto& facet : boundary_facets(mesh))
+                          mesh.facet_groups[0].facets.push_back(facet.nodes);
+                      }),
+            "case.toml: structure.fibre_frame: the frame runs from the inner to the outer face of the wall, and it has "
             "no outer face; leave a part of the boundary without a name, or set fibre_frame = \"cylinder\"");
-  EXPECT_EQ(
-      complaint([](auto& mesh) {
-        auto& ends = mesh.facet_groups[1].facets;
-        ends.resize(ends.size() / 2);
-      }),
-      "case.toml: structure.fibre_frame: the frame \"laplace\" runs from one end of the wall to the others, and the "
-      "surface "
-      "wall_ends has 1 connected piece on this wall; name two or more end faces of the wall wall_ends in the mesh, "
-      "or set fibre_frame = \"cylinder\"");
+  const std::string ends = complaint(quarter(), [](auto& mesh) { mesh.facet_groups[1].facets.clear(); });
+  for (const char* said : {"the frame runs from one end of the wall to the others, and 0 ends are found on this wall",
+                           "touch each other: one may be an end and the other a cut", "name two or more end faces"})
+    EXPECT_NE(ends.find(said), std::string::npos) << ends;
+}
+
+// A frame that is needed and cannot be found ends the run, unless the case names an axis.
+TEST(FibreFrames, AreNotGuessed) {
+  auto mesh = along_x(Tube{}.mesh<P1Tetrahedron>(1));
+  mesh.facet_groups[0].facets.clear();
+  EXPECT_EQ(refusal([&] { chosen<P1Tetrahedron>(mesh); }),
+            "case.toml: structure.fibre_frame: no frame is named, and the wall is no cylinder about the axis through "
+            "(0, 0, 0) mm along (0, 0, 1); its own frame runs from the inner to the outer face of the wall, and it has "
+            "no inner face; name the inner face inner in the mesh, or set fibre_frame = \"cylinder\"");
+  Case axis = unnamed();
+  axis.structure->axis_is_named = true;
+  const WallFrame frame = chosen<P1Tetrahedron>(mesh, axis);
+  EXPECT_EQ(frame.kind, FibreFrame::cylinder);
+  EXPECT_NE(frame.notice.find("though the wall is no cylinder about it"), std::string::npos) << frame.notice;
 }
 
 // At a saddle there is no axial direction; the frame is orthonormal all the same.

@@ -16,6 +16,7 @@
 #include "support/problems.hpp"
 #include "support/pulled_block.hpp"
 #include "support/random.hpp"
+#include "time/time_schemes.hpp"
 #include "wall/viscous_layers.hpp"
 
 namespace fsi::test {
@@ -41,6 +42,7 @@ TYPED_TEST(ViscousWallOf, JacobianIsTheDerivativeOfTheResidual) {
     WallInput in{at.data(), history.data(), 16.0};
     in.velocity_reference = reference.data();
     in.velocity_rate = 4;
+    in.strain_lag = 0.1;
     std::vector<double> r;
     EXPECT_FALSE(wall.assemble(in, 0, at, r, derivatives).inverted());
     return r;
@@ -75,6 +77,28 @@ TEST(KelvinVoigt, TakesNothingFromARotation) {
   EXPECT_NEAR(still.power[0], 0, 1e-28);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) EXPECT_NEAR(still.flux(i, j)[0], 0, 1e-15);
+}
+
+// Nor does a step of it: between two places of a rigid body no strain changes, whatever the angle.
+TEST(KelvinVoigt, TakesNothingFromAStepOfARotation) {
+  constexpr double step = 0.25, angle = 0.4;
+  Mat3<Pack> turned{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) turned(i, j) = Pack(0.0);
+  turned(0, 0) = turned(1, 1) = Pack(std::cos(angle) - 1);
+  turned(0, 1) = Pack(-std::sin(angle));
+  turned(1, 0) = Pack(std::sin(angle));
+  for (const std::string scheme : {"euler", "midpoint", "tr-bdf2", "bdf2"}) {
+    const auto integrator = make_integrator(scheme, 3, {}, 1.0);
+    State state;
+    integrator->prepare(state);
+    const StepRates rates = integrator->rates(state, step);
+    const Pack share(rates.carry), rate(rates.interface.rate());  // the balance of a midpoint rule lies on the chord
+    const Mat3<Pack> at_balance = share * turned;
+    const auto still = KelvinVoigt{2, rates.strain_lag}.prepare(at_balance, rate * at_balance);
+    EXPECT_NEAR(still.power[0], 0, 1e-28) << scheme;
+    EXPECT_GT((KelvinVoigt{2}.prepare(at_balance, rate * at_balance).power[0]), 1e-3) << scheme;
+  }
 }
 
 // --- creep -----------------------------------------------------------------------------------------------------------
