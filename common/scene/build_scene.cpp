@@ -129,6 +129,21 @@ void build_fluid(const Case& setup, int region, FluidParts<Element> parts, Scene
   scene.fluid = std::move(fluid);
 }
 
+/// Whether the wall moves a fluid that can pass nowhere.
+template <int n>
+bool encloses_fluid(const Scene<n>& scene) {
+  if (!scene.coupled()) return false;
+  const auto& open = scene.fluid->open_boundaries();
+  return std::all_of(open.begin(), open.end(), [](const auto& boundary) { return boundary.empty(); });
+}
+
+constexpr const char* about_enclosed_fluid =
+    "the fluid is enclosed, and nothing but the velocities of each step keeps its volume: while the wall swings it "
+    "grows a "
+    "little in each, with midpoint by a share theta - 1/2, with tr-bdf2 less; time.scheme = \"midpoint\" with "
+    "time.damping "
+    "= 0 keeps it, exactly so in the plane (docs/theory.md, section 8.12)";
+
 }  // namespace
 
 template <class Element>
@@ -149,6 +164,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     scene->integrator = make_time_scheme(setup, *scene, time_scheme_of(setup, *scene));
     scene->predictor = setup.time->predictor.value_or(std::min(scene->integrator->error_terms().order, 2));
   }
+  if (setup.time && encloses_fluid(*scene)) scene->remarks.emplace_back(about_enclosed_fluid);
   if (scene->coupled() && setup.stabilisation == Stabilisation::projected) stabilise_for_waves(*scene);
   if (!setup.supports.empty()) require_no_rigid_motion(setup, *scene);
   scene->keep_constant_operators = setup.economy.keep_constant_operators;

@@ -94,6 +94,7 @@ class Closed(FolderTest):
         for program in DRIVERS:
             text = self.log(program, FLUID + 'closed = ["inlet", "eca"]\n' + WALL + TISSUE + points)
             self.assertIn("closed, the fluid sticks there: inlet, eca\n", text)
+            self.assertIn("the fluid is enclosed, and nothing but the velocities of each step keeps its volume", text)
             found.append(energy(self.base / "out")["wall_volumetric_energy"])
             with (self.base / "out" / "points.csv").open() as file:
                 (row,) = (row for row in csv.DictReader(file) if float(row["time_ms"]) == 0.375)
