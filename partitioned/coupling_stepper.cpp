@@ -121,7 +121,7 @@ void CouplingStepper<n>::solve_step(State& state) {
       }
       if (keep_balances_) report_.balances.push_back({state.now, data});
       if (data.rates.last_stage)
-        report_.level = accept_level(scene_, data, state, spare_);
+        accept_level(scene_, data, state, spare_, report_);
       else
         scene_.integrator->accept(state, data);
     }

@@ -126,7 +126,9 @@ struct StructureData {
   double bulk_modulus = 0;              ///< kPa, of layers whose material has none of its own
   std::optional<double> stabilisation;  ///< alpha of the wall's tau (docs/theory.md, section 4.2); empty: standard
   LayerPressure layer_pressure = LayerPressure::separate;
-  std::optional<FibreFrame> fibre_frame{};     ///< empty: by the wall's shape (scene/fibre_frame.hpp)
+  std::optional<FibreFrame> fibre_frame{};  ///< empty: by the wall's shape (scene/fibre_frame.hpp)
+  /// det F of nearly incompressible layers that is no solution: below 1/f or above f (docs/theory.md, section 4.9).
+  double volume_factor = 3;
   Point gravity{0, 0, 0};                      ///< mm/ms^2, acceleration of all its mass, a load that does not change
   Point axis_origin{0, 0, 0};                  ///< mm; a point on the axis of the fibres' cylindrical frame
   Point axis_direction{0, 0, 1};               ///< need not be normalised
@@ -158,6 +160,8 @@ struct TimeData {
 /// [static]: a wall without inertia, the load raised in equal steps
 struct StaticData {
   int load_steps = 10;
+  int retries = 4;         ///< times that a load step which found no solution is halved before the run gives up
+  bool check_path = true;  ///< long load steps are taken once more in two halves, which must lead to the same state
 };
 
 /// [monolithic.multigrid]: multigrid of the sub-problems and, under names with amg and amli, of the coupled system

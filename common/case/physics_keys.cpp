@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <system_error>
 
@@ -160,6 +161,10 @@ std::vector<CaseKey<StructureData>> structure_keys() {
       leaf("stabilisation", optional,
            "alpha, factor of the wall's; default 0.05 with \"projected\" and a continuous layer_pressure, else 0.5",
            number(at(&StructureData::stabilisation), positive)),
+      leaf("volume_factor", optional,
+           "f: a state with det F below 1/f or above f in a nearly incompressible layer is no solution, default {}",
+           number(at(&StructureData::volume_factor), Bounds{1, std::numeric_limits<double>::infinity(), false, false}),
+           KeyRole::running),
       leaf("layer_pressure", optional, "the pressure where layers meet: {}",
            name_from(at(&StructureData::layer_pressure), layer_pressures())),
       leaf("fibre_frame", optional,
@@ -340,6 +345,13 @@ std::vector<CaseKey<StaticData>> static_keys() {
   return {
       leaf("load_steps", optional, "equal steps in which the load is raised, default {}",
            whole(at(&StaticData::load_steps), 1, most_steps), KeyRole::running),
+      leaf("retries", optional,
+           "times that a load step which finds no solution is halved before the run gives up, default {}",
+           whole(at(&StaticData::retries), 0, 20), KeyRole::running),
+      leaf("check_path", optional,
+           "whether load steps that are long for the solver are taken once more in two halves, which must lead to the "
+           "same state, default {}",
+           flag(at(&StaticData::check_path)), KeyRole::running),
   };
 }
 

@@ -195,11 +195,18 @@ CellJacobian cell_jacobian(const std::array<Point, nodes_of_simplex(Dim, 2)>& x)
   return result;
 }
 
+template <int Dim>
+bool is_surely_positive(const std::array<Point, nodes_of_simplex(Dim, 2)>& x) {
+  return whole_cell<Dim>(x).least() > 0;
+}
+
 std::string bad_curved_cell(const CellJacobian& jacobian) {
   return fmt::format("folded by its curved edges: det J is {:.3g} of its mean near ({:.6g}, {:.6g}, {:.6g}) mm",
                      jacobian.ratio(), jacobian.where[0], jacobian.where[1], jacobian.where[2]);
 }
 
+template bool is_surely_positive<2>(const std::array<Point, 6>&);
+template bool is_surely_positive<3>(const std::array<Point, 10>&);
 template CellJacobian cell_jacobian<2>(const std::array<Point, 6>&);
 template CellJacobian cell_jacobian<3>(const std::array<Point, 10>&);
 

@@ -25,6 +25,11 @@ struct CellJacobian {
 template <int Dim>
 CellJacobian cell_jacobian(const std::array<Point, nodes_of_simplex(Dim, 2)>& x);
 
+/// Whether the coefficients of the cell as a whole are all positive: then det J is, everywhere. False: ask cell_jacobian(),
+/// which takes longer.
+template <int Dim>
+bool is_surely_positive(const std::array<Point, nodes_of_simplex(Dim, 2)>& x);
+
 /// For messages: how a cell whose Jacobian is not positive fails, and what to do.
 std::string bad_curved_cell(const CellJacobian& jacobian);
 inline constexpr const char* curved_cell_remedy =

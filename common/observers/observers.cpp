@@ -16,6 +16,7 @@
 #include "observers/same_rows.hpp"
 #include "observers/statistics_observer.hpp"
 #include "observers/step_observer.hpp"
+#include "observers/wall_observer.hpp"
 
 namespace fsi {
 
@@ -37,6 +38,7 @@ const std::vector<Kind<n>>& kinds() {
       {"", {}, make_ringing_observer<n>},
       {"", {energy_file}, make_energy_observer<n>},
       {"interface.", {}, make_interface_observer<n>},
+      {"", {}, make_wall_observer<n>},
       {"", {surfaces_file}, make_force_observer<n>},
       {"", {centreline_file, wall_file, flow_file, points_file, lines_file, planes_file}, make_observables<n>},
       {"", {openings_file}, make_opening_observer<n>},

@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "diagnostics/load_path.hpp"
 #include "fem/dimensions.hpp"
 #include "scene/time_scheme.hpp"
+#include "system/step_change.hpp"
 
 namespace fsi {
 
@@ -17,6 +19,8 @@ namespace {
 // Of the scene's time.
 constexpr double first_share = 1.0 / 32, largest_share = 1;
 constexpr double its_tolerance = 0.01;  // of the first step, which goes with the root of the tolerance
+
+constexpr double same_state = 0.01;  // of what a load step changes
 
 }  // namespace
 
@@ -34,8 +38,9 @@ void require_resolvable(const Case& setup, const Scene<n>& scene) {
 
 template <int n>
 March<n>::March(const Case& setup, const Scene<n>& scene, Stepper& stepper, Loads& loads,
-                std::function<void(const std::string&)> say)
-    : setup_(setup), scene_(scene), stepper_(stepper), loads_(loads), say_(std::move(say)) {
+                std::function<void(const std::string&)> say, std::function<void(const std::string&)> warn)
+    : setup_(setup), scene_(scene), stepper_(stepper), loads_(loads), say_(std::move(say)), warn_(std::move(warn)) {
+  if (!warn_) warn_ = say_;
   // A step that may be halved is: quicker, and the message of one that fails comes sooner.
   stepper_.persist(setup.time && !setup.time->adaptive && setup.time->retries == 0);
   if (!loads.axis().is_adaptive()) return;
@@ -86,7 +91,14 @@ bool March<n>::accepts(const State& state, const StepData& data) {
 
 template <int n>
 bool March<n>::shrink(int step, int failures) {
-  if (loads_.axis().is_static() || !stepper_.can_retry() || failures > setup_.time->retries) return false;
+  if (loads_.axis().is_static()) {
+    const StaticData& data = setup_.static_load.value();
+    const double shortest = std::exp2(-data.retries) / data.load_steps;
+    if (loads_.time_of(step) - loads_.time_of(step - 1) < 1.5 * shortest) return false;
+    loads_.axis().halve(step);
+    return true;
+  }
+  if (!stepper_.can_retry() || failures > setup_.time->retries) return false;
   if (controller_) {
     controller_->fail(loads_.step_length(step));
     return true;
@@ -96,6 +108,57 @@ bool March<n>::shrink(int step, int failures) {
   if (loads_.step_length(step) < 1.5 * shortest) return false;
   loads_.axis().halve(step);
   return true;
+}
+
+template <int n>
+std::string March<n>::doubt_about(const State& before, const State& after, const StepReport& report) const {
+  if (!setup_.static_load->check_path || !scene_.wall) return {};
+  if (report.strayed) return "Newton's method did not go straight to it";
+  const LoadPathEnergy energy = load_path_energy(scene_, loads_, after.step, before, after);
+  return energy.follows_the_load() ? std::string() : text_of(energy);
+}
+
+template <int n>
+StepReport March<n>::load_step(State& state) {
+  const State before = state;
+  StepReport report = stepper_.advance(state);
+  const std::string doubt = doubt_about(before, state, report);
+  if (doubt.empty()) return report;
+  ++attempts_.checked;
+  const State whole = std::exchange(state, before);
+  const TimeAxis axis = loads_.axis();
+  const auto looked = fmt::format("load step {} (to {:g} of the load) was taken in two halves as well, since {}",
+                                  whole.step, whole.time, doubt);
+  const auto add = [&report](const StepReport& half) {
+    report.newton_iterations += half.newton_iterations;
+    report.linear_iterations += half.linear_iterations;
+  };
+  std::string other;
+  loads_.axis().halve(whole.step);
+  try {
+    for (int half = 0; half < 2; ++half) add(stepper_.advance(state));
+    const double apart =
+        relative_distance(*scene_.wall, before.before[0].wall, whole.before[0].wall, state.before[0].wall);
+    if (!(apart <= same_state))
+      other = fmt::format("they come to another state, {:.2g} % of the step's displacement away", 100 * apart);
+  } catch (const ConvergenceError& failure) {
+    add(stepper_.report());
+    other = fmt::format("they have no solution ({})", failure.what());
+  }
+  loads_.axis() = axis;
+  if (!other.empty()) {
+    state = before;
+    throw ConvergenceError(looked + ": " + other, "more static.load_steps, or a smaller load");
+  }
+  state = whole;
+  report.history.push_back(looked + ": they come to the same state");
+  if (const auto energy = load_path_energy(scene_, loads_, whole.step, before, whole); !energy.follows_the_load())
+    warn_(fmt::format(
+        "load step {} (to {:g} of the load): {}, though its two halves come to the same state: the wall has "
+        "snapped from one shape to another, or one of the two is not the one that the load leads to; compare "
+        "with more static.load_steps",
+        whole.step, whole.time, text_of(energy)));
+  return report;
 }
 
 template <int n>
@@ -113,7 +176,7 @@ StepReport March<n>::step(State& state) {
     if (controller_) loads_.axis().choose(step, state.time, controller_->wanted());
     const double length = loads_.step_length(step);
     try {
-      StepReport report = stepper_.advance(state);
+      StepReport report = loads_.axis().is_static() ? load_step(state) : stepper_.advance(state);
       if (report.rejected) {
         ++attempts_.rejected;
         add(report);
@@ -133,6 +196,10 @@ StepReport March<n>::step(State& state) {
         throw ConvergenceError(*first_failure);
       }
       add(stepper_.report());
+      if (loads_.axis().is_static()) {
+        say_(fmt::format("{}; again up to {:g} of the load", failure.what(), loads_.time_of(step)));
+        continue;
+      }
       const double next = controller_ ? controller_->wanted() : loads_.step_length(step);
       say_(fmt::format("{}; again with {:.6g} ms in place of {:.6g} ms", failure.what(), next, length));
     }

@@ -23,16 +23,21 @@ struct Attempts {
   int rejected = 0;  ///< solved, but with too large an error
   int failed = 0;    ///< without solution
   int beyond = 0;    ///< accepted with too large an error: smaller ones are not allowed
+  int checked = 0;   ///< load steps that were taken in two halves as well
 };
 
 /// Takes steps: as the case says or, if they are adaptive, as long as their estimated error allows. A step that finds
-/// no solution is taken again with a part of its length; equal steps return to their grid behind it.
+/// no solution is taken again with a part of its length; equal steps return to their grid behind it. So are load steps of
+/// a wall at rest, and those that a second look finds to lead to another state than their halves (docs/theory.md, section
+/// 4.9).
 template <int n>
 class March : private StepJudge {
  public:
-  /// All of them must outlive this. \param say  gets a line for each attempt that came to nothing, for the log
+  /// All of them must outlive this.
+  /// \param say   gets a line for each attempt that came to nothing, for the log
+  /// \param warn  gets what a user should know of steps that were taken; none: `say`
   March(const Case& setup, const Scene<n>& scene, Stepper& stepper, Loads& loads,
-        std::function<void(const std::string&)> say);
+        std::function<void(const std::string&)> say, std::function<void(const std::string&)> warn = {});
   March(const March&) = delete;
   March& operator=(const March&) = delete;
   ~March() override;
@@ -54,12 +59,17 @@ class March : private StepJudge {
   bool accepts(const State& state, const StepData& data) override;
   /// Makes the next step smaller. \returns false when it may not be
   bool shrink(int step, int failures);
+  /// A load step; where it may have left the states that the load leads through, also in two halves.
+  /// \throws ConvergenceError, too, where these lead to another state or none; the finished levels are untouched
+  StepReport load_step(State& state);
+  /// Why a load step is looked at again, a clause; empty: it is not.
+  std::string doubt_about(const State& before, const State& after, const StepReport& report) const;
 
   const Case& setup_;
   const Scene<n>& scene_;
   Stepper& stepper_;
   Loads& loads_;
-  std::function<void(const std::string&)> say_;
+  std::function<void(const std::string&)> say_, warn_;
   Attempts attempts_;
   std::optional<StepController> controller_;
   std::optional<ErrorEstimate<n>> estimate_;

@@ -90,6 +90,7 @@ void RunAccount<n>::take_stock() {
                        {"rejected_steps", attempts.rejected},
                        {"steps_above_tolerance", attempts.beyond},
                        {"failed_steps", attempts.failed},
+                       {"load_steps_checked_by_halves", attempts.checked},
                        {"work_units_per_step", work_units_per_step(unit, total_.wall_seconds, steps)},
                        {"wall_s", seconds_since(parts_.start)}};
   summary["peak_memory_MiB"] = peak_memory_mib();

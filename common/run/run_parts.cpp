@@ -62,7 +62,9 @@ RunParts<n>::RunParts(const std::string& named, const CommandLine& of_line, cons
              cells_of(loaded.derived.fluid_errors), cells_of(loaded.derived.wall_errors)),
       loads(setup),
       stepper(make_stepper.make(scene, loads, setup)),
-      march(setup, scene, *stepper, loads, [this](const std::string& said) { voice.log_only(said); }),
+      march(
+          setup, scene, *stepper, loads, [this](const std::string& said) { voice.log_only(said); },
+          [this](const std::string& said) { voice.warn(said); }),
       state(scene.at_rest()) {
   set_memory_notices([this](const std::string& said) { voice.log_only(said); });
   if (scene.is_static()) return;

@@ -78,6 +78,8 @@ void build_wall(const Case& setup, WallParts<Element> parts, Scene<Element::comp
     scene.remarks.push_back(parts.frame->remark);
     if (!parts.frame->notice.empty()) scene.notices.push_back(parts.frame->notice);
   }
+  for (const auto& [name, layer] : s.layers) scene.layer_names.push_back(name);
+  scene.volume_factor = s.volume_factor;
   std::size_t number = 0;
   for (const auto& [name, layer] : s.layers) wall->set_viscosity(number++, layer.viscosity);
   std::vector<std::vector<MaxwellBranch>> branches;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -72,6 +73,9 @@ class Scene {
   std::map<std::string, std::vector<double>> wall_constants;
   std::optional<WholeOrder> wall_cell_order;       ///< of those cells, where processes share them
   std::vector<VaryingConstant> varying_constants;  ///< those that vary within a layer
+  std::vector<std::string> layer_names;            ///< of the wall, in the order of Wall::layer_data()
+  /// Bound of det F in nearly incompressible layers.
+  double volume_factor = std::numeric_limits<double>::infinity();
   std::vector<std::string> notices;  ///< what was taken in place of what the case asks for, sentences for the user
   std::vector<std::string> remarks;  ///< what else a user may want to know of it, for the log
   int predictor = 1;                 ///< order of the extrapolated start of each step

@@ -249,7 +249,7 @@ double TimeAxis::choose(int step, double time, double longest) {
 }
 
 void TimeAxis::halve(int step) {
-  const double start = time_of(step - 1), half = 0.5 * length_of(step);
+  const double start = time_of(step - 1), half = 0.5 * (time_ ? length_of(step) : time_of(step) - start);
   const int place = inserted_before(step);
   for (std::size_t i = place; i < insertions_.size(); ++i) ++insertions_[i].step;
   if (Insertion* rest = place < static_cast<int>(insertions_.size()) ? &insertions_[place] : nullptr;

@@ -18,7 +18,7 @@ struct Stretch {
 /// A step whose end is no planned one: half of a step that failed, or one that an error estimate chose.
 struct Insertion {
   int step = 0;
-  double end = 0, length = 0;  ///< ms
+  double end = 0, length = 0;  ///< ms; in statics fractions of the load
 };
 
 /// Where the steps of a run begin and end. Steps end where a load jumps, and at the times of output.interval and
@@ -54,7 +54,7 @@ class TimeAxis {
   /// Adaptive steps: `step`, which begins at `time`, is the first of equal ones to the next stop, none longer than
   /// `longest` (ms) unless by rounding. Returns its length.
   double choose(int step, double time, double longest);
-  /// Halves a step: it ends in the middle, and the rest becomes the step after it.
+  /// Halves a step, or a load step: it ends in the middle, and the rest becomes the step after it.
   void halve(int step);
   /// Takes back what was inserted behind step `last`.
   void drop_insertions_after(int last);

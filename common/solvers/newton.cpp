@@ -86,6 +86,14 @@ double forcing_term(const NewtonOptions& options, bool renewed, double ratio, do
   return std::max(eta, smallest_forcing);
 }
 
+/// Whether an iteration shows that the start was far from the solution, by those before it. The last digits do not count.
+bool strays(const NewtonIteration& now, const std::vector<NewtonIteration>& before) {
+  constexpr double straight = 0.5, small = 0.01;
+  if (now.step < 1) return true;
+  return !before.empty() && now.increment > straight * before.back().increment &&
+         now.increment > small * before.front().increment;
+}
+
 /// What an increment left of the residual tells what is left of the error: the increments to come, if each is `left` of
 /// the one before ([Deuflhard2011], section 2.1). The ratio of increments would tell it of the increment before, and of
 /// a new Jacobian nothing: its next increment is shorter by far.
@@ -181,6 +189,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     }
     iteration.increment = iteration.step * increment;
     iteration.residual = new_residual;
+    report.strayed = report.strayed || strays(iteration, report.iterations);
     report.iterations.push_back(iteration);
     if (options.observe_iteration) options.observe_iteration(report);
     if (reference == 0) reference = increment;

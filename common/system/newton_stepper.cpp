@@ -8,6 +8,7 @@
 #include "fem/dimensions.hpp"
 #include "system/level_check.hpp"
 #include "system/step_continuation.hpp"
+#include "system/wall_check.hpp"
 #include "time/predictor.hpp"
 
 namespace fsi {
@@ -105,7 +106,7 @@ StepReport NewtonMarch<n>::advance(State& state) {
     }
     if (keep_balances_) report_.balances.push_back({state.now, data});
     if (data.rates.last_stage)
-      report_.level = accept_level(scene_, data, state, spare_);
+      accept_level(scene_, data, state, spare_, report_);
     else
       scene_.integrator->accept(state, data);
   }
@@ -120,6 +121,7 @@ void NewtonMarch<n>::advance_stage(State& state, StepData& data) {
     abandon();
     report_.history.push_back(solved.failure + "; again from the last time level");
     solved = solve(state, data, 0);
+    report_.strayed = true;
   }
   if (!solved.converged && this->persists_ && !scene_.is_static()) {
     abandon();
@@ -131,21 +133,16 @@ void NewtonMarch<n>::advance_stage(State& state, StepData& data) {
       solved.failure += slowly.failure;
   }
   if (solved.converged) {
+    report_.strayed = report_.strayed || solved.strayed;
     report_.solver_error = std::max(report_.solver_error, solved.error);
     return finish_stage(state, data);
   }
   abandon();
   const std::string valve = scene_.openings.joined().complaint();
-  throw ConvergenceError(fmt::format("{}: Newton's method stopped after {} iterations: {}", name_of_step(state, data),
-                                     solved.count(), solved.failure) +
+  throw ConvergenceError(fmt::format("{}: Newton's method stopped after {} iterations: {}",
+                                     name_of_step(scene_, state.step + 1, data), solved.count(), solved.failure) +
                              (valve.empty() ? "" : "; " + valve),
                          valve.empty() ? remedy(solved) : remedy(solved) + ", or " + JoinedOpenings<n>::remedy);
-}
-
-template <int n>
-std::string NewtonMarch<n>::name_of_step(const State& state, const StepData& data) const {
-  return scene_.is_static() ? fmt::format("load step {} (to {:g} of the load)", state.step + 1, data.time)
-                            : fmt::format("step {} (to t = {:g} ms)", state.step + 1, data.time);
 }
 
 template <int n>
@@ -196,7 +193,13 @@ NewtonReport NewtonMarch<n>::solve_from_there(State& state, StepData& data, cons
   scene_.impose_inflows(state, data);
   scene_.impose_interface(state, data.rates);
   NewtonReport solved = newton(equations(state, data), options);
-  scene_.impose_interface(state, data.rates);  // exactly, not to the rounding of the increments
+  scene_.impose_interface(state, data.rates);    // exactly, not to the rounding of the increments
+  if (solved.converged && scene_.is_static()) {  // another start may lead to another solution
+    if (const WallCheck check = check_wall(scene_, state.now.wall); !check.fault.empty()) {
+      solved.converged = false;
+      solved.failure = "what it came to is no solution: " + check.fault;
+    }
+  }
   report_.newton_iterations += solved.count();
   report_.linear_iterations += solved.linear_iterations();
   report_.history.push_back(fmt::format("first residual {:.3e}", solved.first_residual));

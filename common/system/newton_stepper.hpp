@@ -44,8 +44,6 @@ class NewtonMarch : public Stepper {
   Scene<n>& scene_;
 
  private:
-  std::string name_of_step(const State& state, const StepData& data) const;
-
   std::string remedy(const NewtonReport& failed) const;
 
   /// Solves the equations of a step, or of one stage of it; leaves their solution in state.now.

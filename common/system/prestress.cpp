@@ -8,13 +8,16 @@
 
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
+#include "system/step_change.hpp"
 #include "system/system.hpp"
+#include "system/wall_check.hpp"
 
 namespace fsi {
 
 namespace {
 
 constexpr double smallest_increment = 1.0 / 256;  // of the load
+constexpr double same_shape = 1e-3;               // of what an increment of the load changes
 
 /// Leaves a rest below a millionth of a millimetre at any load: the increment that follows is below rounding.
 NewtonOptions tight_newton(double load, const PrestressObserver& observe) {
@@ -55,17 +58,30 @@ WallPrestress find_prestress(Scene<n>& scene, double pressure, const std::vector
   {
     const Search<n> search(*scene.wall);
     System<n> system("prestress", scene, number_wall(scene), make_solver);
+    const auto reach = [&](double share) {
+      StepData data;
+      data.wall_pressure = share * pressure;
+      data.support_loads = support_loads;
+      for (double& load : data.support_loads) load *= share;
+      system.work_on(state, data);
+      NewtonReport report = newton(system, tight_newton(share, observe));
+      if (report.converged) report.failure = check_wall(scene, state.now.wall).fault;
+      report.converged = report.converged && report.failure.empty();
+      found.newton_iterations += report.count();
+      return report;
+    };
     double reached = 0, increment = 1;
     while (reached < 1) {
       const double next = std::min(1.0, reached + increment);
-      StepData data;
-      data.wall_pressure = next * pressure;
-      data.support_loads = support_loads;
-      for (double& load : data.support_loads) load *= next;
       const auto before = state.now.wall;
-      system.work_on(state, data);
-      const NewtonReport report = newton(system, tight_newton(next, observe));
-      found.newton_iterations += report.count();
+      NewtonReport report = reach(next);
+      if (report.converged && report.strayed) {  // two halves have to lead to the same shape
+        const auto whole = std::exchange(state.now.wall, before);
+        report.converged = reach(0.5 * (reached + next)).converged && reach(next).converged &&
+                           relative_distance<n>(*scene.wall, before, whole, state.now.wall) <= same_shape;
+        report.failure = "in two halves of the load it comes to another shape, or to none";
+        state.now.wall = whole;
+      }
       if (report.converged) {
         reached = next;
         increment = std::min(2 * increment, 1 - reached);

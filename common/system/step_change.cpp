@@ -47,6 +47,21 @@ double relative_to_step(const State& state, const StepData& data, const FieldDif
 }
 
 template <int n>
+double relative_distance(const Wall<n>& wall, const std::vector<double>& before, const std::vector<double>& one,
+                         const std::vector<double>& other) {
+  const std::vector<double> volumes = owned_volumes<n>(wall.space(), wall.nodes());
+  double sums[2] = {};  // squared, of the difference and of the change
+  for (int a = 0; a < wall.node_count(); ++a)
+    for (int k = 0; k < n; ++k) {
+      const std::size_t i = MixedLayout<n>::vector(a, k);
+      sums[0] += volumes[a] * (one[i] - other[i]) * (one[i] - other[i]);
+      sums[1] += volumes[a] * (other[i] - before[i]) * (other[i] - before[i]);
+    }
+  wall.nodes().processes().sum(sums, 2);
+  return sums[0] == 0 ? 0 : std::sqrt(sums[0] / sums[1]);
+}
+
+template <int n>
 std::vector<double> owned_volumes(const FunctionSpace<n>& space, const PartNodes& part) {
   std::vector<double> volumes = space.volumes();
   for (int a = 0; part.share && a < part.node_count(); ++a)
@@ -57,6 +72,8 @@ std::vector<double> owned_volumes(const FunctionSpace<n>& space, const PartNodes
 #define FSI_INSTANTIATE(n)                                                                                           \
   template double relative_to_step<n>(const State&, const StepData&, const FieldDifference&, const FieldDifference&, \
                                       const Communicator&);                                                          \
+  template double relative_distance<n>(const Wall<n>&, const std::vector<double>&, const std::vector<double>&,       \
+                                       const std::vector<double>&);                                                  \
   template std::vector<double> owned_volumes<n>(const FunctionSpace<n>&, const PartNodes&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 

@@ -7,6 +7,7 @@
 #include "parallel/communicator.hpp"
 #include "time/state.hpp"
 #include "time/step_data.hpp"
+#include "wall/wall.hpp"
 
 namespace fsi {
 
@@ -23,6 +24,12 @@ struct FieldDifference {
 template <int n>
 double relative_to_step(const State& state, const StepData& data, const FieldDifference& fluid,
                         const FieldDifference& wall, const Communicator& processes);
+
+/// How far two displacements of the wall lie apart, as a part of what the second differs by from `before`: L2 norms, of all
+/// processes. Arrays (d, .) in the mixed layout; 0 where both are the same.
+template <int n>
+double relative_distance(const Wall<n>& wall, const std::vector<double>& before, const std::vector<double>& one,
+                         const std::vector<double>& other);
 
 /// The volumes that belong to the nodes of a part, mm^3; zero at nodes of other processes, which count them.
 template <int n>

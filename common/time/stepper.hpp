@@ -9,6 +9,7 @@
 #include "time/memory.hpp"
 #include "time/state.hpp"
 #include "time/step_data.hpp"
+#include "wall/wall_deformation.hpp"
 
 namespace fsi {
 
@@ -37,9 +38,12 @@ struct StepReport {
   double solver_error = 0;           ///< estimated, what solving this step left (docs/evidence.md, "The solver")
   std::vector<std::string> history;  ///< convergence history, for the log
   std::optional<CouplingReport> coupling;
-  std::vector<Balance> balances;  ///< what was solved, where Stepper::keep_balances() asked for it
-  LevelEnergy level;              ///< of the level that it led to
-  bool rejected = false;          ///< the judge refused the solution: the state has not advanced
+  std::vector<Balance> balances;       ///< what was solved, where Stepper::keep_balances() asked for it
+  LevelEnergy level;                   ///< of the level that it led to
+  std::vector<LayerDeformation> wall;  ///< of that level, layer by layer; empty without a wall
+  /// Newton's method did not go straight to the solution, which may lie on another branch than the start.
+  bool strayed = false;
+  bool rejected = false;  ///< the judge refused the solution: the state has not advanced
 };
 
 /// Looks at the solution of a step, in state.now, before it becomes a finished level.

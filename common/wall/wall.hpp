@@ -10,6 +10,7 @@
 #include "fem/function_space.hpp"
 #include "mesh/submesh.hpp"
 #include "wall/supports.hpp"
+#include "wall/wall_deformation.hpp"
 #include "wall/wall_input.hpp"
 
 namespace fsi {
@@ -62,6 +63,9 @@ class Wall {
   virtual WallEnergy energy(const std::vector<double>& wall, const std::vector<double>& velocity,
                             const std::vector<double>& balance, const std::vector<double>& branches) const = 0;
   virtual WallWork work(const WallStep& step) const = 0;
+  /// How far the layers are deformed, in the order of layer_data(): of all processes, which ask together.
+  /// \param wall  (d, .) of a level; while find_unloaded_shape(), of the search
+  virtual std::vector<LayerDeformation> deformation(const std::vector<double>& wall) const = 0;
   /// Work of the pressure on the pressurised facets, as they are in `now`, on the way from `old` to `now`; uJ, of this
   /// process's nodes. So are energy() and work(): of the elements and nodes that sums count here.
   virtual double pressure_work(double pressure, const std::vector<double>& old,

@@ -5,6 +5,7 @@
 
 #include "fem/elements.hpp"
 #include "fem/facet_load.hpp"
+#include "wall/layer_deformation.hpp"
 #include "wall/maxwell_layers.hpp"
 #include "wall/viscous_layers.hpp"
 #include "wall/wall_assembly.hpp"
@@ -242,6 +243,17 @@ WallWork WallProblem<Element>::work(const WallStep& step) const {
     work.stress += of_branches.beyond;
   }
   return work;
+}
+
+template <class Element>
+std::vector<LayerDeformation> WallProblem<Element>::deformation(const std::vector<double>& wall) const {
+  DeformationInput in;
+  in.wall = wall.data();
+  in.finds_unloaded_shape = finds_unloaded_shape_;
+  if (!prestress_.empty() && !finds_unloaded_shape_) in.prestress = prestress_.data();
+  std::vector<LayerDeformation> layers;
+  for (const auto& layer : layers_) layers.push_back(layer_deformation<Element>(layer, part_, in));
+  return worst_of_all(layers, part_.processes());
 }
 
 template <class Element>

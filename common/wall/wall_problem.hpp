@@ -59,6 +59,7 @@ class WallProblem : public Wall<Element::components> {
   WallEnergy energy(const std::vector<double>& wall, const std::vector<double>& velocity,
                     const std::vector<double>& balance, const std::vector<double>& branches) const override;
   WallWork work(const WallStep& step) const override;
+  std::vector<LayerDeformation> deformation(const std::vector<double>& wall) const override;
   double pressure_work(double pressure, const std::vector<double>& old, const std::vector<double>& now) const override;
   WallMatrix<n>& jacobian() override;
   void find_unloaded_shape(bool find) override { finds_unloaded_shape_ = find; }

@@ -42,6 +42,18 @@ TEST(TimeAxis, AWholeLoadIsOneWhereverItGoesOn) {
   }
 }
 
+TEST(TimeAxis, HalvesLoadStepsAndReturnsToTheirGrid) {
+  const Case setup = at_rest(4);
+  TimeAxis axis(setup);
+  axis.halve(2);
+  axis.halve(2);
+  EXPECT_EQ(axis.steps(), 6);
+  const double ends[] = {0, 0.25, 0.3125, 0.375, 0.5, 0.75, 1};
+  for (int step = 0; step <= 6; ++step) EXPECT_EQ(axis.time_of(step), ends[step]) << step;
+  axis.drop_insertions_after(2);  // the rest of the load step that is in progress
+  EXPECT_EQ(axis.time_of(3), 0.5);
+}
+
 TEST(TimeAxis, GoesOnWithTheSameStepAsIfItHadNotStopped) {
   const Case setup = in_time(0.1, 0.7);
   TimeAxis axis(setup);

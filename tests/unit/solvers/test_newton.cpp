@@ -64,6 +64,17 @@ NewtonOptions full_newton() {
   return options;
 }
 
+TEST(Newton, TellsAStraightWayFromOneThatMayLeadAnywhere) {
+  auto near = square_root_of_two();
+  EXPECT_FALSE(newton(near, full_newton()).strayed);
+  auto far = Scalar([](double x) { return std::expm1(x); }, [](double x) { return std::exp(x); }, 3);
+  EXPECT_TRUE(newton(far, full_newton()).strayed);  // increments of 0.95, 0.87, 0.70: a walk
+  auto cut = Scalar([](double x) { return std::atan(x); }, [](double x) { return 1 / (1 + x * x); }, 3);
+  const auto report = newton(cut, full_newton());
+  EXPECT_TRUE(report.converged);
+  EXPECT_TRUE(report.strayed);
+}
+
 // Newton for x^2 = 2: e_(k+1) = e_k^2 / (2 x_k), so residual_(k+1) = increment_(k+1)^2 exactly.
 TEST(Newton, ConvergesQuadratically) {
   auto problem = square_root_of_two();

@@ -1,0 +1,128 @@
+#include "observers/wall_observer.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "fem/dimensions.hpp"
+
+namespace fsi {
+
+namespace {
+
+// What linear elasticity leaves out is half of the square of grad d: beyond these 2.5 % of strain, and 4.5 %.
+constexpr double small_strain = 0.05, small_rotation = 0.3;  // -, radians
+constexpr double degrees = 57.295779513082321;
+
+/// A value with the time at which it was.
+struct ValueInTime {
+  ValueAt at;
+  double time = 0;
+};
+
+/// The extremes of a layer over the steps of this program.
+struct LayerRecord {
+  ValueInTime least{{1}}, greatest{{1}}, strain, rotation;
+  bool warned = false;
+};
+
+template <int n>
+class WallObserver : public Observer {
+ public:
+  explicit WallObserver(const Watched<n>& watched)
+      : voice_(watched.voice), scene_(watched.scene), layers_(scene_.layer_names.size()) {}
+
+  std::vector<TableRows> after_step(const FinishedStep& step) override {
+    bool news = false;
+    for (std::size_t i = 0; i < layers_.size() && i < step.report.wall.size(); ++i)
+      news = include(step.report.wall[i], step.state.time, i) || news;
+    if (news) note();
+    return {};
+  }
+
+  void end() override {
+    for (std::size_t i = 0; i < layers_.size(); ++i)
+      if (layers_[i].warned)
+        voice_.warn(fmt::format("{}: in this run the largest strain is {}, the largest rotation {}", title(i),
+                                text_of_strain(layers_[i].strain), text_of_rotation(layers_[i].rotation)));
+  }
+
+ private:
+  bool include(const LayerDeformation& now, double time, std::size_t number) {
+    LayerRecord& layer = layers_[number];
+    bool news = false;
+    const auto take = [&](const ValueAt& value, ValueInTime& extreme, bool is_more) {
+      if (!is_more) return;
+      extreme = {value, time};
+      news = true;
+    };
+    take(now.worst(), layer.least, now.worst().value < layer.least.at.value);
+    take(now.greatest, layer.greatest, now.greatest.value > layer.greatest.at.value);
+    take(now.strain, layer.strain, now.strain.value > layer.strain.at.value);
+    take(now.rotation, layer.rotation, now.rotation.value > layer.rotation.at.value);
+    const bool strained = layer.strain.at.value > small_strain, turned = layer.rotation.at.value > small_rotation;
+    if (!layer.warned && (strained || turned)) {
+      layer.warned = true;
+      voice_.warn(
+          fmt::format("{}: linear-elastic holds for small strains and rotations only, and here is {}: what comes of it "
+                      "is no answer of "
+                      "a wall; take material = \"saint-venant-kirchhoff\", or a hyperelastic one",
+                      title(number),
+                      strained ? "a strain of " + text_of_strain(layer.strain)
+                               : "a rotation of " + text_of_rotation(layer.rotation)));
+    }
+    return news;
+  }
+
+  std::string title(std::size_t number) const { return "layer " + scene_.layer_names[number]; }
+
+  std::string text_of_place(const ValueInTime& value) const {
+    const Point& x = value.at.where;
+    return fmt::format("near ({:.4g}, {:.4g}, {:.4g}) mm {}", x[0], x[1], x[2],
+                       scene_.is_static() ? fmt::format("at {:.4g} of the load", value.time)
+                                          : fmt::format("at t = {:.6g} ms", value.time));
+  }
+  std::string text_of_strain(const ValueInTime& value) const {
+    return fmt::format("{:.3g} % {}", 100 * value.at.value, text_of_place(value));
+  }
+  std::string text_of_rotation(const ValueInTime& value) const {
+    return fmt::format("{:.3g} degrees {}", degrees * value.at.value, text_of_place(value));
+  }
+
+  /// An entry of the summary.
+  void note() const {
+    nlohmann::json all;
+    const auto json = [](const ValueInTime& value) {
+      return nlohmann::json{{"value", value.at.value}, {"where_mm", value.at.where}, {"time_ms", value.time}};
+    };
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+      auto& layer = all[scene_.layer_names[i]];
+      layer = {{"least_det_F", json(layers_[i].least)}, {"greatest_det_F", json(layers_[i].greatest)}};
+      if (layers_[i].strain.at.value > 0) {
+        layer["largest_strain"] = json(layers_[i].strain);
+        layer["largest_rotation"] = json(layers_[i].rotation);
+      }
+    }
+    voice_.note("wall_deformation", all);
+  }
+
+  Voice& voice_;
+  const Scene<n>& scene_;
+  std::vector<LayerRecord> layers_;
+};
+
+}  // namespace
+
+template <int n>
+std::unique_ptr<Observer> make_wall_observer(const Watched<n>& watched) {
+  if (!watched.scene.wall) return nullptr;
+  return std::make_unique<WallObserver<n>>(watched);
+}
+
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_wall_observer(const Watched<n>&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi
