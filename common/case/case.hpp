@@ -160,7 +160,7 @@ struct TimeData {
 /// [static]: a wall without inertia, the load raised in equal steps
 struct StaticData {
   int load_steps = 10;
-  int retries = 4;         ///< times that a load step which found no solution is halved before the run gives up
+  int retries = 6;         ///< times that a load step which found no solution is halved before the run gives up
   bool check_path = true;  ///< long load steps are taken once more in two halves, which must lead to the same state
 };
 

@@ -9,7 +9,7 @@ namespace fsi {
 // What a case computes, as text and as a hash. It is made from the tables of keys that case files are read by
 // (case_keys.hpp): a new key of [fluid], [structure], [inlet], [load], [time] or [static] counts unless its row says
 // otherwise. Left out, so that a run can be extended, rescued or continued with other steps: title, [output],
-// [economy], [time] step, end, predictor, retries and what adaptive steps go by, load_steps, the solver sections
+// [economy], [time] step, end, predictor, retries and what adaptive steps go by, [static], volume_factor, the solver sections
 // [monolithic] and [partitioned], the mesh's path (a checkpoint knows the mesh by its contents, and the steps), and
 // keys that the run does not read: those of stabilisations with elements that need none.
 

@@ -148,6 +148,7 @@ StepReport March<n>::load_step(State& state) {
   loads_.axis() = axis;
   if (!other.empty()) {
     state = before;
+    stepper_.forget();
     throw ConvergenceError(looked + ": " + other, "more static.load_steps, or a smaller load");
   }
   state = whole;

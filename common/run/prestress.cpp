@@ -37,7 +37,7 @@ std::string wall_text(const Case& setup, const Scene<n>& scene) {
   std::string text;
   for (const CaseValue& entry : values_of_case(setup))
     if (entry.key == "element" || entry.key == "geometry" || entry.key == "prestress.pressure" ||
-        (begins_with(entry.key, "structure.") && entry.key != "structure.density") ||
+        (begins_with(entry.key, "structure.") && entry.key != "structure.density" && entry.role != KeyRole::running) ||
         (begins_with(entry.key, "support.") && ends_with(entry.key, ".fixed")))
       text += fmt::format("{} = {}\n", entry.key,
                           entry.key == "structure.fibre_frame" && scene.fibre_frame

@@ -93,6 +93,16 @@ std::vector<StepperChoice> NewtonMarch<n>::stopping() const {
 
 template <int n>
 StepReport NewtonMarch<n>::advance(State& state) {
+  try {
+    return advance_all_stages(state);
+  } catch (const ConvergenceError&) {
+    abandon();
+    throw;
+  }
+}
+
+template <int n>
+StepReport NewtonMarch<n>::advance_all_stages(State& state) {
   report_ = {};
   const int stages = scene_.integrator->stages(state);
   for (int stage = 0; stage < stages; ++stage) {
@@ -137,7 +147,6 @@ void NewtonMarch<n>::advance_stage(State& state, StepData& data) {
     report_.solver_error = std::max(report_.solver_error, solved.error);
     return finish_stage(state, data);
   }
-  abandon();
   const std::string valve = scene_.openings.joined().complaint();
   throw ConvergenceError(fmt::format("{}: Newton's method stopped after {} iterations: {}",
                                      name_of_step(scene_, state.step + 1, data), solved.count(), solved.failure) +
@@ -192,7 +201,12 @@ NewtonReport NewtonMarch<n>::solve_from_there(State& state, StepData& data, cons
   scene_.impose_conditions(state.now);
   scene_.impose_inflows(state, data);
   scene_.impose_interface(state, data.rates);
-  NewtonReport solved = newton(equations(state, data), options);
+  NewtonReport solved;
+  try {
+    solved = newton(equations(state, data), options);
+  } catch (const ConvergenceError& failure) {  // of the linear solver, whose matrix can be beyond all numbers
+    solved.failure = failure.what();
+  }
   scene_.impose_interface(state, data.rates);    // exactly, not to the rounding of the increments
   if (solved.converged && scene_.is_static()) {  // another start may lead to another solution
     if (const WallCheck check = check_wall(scene_, state.now.wall); !check.fault.empty()) {

@@ -46,6 +46,7 @@ class NewtonMarch : public Stepper {
  private:
   std::string remedy(const NewtonReport& failed) const;
 
+  StepReport advance_all_stages(State& state);
   /// Solves the equations of a step, or of one stage of it; leaves their solution in state.now.
   void advance_stage(State& state, StepData& data);
 
@@ -74,9 +75,11 @@ class NewtonStepper : public NewtonMarch<n> {
 
   std::vector<StepperChoice> choices() const override;
   void keep(Memory& memory) override;
+  void forget() override { system_.forget_jacobian(); }
 
  private:
   NewtonProblem& equations(State& state, StepData& data) override;
+  void abandon() override { forget(); }
 
   System<n> system_;
 };

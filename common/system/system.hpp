@@ -67,6 +67,9 @@ class System : public NewtonProblem {
   bool linearised() const override { return usable_ && solver_->ready(); }
   bool outdated() const override { return numbering_.has_fluid() && scene_.openings.joined().outdated(); }
 
+  /// The Jacobian at hand serves no more: it was made on a way that led nowhere.
+  void forget_jacobian() { usable_ = false; }
+
   /// Makes the Jacobian of an earlier step again, bit for bit (restart).
   void linearise_at(const LinearisationPoint& point);
 

@@ -74,6 +74,8 @@ class Stepper {
   void judge_by(StepJudge* judge) { judge_ = judge; }
   /// Steps are taken by a slower way, if it has one, where the usual one fails.
   void persist(bool persist) { persists_ = persist; }
+  /// What it has of the last step beyond the state leads away from the next one.
+  virtual void forget() {}
   /// Whether a step that failed may succeed with a smaller length.
   virtual bool can_retry() const { return true; }
   /// Whether the steps' reports have a coupling part.

@@ -107,6 +107,23 @@ TYPED_TEST(EveryElement, EquationsOfTheUnloadedShapeAreDifferentiatedExactly) {
   }
 }
 
+// det F from the unloaded shape to the mesh is looked at where the search ends.
+TYPED_TEST(EveryElement, AnUnloadedShapeFarFromTheVolumeIsNone) {
+  const auto scene = loaded_block<TypeParam>("neo-hookean");
+  const std::vector<double> loads(scene->wall->supports()->load_count(), 0.4);
+  EXPECT_NO_THROW(find_prestress(*scene, 0, loads));
+  scene->volume_factor = 1 + 1e-6;
+  std::string said;
+  try {
+    find_prestress(*scene, 0, loads);
+  } catch (const ConvergenceError& failure) {
+    said = failure.what();
+  }
+  EXPECT_NE(said.find("prestress: no unloaded shape found"), std::string::npos) << said;
+  EXPECT_NE(said.find("det F is "), std::string::npos) << said;
+  EXPECT_NE(said.find("in layer media"), std::string::npos) << said;
+}
+
 // What the unloaded shape is found from balances to rounding, whatever the element: no step moves anything.
 TYPED_TEST(EveryElement, IsAtRestUnderItsLoad) {
   constexpr int n = TypeParam::components;

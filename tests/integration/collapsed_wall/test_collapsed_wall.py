@@ -4,7 +4,7 @@ import math
 import unittest
 from pathlib import Path
 
-from programs import MESH, MONOLITHIC, PARTITIONED, FolderTest, attempt, csv_columns, execute, run, summary
+from programs import DRIVERS, MESH, MONOLITHIC, FolderTest, attempt, execute, run, summary
 
 HERE = Path(__file__).parent
 BLOCK = HERE / "block.toml"
@@ -63,13 +63,47 @@ class CollapsedWall(FolderTest):
         return (f"mesh.file={self.mesh}", pull, f"static.load_steps={steps}", *more)
 
     def end(self, folder):
-        return csv_columns(folder / "points.csv")["displacement_z_mm"][-1]
+        """u_z of the pulled face, mm."""
+        return float((folder / "points.csv").read_text().splitlines()[-1].split(",")[-1])
 
     def test_the_same_state_whatever_the_load_steps(self):
         for traction, steps in ((133.3333333, 2), (200, 1), (200, 2), (200, 5)):
             with self.subTest(traction=traction, steps=steps):
                 folder = run(MONOLITHIC, BLOCK, self.base / "block", *self.settings(traction, steps))
                 self.assertAlmostEqual(self.end(folder) / elongation(traction), 1, delta=2e-3)
+
+    def of_linear_elastic(self):
+        """The block of a law of small strains: E = 100 kPa, nu = 0."""
+        text = BLOCK.read_text()
+        begin, end = text.index("material ="), text.index("[[support]]")
+        case = self.base / "linear.toml"
+        case.write_text(text[:begin] + 'material = "linear-elastic"\nyoung = 100\npoisson = 0\n' + text[end:])
+        return case
+
+    def test_small_strains_left_behind_are_said(self):
+        case = self.of_linear_elastic()
+        for program in DRIVERS:
+            for traction, warned in ((4, False), (20, True)):
+                process = attempt(program, case, folder=self.base / "linear", settings=self.settings(traction, 2))
+                self.assertEqual(process.returncode, 0, process.stderr)
+                self.assertEqual("linear-elastic holds for small strains" in process.stdout, warned, process.stdout)
+                strain = summary(self.base / "linear")["wall_deformation"]["wall"]["largest_strain"]["value"]
+                self.assertAlmostEqual(strain, traction / 100, delta=1e-9)
+                self.assertAlmostEqual(self.end(self.base / "linear"), traction / 100, delta=1e-9)
+        log = (self.base / "linear" / "run.log").read_text()
+        self.assertRegex(log, r"layer wall: .* a strain of 10 % near \(0\.\d+, 0\.\d+, 0\.\d+\) mm at 0.5 of the load")
+        self.assertRegex(log, r"in this run the largest strain is 20 % near")
+
+    def test_a_folded_block_is_no_solution(self):
+        process = attempt(
+            MONOLITHIC, self.of_linear_elastic(), "-q", folder=self.base / "folded", settings=self.settings(-150, 1)
+        )
+        self.assertEqual(process.returncode, 2, process.stderr)
+        self.assertRegex(process.stderr, r"the wall is folded near \(.*\) mm in layer wall, where det F is -")
+        load = summary(self.base / "folded")["wall_deformation"]["wall"]["least_det_F"]
+        self.assertGreater(load["value"], 0)
+        self.assertAlmostEqual(load["value"], 1 - 1.5 * load["time_ms"], delta=1e-9)
+        self.assertGreater(load["time_ms"], 0.65)  # it folds at two thirds
 
 
 if __name__ == "__main__":
