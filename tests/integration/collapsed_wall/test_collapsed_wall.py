@@ -74,7 +74,7 @@ class CollapsedWall(FolderTest):
 
     def of_linear_elastic(self):
         """The block of a law of small strains: E = 100 kPa, nu = 0."""
-        text = BLOCK.read_text()
+        text = BLOCK.read_text().replace("bulk_modulus = 1e5\n", "")
         begin, end = text.index("material ="), text.index("[[support]]")
         case = self.base / "linear.toml"
         case.write_text(text[:begin] + 'material = "linear-elastic"\nyoung = 100\npoisson = 0\n' + text[end:])
@@ -84,7 +84,7 @@ class CollapsedWall(FolderTest):
         case = self.of_linear_elastic()
         for program in DRIVERS:
             for traction, warned in ((4, False), (20, True)):
-                process = attempt(program, case, folder=self.base / "linear", settings=self.settings(traction, 2))
+                process = attempt(program, case, "--force", folder=self.base / "linear", settings=self.settings(traction, 2))
                 self.assertEqual(process.returncode, 0, process.stderr)
                 self.assertEqual("linear-elastic holds for small strains" in process.stdout, warned, process.stdout)
                 strain = summary(self.base / "linear")["wall_deformation"]["wall"]["largest_strain"]["value"]

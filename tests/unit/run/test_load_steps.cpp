@@ -13,6 +13,7 @@
 #include "run/march.hpp"
 #include "support/element_meshes.hpp"
 #include "support/scenes.hpp"
+#include "support/supported_meshes.hpp"
 
 namespace fsi::test {
 
