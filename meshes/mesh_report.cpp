@@ -13,6 +13,7 @@
 #include "mesh/cells_across.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/wall_faces.hpp"
 #include "run/program.hpp"
 
 namespace fsi {
@@ -70,17 +71,21 @@ void require_known_extension(const std::string& file) {
 
 void write_and_report(const AnyMesh& mesh, const MeshOutput& output, TriangleGeometry plane,
                       const std::string& foreword, bool warn) {
+  std::string thickness;
   const auto quality = std::visit(
       [&](const auto& made) -> std::optional<MeshQuality> {
         write_gmsh(made, output.file, output.format);
         if (output.quiet) return std::nullopt;
-        return measure_quality(read_again(made, output.file, plane));
+        const auto written = read_again(made, output.file, plane);
+        thickness = to_text(thickness_ranges(written));
+        return measure_quality(written);
       },
       mesh);
   if (!quality) return;
   const std::string advice =
       output.advise ? std::visit([](const auto& made) { return advice_on(made); }, mesh) : std::string();
-  print_report(foreword + fmt::format("{}: {}", printable(output.file), to_text(*quality)) + advice, output.file);
+  print_report(foreword + fmt::format("{}: {}", printable(output.file), to_text(*quality)) + thickness + advice,
+               output.file);
   if (!warn) return;
   for (const auto& warning : warnings_of(*quality)) fsi::warn(mesh_program, warning);
 }

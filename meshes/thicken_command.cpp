@@ -13,10 +13,12 @@
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/lumen_volume.hpp"
+#include "mesh/surface/remeshing.hpp"
 #include "mesh/wall_growth.hpp"
 #include "meshes/mesh_report.hpp"
 #include "meshes/options.hpp"
 #include "meshes/thickness_options.hpp"
+#include "run/program.hpp"
 
 namespace fsi {
 
@@ -76,8 +78,16 @@ void make(ThickenRequest& request) {
   const auto lumen = lumen_of(request);
   if (request.growth.on.empty()) require_flat_parts_named(lumen, points_of("--closed", request.closed));
   request.growth.total = total_thickness(lumen, request.growth, request.thickness);
-  write_and_report(request.growth.layers.empty() ? lumen : grow_wall(lumen, request.growth), request.output,
-                   TriangleGeometry::plane);
+  if (request.growth.layers.empty()) {
+    write_and_report(lumen, request.output, TriangleGeometry::plane);
+    return;
+  }
+  const auto grown = grow_wall(lumen, request.growth);
+  require_no_cuts({grown.mesh.nodes, *grown.mesh.facets(group::outer)}, "--layer",
+                  "there is no room for the wall there: give thinner layers, or draw its parts apart");
+  write_and_report(grown.mesh, request.output, TriangleGeometry::plane);
+  if (request.output.quiet) return;
+  for (const auto& warning : warnings_of(grown.reached)) warn(mesh_program, warning);
 }
 
 }  // namespace

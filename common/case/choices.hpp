@@ -40,9 +40,9 @@ inline constexpr std::array<std::string_view, 14> coupling_scheme_list{"aitken",
                                                                        "semi-implicit"};
 
 /// Fields of output.fields. Their table: observers/field_output.cpp.
-inline constexpr std::array<std::string_view, 9> output_field_list{
+inline constexpr std::array<std::string_view, 10> output_field_list{
     "displacement",     "velocity",         "pressure",     "wall_shear_stress", "cauchy_stress",
-    "principal_stress", "von_mises_stress", "fibre_stress", "constants"};
+    "principal_stress", "von_mises_stress", "fibre_stress", "constants",         "thickness"};
 /// Those of its beginning that a case has unless it names others: the solution itself.
 inline constexpr std::size_t standard_fields = 3;
 

@@ -114,7 +114,7 @@ void check_derived_output(const CaseEntry& whole_case, Case& scene) {
   };
   if (const auto found = has({"wall_shear_stress"}); found != scene.output.fields.end() && !scene.fluid)
     output.child("fields").refuse("\"" + *found + "\" is of a fluid, and the scene has none", "leave it out");
-  if (const auto found = has({"cauchy_stress", "principal_stress", "von_mises_stress", "fibre_stress"});
+  if (const auto found = has({"cauchy_stress", "principal_stress", "von_mises_stress", "fibre_stress", "thickness"});
       found != scene.output.fields.end() && !scene.structure)
     output.child("fields").refuse("\"" + *found + "\" is of a wall, and the scene has none", "leave it out");
   if (wanted.period && !wanted.statistics)

@@ -4,9 +4,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "derived/error_indicator.hpp"
 #include "derived/mean_errors.hpp"
+#include "derived/nodal_wall_thickness.hpp"
 #include "derived/period_statistics.hpp"
 #include "derived/surface_forces.hpp"
 #include "derived/wall_shear_stress.hpp"
@@ -29,6 +31,7 @@ struct DerivedQuantities {
   std::unique_ptr<SurfaceForces<n>> forces;
   std::optional<PeriodStatistics> statistics{};
   MediumErrors<n> fluid_errors{}, wall_errors{};
+  std::vector<double> thickness{};  ///< of the wall at rest, mm, per node of it here
 
   bool has_errors() const { return fluid_errors.indicator || wall_errors.indicator; }
   bool means_errors() const { return fluid_errors.mean || wall_errors.mean; }
@@ -58,6 +61,7 @@ DerivedQuantities<Element::components> make_derived_quantities(const Case& setup
     const auto phase = scene.profile.phase("wall stress: setup");
     derived.stress = make_wall_stress<Element>(setup, mesh, scene, whole);
   }
+  if (scene.wall && wants({"thickness"})) derived.thickness = nodal_wall_thickness<Element>(mesh, scene, whole);
   derived.forces = make_surface_forces<Element>(setup, mesh, scene, whole);
   if (derived.forces)
     scene.profile.count("surfaces with forces", static_cast<std::int64_t>(derived.forces->names().size()));

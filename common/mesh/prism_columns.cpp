@@ -11,41 +11,38 @@ namespace fsi {
 
 using Facet = TetrahedralMesh::Facet;
 
-namespace {
-
-/// Tetrahedra of a prism (a0, b0, c0) below (a1, b1, c1), cut along the diagonals from the nodes of least number of each
-/// quadrilateral: by the order of the numbers at the bottom.
-void add_prism(std::array<int, 3> below, std::array<int, 3> above, std::vector<TetrahedralMesh::Cell>& cells) {
+std::array<TetrahedralMesh::Cell, 3> prism_cells(std::array<int, 3> below, std::array<int, 3> above) {
   // Turned so that the least comes first; the orientation stays.
   const auto least = std::min_element(below.begin(), below.end()) - below.begin();
   std::rotate(below.begin(), below.begin() + least, below.end());
   std::rotate(above.begin(), above.begin() + least, above.end());
   const auto [a, b, c] = below;
   const auto [d, e, f] = above;
-  if (b < c) {
-    cells.push_back({a, b, c, f});
-    cells.push_back({a, b, f, e});
-  } else {
-    cells.push_back({a, b, c, e});
-    cells.push_back({a, e, c, f});
-  }
-  cells.push_back({a, e, f, d});
+  if (b < c) return {{{a, b, c, f}, {a, b, f, e}, {a, e, f, d}}};
+  return {{{a, b, c, e}, {a, e, c, f}, {a, e, f, d}}};
 }
 
-}  // namespace
-
 Levels raise_levels(const std::vector<NewLevel>& made, const std::map<int, Point>& ways, TetrahedralMesh& mesh) {
-  Levels levels;
-  levels.nodes.emplace_back();
-  for (const auto& [node, way] : ways) levels.nodes[0][node] = node;
-  for (const auto& [height, region] : made) {
-    levels.nodes.emplace_back();
-    for (const auto& [node, way] : ways) {
-      levels.nodes.back()[node] = static_cast<int>(mesh.nodes.size());
-      mesh.nodes.push_back(mesh.nodes[node] + height * way);
-    }
-    levels.region.push_back(region);
+  std::map<int, std::vector<Point>> columns;
+  std::vector<int> regions;
+  for (const auto& level : made) {
+    regions.push_back(level.region);
+    for (const auto& [node, way] : ways) columns[node].push_back(mesh.nodes[node] + level.height * way);
   }
+  return raise_levels(regions, columns, mesh);
+}
+
+Levels raise_levels(const std::vector<int>& regions, const std::map<int, std::vector<Point>>& columns,
+                    TetrahedralMesh& mesh) {
+  Levels levels;
+  levels.region = regions;
+  levels.nodes.resize(regions.size() + 1);
+  for (const auto& [node, column] : columns) levels.nodes[0][node] = node;
+  for (std::size_t level = 0; level < regions.size(); ++level)
+    for (const auto& [node, column] : columns) {
+      levels.nodes[level + 1][node] = static_cast<int>(mesh.nodes.size());
+      mesh.nodes.push_back(column[level]);
+    }
   return levels;
 }
 
@@ -57,7 +54,8 @@ void fill_with_prisms(const std::vector<Facet>& facets, const Levels& levels, Te
         below[k] = levels.nodes[step].at(facet[k]);
         above[k] = levels.nodes[step + 1].at(facet[k]);
       }
-      add_prism(below, above, mesh.cells);
+      const auto cells = prism_cells(below, above);
+      mesh.cells.insert(mesh.cells.end(), cells.begin(), cells.end());
       mesh.cell_region.insert(mesh.cell_region.end(), 3, levels.region[step]);
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <vector>
 
@@ -23,6 +24,15 @@ struct NewLevel {
 /// Adds the nodes level by level, so that a level's numbers are in the order of the level below: each at its height times the
 /// column's way from its node.
 Levels raise_levels(const std::vector<NewLevel>& made, const std::map<int, Point>& ways, TetrahedralMesh& mesh);
+
+/// The same with the places of each column's nodes, mm.
+/// \param regions  of the cells below each level \param columns  by node, a point for each level
+Levels raise_levels(const std::vector<int>& regions, const std::map<int, std::vector<Point>>& columns,
+                    TetrahedralMesh& mesh);
+
+/// Tetrahedra of a prism (a0, b0, c0) below (a1, b1, c1), cut along the diagonals from the nodes of least number of each
+/// quadrilateral: by the order of the numbers at the bottom.
+std::array<TetrahedralMesh::Cell, 3> prism_cells(std::array<int, 3> below, std::array<int, 3> above);
 
 /// Fills the columns with prisms, each cut into three tetrahedra by the order of its nodes, so that neighbours fit [Dompierre1999].
 /// \param facets  their normals look along the columns

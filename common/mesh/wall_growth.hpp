@@ -28,15 +28,39 @@ struct WallGrowth {
 /// \throws InputError where there are none
 std::vector<TetrahedralMesh::Facet> facets_to_grow_on(const TetrahedralMesh& lumen, const std::string& on);
 
-/// Grows a wall on the lumen's surface. Each layer follows the surface at its distance along smoothed vertex normals,
-/// [Max1999]'s, which are those of a sphere or a cylinder up to rounding; on the rims they lie in the plane of the
-/// opening there, so that the wall ends in it. Columns of prisms between surface and offset are each cut into three
-/// tetrahedra by the order of their nodes, so that neighbours fit.
+/// How thick a wall became, over what was asked for.
+struct ReachedThickness {
+  double least = 1, most = 1;   ///< distances of the outer surface's nodes from the surface that the wall grew on
+  Point least_at{}, most_at{};  ///< mm
+  double least_asked = 0;       ///< mm, at least_at
+  std::size_t nodes = 0;        ///< of the outer surface
+  std::size_t missed = 0;       ///< those that are off by more than thickness_tolerance
+  double least_between = 1;     ///< distances of the nodes that the wall grew on from the outer surface
+  Point least_between_at{};     ///< mm
+};
+inline constexpr double thickness_tolerance = 0.05;
+inline constexpr double between_tolerance = 0.8;  ///< below it a user is told
+
+/// Sentences on where the thickness is not what was asked for: at nodes, which is seldom, and between them, where the surface
+/// bends round sharper than its facets.
+std::vector<std::string> warnings_of(const ReachedThickness& reached);
+
+struct GrownWall {
+  TetrahedralMesh mesh;
+  ReachedThickness reached;
+};
+
+/// Grows a wall on the lumen's surface. Each layer ends where the distance from the surface is its own, the nodes along smoothed
+/// vertex normals, [Max1999]'s, which are those of a sphere or a cylinder up to rounding; on the rims they lie in the plane of
+/// the opening there, or of symmetry, so that the wall ends in it. Where the columns would fold, as in creases, their nodes
+/// slide along the offset surface (mesh/column_tops.hpp). Columns of prisms between surface and offset are each cut into
+/// three tetrahedra by the order of their nodes, so that neighbours fit.
 ///
-/// The result has the lumen's cells and groups (but `on`), a volume per layer, and the surfaces `outer` and `wall_ends`.
+/// The result has the lumen's cells and groups (but `on`), a volume per layer, and the surfaces `outer` and `wall_ends`. What
+/// lies in a plane of symmetry is added to its group.
 /// \param lumen  with a volume `fluid`
 /// \throws InputError naming the fsi-mesh option at fault: no surface left to grow on, a name twice, an opening whose rim
-///         is not flat, and a wall that folds, with the place and the thickness there is room for
-TetrahedralMesh grow_wall(const TetrahedralMesh& lumen, const WallGrowth& growth);
+///         is not flat, and a wall that folds, with the place
+GrownWall grow_wall(const TetrahedralMesh& lumen, const WallGrowth& growth);
 
 }  // namespace fsi

@@ -68,6 +68,7 @@ class Level {
     const auto& last = derived_.statistics->last();
     return spread(nodes, last ? (*last).*which : std::vector<double>(nodes.size(), 0.0), 1, fluid_nodes());
   }
+  const std::vector<double>& thickness() const { return derived_.thickness; }
   const WallStresses& stresses() const {
     if (!stresses_) {
       const auto phase = profile_.phase("wall stress");
@@ -103,7 +104,7 @@ class Level {
 
 /// What a grid has.
 struct GridFacts {
-  bool fluid, moves, flows, fibres, statistics, errors, mean_errors;
+  bool fluid, moves, flows, fibres, thickness, statistics, errors, mean_errors;
   const std::map<std::string, std::vector<double>>& constants;  ///< of the wall that vary
 };
 
@@ -170,7 +171,7 @@ constexpr OutputField<n> constant_field() {
 }
 
 template <int n>
-constexpr std::array<OutputField<n>, 18 + constants_of_walls.size()> output_fields{
+constexpr std::array<OutputField<n>, 19 + constants_of_walls.size()> output_fields{
     {{"displacement", "displacement", 3, "mm", Place::nodes, [](const GridFacts& grid) { return grid.moves; },
       [](const Level<n>& level, bool fluid) {
         return fluid ? vectors<VectorLayout<n>>(level.state.now.mesh, level.axes)
@@ -209,6 +210,9 @@ constexpr std::array<OutputField<n>, 18 + constants_of_walls.size()> output_fiel
       [](const Level<n>& level, bool) { return level.stresses().of_fibres[0]; }},
      {"fibre_stress_2", "fibre_stress", 1, "kPa", Place::vertices, in_fibres,
       [](const Level<n>& level, bool) { return level.stresses().of_fibres[1]; }},
+     {"thickness", "thickness", 1, "mm", Place::nodes,
+      [](const GridFacts& grid) { return !grid.fluid && grid.thickness; },
+      [](const Level<n>& level, bool) { return level.thickness(); }},
      {"tawss", "", 1, "kPa", Place::nodes, in_statistics,
       [](const Level<n>& level, bool) { return level.statistics(&ShearStatistics::mean); }},
      {"osi", "", 1, "1", Place::nodes, in_statistics,
@@ -284,6 +288,7 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const Deri
   if (setup.output.every == 0 || (setup.output.fields.empty() && !derived.statistics && !derived.has_errors())) return;
   const auto& wanted = setup.output.fields;
   assert(shares.empty() || shares.size() == grids.size());
+  const bool thickness = scene.processes().any(!derived.thickness.empty());
   for (std::size_t g = 0; g < grids.size(); ++g) {
     FieldGrid& grid = grids[g];
     const bool fluid = grid.name == "fluid";
@@ -291,6 +296,7 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const Deri
                           !fluid || scene.coupled(),
                           fluid || !scene.is_static(),
                           derived.stress && derived.stress->has_fibres(),
+                          thickness,
                           derived.statistics.has_value(),
                           derived.has_errors(),
                           derived.means_errors(),

@@ -81,6 +81,13 @@ void announce(RunParts<n>& parts, const RunCheckpoints<n>& checkpoints, Console&
     log.info(fmt::format("{} = {}: {}", choice.key, choice.value, choice.reason));
     summary["choices"][choice.key] = {{"value", choice.value}, {"reason", choice.reason}};
   }
+  for (const auto& [name, least, most, from_inside] : mesh.wall)
+    summary["wall_thickness"].push_back({{"layer", name},
+                                         {"smallest", least.distance},
+                                         {"smallest_at", least.at},
+                                         {"largest", most.distance},
+                                         {"largest_at", most.at},
+                                         {"unit", "mm"}});
   if (!parts.scene.varying_constants.empty()) summary["varying_constants"] = described(parts.scene.varying_constants);
   for (const auto& warning : parts.setup.warnings) log.warning(warning);
   parts.loading.write_to(log);

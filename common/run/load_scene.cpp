@@ -16,6 +16,7 @@
 #include "mesh/artery/curved_edges.hpp"
 #include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/artery_generator.hpp"
+#include "mesh/flat_parts.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/mesh_checks.hpp"
@@ -24,6 +25,7 @@
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/renumber.hpp"
+#include "mesh/wall_faces.hpp"
 #include "observers/field_output.hpp"
 #include "observers/observation_points.hpp"
 #include "observers/requested_samples.hpp"
@@ -250,6 +252,12 @@ VesselSize size_of_mesh(const Case& setup, const MeshOf<Element>& mesh) {
   return size;
 }
 
+/// The wall's thickness in words.
+std::string said_of(const ThicknessRange& wall) {
+  return fmt::format("the wall is {:.4g} mm thick at {} to {:.4g} mm at {}", wall.least.distance,
+                     place_of(wall.least.at), wall.most.distance, place_of(wall.most.at));
+}
+
 template <class Element>
 LoadedScene<Element::components> load(const Case& setup, const LoadingScene& loading) {
   std::vector<std::string> remarks = setup.remarks, notices;
@@ -265,7 +273,9 @@ LoadedScene<Element::components> load(const Case& setup, const LoadingScene& loa
                  mesh.nodes.size(),
                  mesh.cells.size(),
                  Element::dim == 3 ? "tetrahedra" : "triangles",
-                 surfaces_of(mesh)};
+                 surfaces_of(mesh),
+                 setup.structure ? thickness_ranges(mesh) : std::vector<ThicknessRange>()};
+  if (!loaded.mesh.wall.empty()) remarks.push_back(said_of(loaded.mesh.wall.back()));
   // Processes find on the whole mesh what each then keeps of its share: that is all that is left after this routine.
   MeshShare share;
   WholeParts<Element> whole;

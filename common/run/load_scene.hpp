@@ -10,6 +10,7 @@
 #include "derived/derived_quantities.hpp"
 #include "io/checkpoint.hpp"
 #include "io/fields_writer.hpp"
+#include "mesh/wall_faces.hpp"
 #include "observers/grid_share.hpp"
 #include "observers/observation.hpp"
 #include "run/plausibility.hpp"
@@ -24,6 +25,7 @@ struct MeshFacts {
   std::size_t nodes = 0, cells = 0;
   const char* cell = "";              ///< "tetrahedra", "triangles"
   std::vector<std::string> surfaces;  ///< names of its groups of facets that are not empty
+  std::vector<ThicknessRange> wall;   ///< thickness of the wall's layers and of all of it; empty: the scene has none
 };
 
 /// A case on its mesh. Only what stands here knows the element; it is chosen once, by the case.

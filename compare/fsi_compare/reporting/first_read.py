@@ -232,6 +232,54 @@ def constants_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     return Table("constants", "Constants of the wall that vary", CONSTANTS, records, notes=[note])
 
 
+class Thickness(NamedTuple):
+    """Of a layer of the wall at rest, or of all of it."""
+
+    run: str
+    layer: str
+    smallest: Optional[float]  # mm
+    smallest_at: str  # mm
+    largest: Optional[float]
+    largest_at: str
+
+
+THICKNESS: Sequence[Column[Thickness]] = (
+    Column("run", "run", lambda t: t.run, left=True),
+    Column("layer", "layer", lambda t: t.layer, left=True),
+    Column("smallest, {unit}", "smallest", lambda t: t.smallest, ".4g", "mm"),
+    Column("there, {unit}", "smallest_at", lambda t: t.smallest_at, unit="mm", left=True),
+    Column("largest, {unit}", "largest", lambda t: t.largest, ".4g", "mm"),
+    Column("there, {unit}", "largest_at", lambda t: t.largest_at, unit="mm", left=True),
+)
+
+
+def thickness_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
+    """Empty where no run has a wall with an inner and an outer face."""
+    records = []
+    for run, label in zip(runs, labels):
+        found = run.summary.get("wall_thickness")
+        for entry in found if isinstance(found, list) else ():
+            if isinstance(entry, dict):
+                records.append(
+                    Thickness(
+                        label,
+                        _word(entry, "layer"),
+                        _number(entry, "smallest"),
+                        _place(entry, "smallest_at"),
+                        _number(entry, "largest"),
+                        _place(entry, "largest_at"),
+                    )
+                )
+    note = "Of the mesh: distances of the outer face's vertices from the inner face, in mm."
+    return Table("thickness", "Thickness of the wall", THICKNESS, records, notes=[note])
+
+
+def _place(entry: Dict[str, Any], name: str) -> str:
+    found = entry.get(name)
+    numbers = found if isinstance(found, list) else []
+    return ", ".join(f"{x:.4g}" for x in numbers if isinstance(x, (int, float)))
+
+
 def _word(entry: Dict[str, Any], name: str) -> str:
     return printable(str(entry.get(name, "")))
 

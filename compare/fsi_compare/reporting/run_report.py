@@ -15,7 +15,15 @@ from ..runs.samples import CENTRE_LINE
 from ..runs.work_units import NOTE, about_machines, per_step
 from .column import Column, Facts
 from .error_bars import add_error_bars, find_bars
-from .first_read import case_lines, constants_table, cost_table, cycles_table, openings_table, trust_table
+from .first_read import (
+    case_lines,
+    constants_table,
+    cost_table,
+    cycles_table,
+    openings_table,
+    thickness_table,
+    trust_table,
+)
 from .layout import Table, say_written
 from .matplotlib_loader import load_matplotlib
 from .pressure import MOST_TIMES, read_times
@@ -103,7 +111,8 @@ def add_first_read(page: "Report", runs: Sequence[RunResults], labels: Sequence[
     page.list(case_lines(runs, labels))
     page.table(runs_table(runs, labels))
     page.table(trust_table(runs, labels))
-    for table in (openings_table(runs, labels), cycles_table(runs, labels), constants_table(runs, labels)):
+    made = (openings_table, cycles_table, constants_table, thickness_table)
+    for table in (make(runs, labels) for make in made):
         if table.rows:
             page.table(table)
     page.table(cost_table(runs, labels))

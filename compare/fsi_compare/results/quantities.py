@@ -13,6 +13,7 @@ WORDS = {
     "osi": "oscillatory shear index",
     "tawss": "time-averaged wall shear stress",
     "von_mises_stress": "von Mises stress",
+    "thickness": "thickness of the wall at rest",
     "fibre_stress_1": "stress of the first fibres",
     "fibre_stress_2": "stress of the second fibres",
 }

@@ -154,7 +154,7 @@ const std::vector<BadCase>& bad_cases() {
       {"FieldsIsText", coupled_case, "[\"displacement\", \"velocity\", \"pressure\"]", "\"pressure\"",
        "case.toml:34: output.fields: \"pressure\" is a string; give an array (fields in fields.h5: any of "
        "displacement, velocity, pressure, wall_shear_stress, cauchy_stress, principal_stress, von_mises_stress, "
-       "fibre_stress, constants; default displacement, velocity, pressure)"},
+       "fibre_stress, constants, thickness; default displacement, velocity, pressure)"},
       {"FieldIsNumber", coupled_case, "\"velocity\"", "2",
        "case.toml:34: output.fields[1]: 2 is a whole number; give a string in quotes"},
       // Missing
@@ -427,8 +427,8 @@ const std::vector<BadCase>& bad_cases() {
        "petsc"},
       {"FieldUnknown", coupled_case, "\"velocity\"", "\"velocities\"",
        "case.toml:34: output.fields[1]: \"velocities\" is unknown; did you mean velocity? There are displacement, "
-       "velocity, pressure, wall_shear_stress, cauchy_stress, principal_stress, von_mises_stress, fibre_stress or "
-       "constants"},
+       "velocity, pressure, wall_shear_stress, cauchy_stress, principal_stress, von_mises_stress, fibre_stress, "
+       "constants or thickness"},
       {"FieldOfAWallThatIsNotThere", fluid_case, "[time]", "[output]\nfields = [\"von_mises_stress\"]\n[time]",
        "case.toml:10: output.fields: \"von_mises_stress\" is of a wall, and the scene has none; leave it out"},
       {"FieldOfAFluidThatIsNotThere", static_case, "[static]", "[output]\nfields = [\"wall_shear_stress\"]\n[static]",

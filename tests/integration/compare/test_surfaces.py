@@ -26,7 +26,7 @@ from fsi_compare.drawing.camera import Camera
 from fsi_compare.drawing.colours import scale_of, scale_of_difference
 from fsi_compare.drawing.raster import BACKGROUND, Mesh, rendered
 from fsi_compare.drawing.sweep import OPEN, swept
-from fsi_compare.reporting.first_read import constants_table, periodic_end
+from fsi_compare.reporting.first_read import constants_table, periodic_end, thickness_table
 from fsi_compare.reporting.scene_packing import NONE, packed_counts, packed_numbers
 from fsi_compare.reporting.scene_thinning import clustered
 from fsi_compare.results.boundary import boundary_of, normals_of
@@ -269,6 +269,24 @@ class VaryingConstants(FolderCase):
         self.assertEqual(table.rows[0], ["of", "media", "c10", "0.3", "4.25", "30", "kPa", "c.csv, region plaque"])
         self.assertEqual(table.rows[1:], [["of", "media", "", "-", "-", "-", "", ""]])
         self.assertEqual(constants_table(runs[1:], ["no", "bad"]).rows, [])
+
+
+class WallThickness(FolderCase):
+    def test_ranges_and_places_of_layers(self):
+        entry = {
+            "layer": "media",
+            "smallest": 0.26,
+            "smallest_at": [0, 1.5, 2],
+            "largest": 0.31,
+            "largest_at": [1, 2, 3],
+        }
+        runs = [
+            open_run(write_run(self.base / name, lambda t, z: z + t, **summary))
+            for name, summary in (("of", {"wall_thickness": [entry, 3]}), ("no", {}), ("bad", {"wall_thickness": 1}))
+        ]
+        table = thickness_table(runs, ["of", "no", "bad"])
+        self.assertEqual(table.rows, [["of", "media", "0.26", "0, 1.5, 2", "0.31", "1, 2, 3"]])
+        self.assertEqual(thickness_table(runs[1:], ["no", "bad"]).rows, [])
 
 
 class Command(FolderCase):

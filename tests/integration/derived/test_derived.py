@@ -28,7 +28,7 @@ from scenes import forms, scene
 
 PIPE = Path(__file__).with_name("pipe.toml")
 RADIUS, LENGTH, VISCOSITY, PRESSURE = 1.0, 8.0, 1.0, 0.1  # of the meshes made here and the case file
-FIELDS = "wall_shear_stress cauchy_stress principal_stress von_mises_stress fibre_stress".split()
+FIELDS = "wall_shear_stress cauchy_stress principal_stress von_mises_stress fibre_stress thickness".split()
 STEP, PERIOD = 0.125, 0.5  # ms
 DERIVED = (
     f"output.fields={['displacement', 'velocity', 'pressure', *FIELDS]}",
@@ -133,6 +133,13 @@ class Coupled(FolderTest):
             self.assertEqual(
                 fields(folders[0], grid, name)[0][-1].shape, arrays(folders[0] / "fields.h5")[f"{grid}/cells"].shape[:1]
             )
+        # The artery's wall: media and adventitia, 0.26 and 0.13 mm, at every node, middles of edges among them.
+        np.testing.assert_allclose(fields(folders[0], "wall", "thickness")[0][-1], 0.39, rtol=1e-9)
+        layers = {entry["layer"]: entry for entry in summary(folders[1])["wall_thickness"]}
+        self.assertEqual(list(layers), ["media", "adventitia", "wall"])
+        for name, thickness in (("media", 0.26), ("adventitia", 0.13), ("wall", 0.39)):
+            self.assertAlmostEqual(layers[name]["smallest"], thickness, delta=1e-9)
+            self.assertAlmostEqual(layers[name]["largest"], thickness, delta=1e-9)
         # Equivalent and principal stresses are those of the tensor.
         tensor, principal, mises = (
             fields(folders[0], "wall", name)[0][-1]

@@ -31,6 +31,20 @@ Physical Volume("fluid") = {o(1)};
 Physical Surface("inlet") = {1};
 Physical Surface("outlet") = {o(0)};
 """
+SLANTED = """
+SetFactory("OpenCASCADE");
+DefineConstant[ size = 0.6 ];
+Cylinder(1) = {0, 0, 0, 0, 0, 8, 1.5};
+Box(2) = {-9, -9, 6, 18, 18, 18};
+Rotate{ {0, 1, 0}, {0, 0, 6}, Pi / 4 } { Volume{2}; }
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Mesh.MeshSizeMax = size;
+Physical Volume("fluid") = {3};
+inlet() = Surface In BoundingBox{-2, -2, -0.01, 2, 2, 0.01};
+Physical Surface("inlet") = {inlet()};
+outlet() = Surface In BoundingBox{-2, -2, 4, 2, 2, 8};
+Physical Surface("outlet") = {outlet()};
+"""
 CASE = """
 [mesh]
 file = "wall.msh"
@@ -64,6 +78,21 @@ def surface_of(lines):
     start = lines.index("$Elements") + 2
     elements = [line.split() for line in lines[start : lines.index("$EndElements")]]
     return nodes, elements
+
+
+def distances(points, triangles):
+    """From each point (m, 3) to the nearest of triangles (n, 3, 3): inside of one along its normal, else to its edges."""
+    nearest = np.full(len(points), np.inf)
+    for a, b, c in triangles:
+        normal = np.cross(b - a, c - a)
+        normal /= np.linalg.norm(normal)
+        inside = np.ones(len(points), dtype=bool)
+        for p, q in ((a, b), (b, c), (c, a)):
+            part = np.clip((points - p) @ (q - p) / ((q - p) @ (q - p)), 0, 1)
+            nearest = np.minimum(nearest, np.linalg.norm(points - p - part[:, None] * (q - p), axis=1))
+            inside &= (points - p) @ np.cross(normal, q - p) >= 0
+        nearest[inside] = np.minimum(nearest, np.abs((points - a) @ normal))[inside]
+    return nearest
 
 
 class MeshThicken(FolderTest):
@@ -101,6 +130,44 @@ class MeshThicken(FolderTest):
         self.assertAlmostEqual(found["media"][0] / (5 * math.pi * (1.2**2 - 1)), share, delta=3e-3)
         self.assertAlmostEqual(found["adventitia"][0] / (5 * math.pi * (1.3**2 - 1.2**2)), share, delta=3e-3)
         self.assertEqual((found["media"][1], found["adventitia"][1]), ("2", "1"))
+
+    def reached(self):
+        """Distances of the outer surface's nodes of wall.msh from the facets between fluid and wall, and those of the rims'."""
+        text = (self.base / "wall.msh").read_text()
+        fluid = re.search(r'^3 (\d+) "fluid"', text, re.MULTILINE).group(1)
+        names = dict(re.findall(r'^2 (\d+) "(\w+)"', text, re.MULTILINE))
+        nodes, elements = surface_of(text.splitlines())
+        faces = {name: [e[-3:] for e in elements if e[1] == "2" and names[e[3]] == name] for name in names.values()}
+        opened = {frozenset(face) for name in faces if name not in ("outer", "wall_ends") for face in faces[name]}
+        around = self.faces_of_tetrahedra([e for e in elements if e[1] == "4" and e[3] == fluid])
+        lumen = [face for face in around if frozenset(face) not in opened]
+        triangles = np.array([[nodes[node] for node in face] for face in lumen])
+        outer, ends = ({node for face in faces[name] for node in face} for name in ("outer", "wall_ends"))
+        return [
+            distances(np.array([nodes[node] for node in sorted(chosen)]), triangles) for chosen in (outer, outer & ends)
+        ]
+
+    def test_crotch_is_as_thick_as_asked(self):
+        """It was 47 % thick there, 34 % with ten times the smoothing."""
+        self.geo((Path(__file__).parent / "fork.geo").read_text())
+        for smoothing in (0, 2, 20):
+            process = self.thicken("--layer", "media=0.4", "--format", "2.2", "--smoothing", smoothing)
+            self.assertEqual(process.returncode, 0, process.stderr)
+            everywhere, _ = self.reached()
+            self.assertGreater(everywhere.min(), 0.4 * 0.99)
+            self.assertLess(everywhere.max(), 0.4 * 1.01)
+            found = re.search(r"^media: thickness (\S+) mm at \(.*\) mm to (\S+) mm at", process.stdout, re.MULTILINE)
+            self.assertAlmostEqual(float(found.group(1)), everywhere.min(), delta=1e-4)
+            self.assertAlmostEqual(float(found.group(2)), everywhere.max(), delta=1e-4)
+            self.assertNotIn("missed", process.stderr)
+
+    def test_rims_of_slanted_openings_are_as_thick_as_asked(self):
+        """They were 71 % thick at 45 degrees."""
+        self.geo(SLANTED)
+        self.volumes(self.thicken("--layer", "media=0.26:2", "--layer", "adventitia=0.14", "--format", "2.2"))
+        for found in self.reached():
+            self.assertGreater(found.min(), 0.4 * 0.99)
+            self.assertLess(found.max(), 0.4 * 1.01)
 
     def test_bent_tube_is_of_second_order(self):
         exact = math.pi * (2.4**2 - 2**2) * math.pi / 2 * 8

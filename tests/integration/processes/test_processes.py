@@ -185,7 +185,9 @@ class Endings(ProcessTest):
                 self.assertEqual(summary(folder)["restarted_from_step"], done)
 
 
-FIELDS = "displacement velocity pressure wall_shear_stress cauchy_stress von_mises_stress fibre_stress".split()
+FIELDS = (
+    "displacement velocity pressure wall_shear_stress cauchy_stress von_mises_stress fibre_stress thickness".split()
+)
 
 
 class Files(ProcessTest):
@@ -205,6 +207,7 @@ class Files(ProcessTest):
         self.assertEqual(one.keys(), two.keys())
         self.assertIn("wall/cauchy_stress/00000004", one)
         self.assertIn("fluid/osi/00000004", one)
+        self.assertIn("wall/thickness/00000004", one)
         self.assertIn("wall/displacement_error_mean/00000004", one)
         self.assertClose(one, two)
         for name in ("fields.xdmf", "fluid.xdmf", "wall.xdmf"):

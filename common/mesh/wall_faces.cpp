@@ -1,0 +1,232 @@
+#include "mesh/wall_faces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "mesh/boundary.hpp"
+#include "mesh/facets.hpp"
+#include "mesh/flat_parts.hpp"
+#include "mesh/for_each_mesh.hpp"
+#include "mesh/group_names.hpp"
+#include "mesh/mid_edge_nodes.hpp"
+#include "mesh/point_math.hpp"
+
+namespace fsi {
+
+namespace {
+
+template <int Dim, int Order>
+using Facets = std::vector<typename SimplexMesh<Dim, Order>::Facet>;
+template <int Dim>
+using Keys = std::set<FacetKey<Dim>>;
+
+template <int Dim, class List>
+Keys<Dim> keys_of(const List& facets) {
+  Keys<Dim> keys;
+  for (const auto& facet : facets) keys.insert(facet_key<Dim>(facet));
+  return keys;
+}
+
+/// The facets of a boundary that are among those, or are not.
+template <int Dim, int Order>
+Facets<Dim, Order> chosen(const std::vector<BoundaryFacet<Dim, Order>>& boundary, const Keys<Dim>& keys, bool among) {
+  Facets<Dim, Order> facets;
+  for (const auto& facet : boundary)
+    if ((keys.count(facet_key<Dim>(facet.nodes)) > 0) == among) facets.push_back(facet.nodes);
+  return facets;
+}
+
+/// Adds a facet's flat parts, with the points that are new.
+template <int Dim, int Order>
+void add_flat_parts(const SimplexMesh<Dim, Order>& mesh, const typename SimplexMesh<Dim, Order>::Facet& facet,
+                    std::vector<Point>& points, std::vector<SurfaceDistance::Facet>& parts) {
+  if constexpr (Order == 1) {
+    parts.push_back({facet[0], facet[1], facet[Dim - 1]});  // an edge's last node twice
+  } else {
+    constexpr int n = 4;  // parts of an edge
+    const auto at = [&](int i, int j) {
+      const std::array<double, 3> l{1 - static_cast<double>(i + j) / n, static_cast<double>(i) / n,
+                                    static_cast<double>(j) / n};
+      Point x{0, 0, 0};
+      for (int a = 0; a < Dim; ++a) x = x + (l[a] * (2 * l[a] - 1)) * mesh.nodes[facet[a]];
+      int middle = Dim;
+      for (const auto& [a, b] : SimplexEdges<Dim - 1>::vertices)
+        x = x + (4 * l[a] * l[b]) * mesh.nodes[facet[middle++]];
+      points.push_back(x);
+      return static_cast<int>(points.size()) - 1;
+    };
+    if constexpr (Dim == 2) {
+      int before = at(0, 0);
+      for (int i = 1; i <= n; ++i) {
+        const int next = at(i, 0);
+        parts.push_back({before, next, next});
+        before = next;
+      }
+    } else {
+      std::array<std::array<int, n + 1>, n + 1> number{};
+      for (int i = 0; i <= n; ++i)
+        for (int j = 0; i + j <= n; ++j) number[i][j] = at(i, j);
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; i + j < n; ++j) {
+          parts.push_back({number[i][j], number[i + 1][j], number[i][j + 1]});
+          if (i + j + 1 < n) parts.push_back({number[i + 1][j], number[i + 1][j + 1], number[i][j + 1]});
+        }
+    }
+  }
+}
+
+template <int Dim, int Order>
+WallFace face_of(const SimplexMesh<Dim, Order>& mesh, const Facets<Dim, Order>& facets) {
+  std::vector<Point> points;
+  if (Order == 1) points = mesh.nodes;
+  std::vector<SurfaceDistance::Facet> parts;
+  std::set<int> vertices;
+  for (const auto& facet : facets) {
+    add_flat_parts<Dim, Order>(mesh, facet, points, parts);
+    vertices.insert(facet.begin(), facet.begin() + Dim);
+  }
+  return {SurfaceDistance(std::move(points), std::move(parts)), {vertices.begin(), vertices.end()}};
+}
+
+template <int Dim, int Order>
+struct FacetsOfWall {
+  Facets<Dim, Order> inner, outer;
+  std::vector<int> regions;  ///< of the wall
+};
+
+template <int Dim, int Order>
+FacetsOfWall<Dim, Order> facets_of_wall(const SimplexMesh<Dim, Order>& mesh) {
+  FacetsOfWall<Dim, Order> found;
+  const int fluid = mesh.region_index(group::fluid);
+  for (int r = 0; r < static_cast<int>(mesh.regions.size()); ++r)
+    if (r != fluid) found.regions.push_back(r);
+  if (found.regions.empty()) return found;
+  const auto boundary = boundary_facets(mesh, found.regions);
+  const auto* inner = mesh.facets(group::inner);
+  if (fluid >= 0)
+    found.inner = interface_facets(mesh, fluid, found.regions);
+  else if (inner)
+    found.inner = chosen<Dim, Order>(boundary, keys_of<Dim>(*inner), true);
+  if (found.inner.empty()) return found;
+  if (const auto* outer = mesh.facets(group::outer)) {
+    found.outer = chosen<Dim, Order>(boundary, keys_of<Dim>(*outer), true);
+    return found;
+  }
+  auto taken = keys_of<Dim>(found.inner);
+  for (const auto& group : mesh.facet_groups) taken.merge(keys_of<Dim>(group.facets));
+  found.outer = chosen<Dim, Order>(boundary, taken, false);
+  return found;
+}
+
+ThicknessRange range_between(const std::string& name, const std::vector<Point>& nodes, const WallFace& inner,
+                             const WallFace& outer) {
+  ThicknessRange range;
+  range.name = name;
+  const auto extremes = [&](const std::vector<int>& vertices, const SurfaceDistance& surface, auto& least, auto* most) {
+    bool first = true;
+    for (const int node : vertices) {
+      const double distance = surface.nearest(nodes[node]).distance;
+      if (first || distance < least.distance) least = {distance, nodes[node]};
+      if (most && (first || distance > most->distance)) *most = {distance, nodes[node]};
+      first = false;
+    }
+  };
+  extremes(outer.vertices, inner.surface, range.least, &range.most);
+  extremes(inner.vertices, outer.surface, range.least_seen_from_inside, static_cast<ThicknessRange::Extreme*>(nullptr));
+  return range;
+}
+
+/// The wall's regions from inside outwards, each with neighbours before and behind it alone; empty where they lie otherwise.
+template <int Dim, int Order>
+std::vector<int> layers_of(const SimplexMesh<Dim, Order>& mesh, const FacetsOfWall<Dim, Order>& wall) {
+  std::vector<int> layers, left = wall.regions;
+  auto reached = keys_of<Dim>(wall.inner);
+  while (!left.empty()) {
+    std::vector<int> here;
+    for (const int region : left) {
+      const auto boundary = boundary_facets(mesh, {region});
+      if (std::any_of(boundary.begin(), boundary.end(),
+                      [&](const auto& facet) { return reached.count(facet_key<Dim>(facet.nodes)) > 0; }))
+        here.push_back(region);
+    }
+    if (here.size() != 1) return {};
+    layers.push_back(here.front());
+    left.erase(std::find(left.begin(), left.end(), here.front()));
+    for (const auto& facet : boundary_facets(mesh, here)) reached.insert(facet_key<Dim>(facet.nodes));
+  }
+  return layers;
+}
+
+}  // namespace
+
+template <int Dim, int Order>
+std::optional<WallFaces> faces_of_wall(const SimplexMesh<Dim, Order>& mesh) {
+  const auto found = facets_of_wall(mesh);
+  if (found.inner.empty() || found.outer.empty()) return std::nullopt;
+  return WallFaces{face_of<Dim, Order>(mesh, found.inner), face_of<Dim, Order>(mesh, found.outer)};
+}
+
+template <int Dim, int Order>
+std::vector<double> nodal_thickness(const SimplexMesh<Dim, Order>& mesh) {
+  const auto faces = faces_of_wall(mesh);
+  if (!faces) return {};
+  const int fluid = mesh.region_index(group::fluid);
+  std::vector<char> in_wall(mesh.nodes.size(), 0);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    if (mesh.cell_region[c] != fluid)
+      for (const int node : mesh.cells[c]) in_wall[node] = 1;
+  std::vector<double> thickness(mesh.nodes.size(), 0.0);
+  for (std::size_t i = 0; i < thickness.size(); ++i)
+    if (in_wall[i] != 0)
+      thickness[i] =
+          faces->inner.surface.nearest(mesh.nodes[i]).distance + faces->outer.surface.nearest(mesh.nodes[i]).distance;
+  return thickness;
+}
+
+template <int Dim, int Order>
+std::vector<ThicknessRange> thickness_ranges(const SimplexMesh<Dim, Order>& mesh) {
+  std::vector<ThicknessRange> ranges;
+  const auto wall = facets_of_wall(mesh);
+  if (wall.inner.empty() || wall.outer.empty()) return ranges;
+  const auto layers = layers_of(mesh, wall);
+  auto near = face_of<Dim, Order>(mesh, wall.inner);
+  for (std::size_t k = 0; layers.size() > 1 && k < layers.size(); ++k) {
+    const std::vector<int> beyond(layers.begin() + static_cast<std::ptrdiff_t>(k) + 1, layers.end());
+    Facets<Dim, Order> far = wall.outer;
+    if (!beyond.empty()) {
+      Facets<Dim, Order> of_others;
+      for (const auto& facet : boundary_facets(mesh, beyond)) of_others.push_back(facet.nodes);
+      far = chosen<Dim, Order>(boundary_facets(mesh, {layers[k]}), keys_of<Dim>(of_others), true);
+    }
+    auto next = face_of<Dim, Order>(mesh, far);
+    ranges.push_back(range_between(mesh.regions[layers[k]], mesh.nodes, near, next));
+    near = std::move(next);
+  }
+  ranges.push_back(range_between(layers.size() == 1 ? mesh.regions[layers[0]] : "wall", mesh.nodes,
+                                 face_of<Dim, Order>(mesh, wall.inner), face_of<Dim, Order>(mesh, wall.outer)));
+  return ranges;
+}
+
+std::string to_text(const std::vector<ThicknessRange>& ranges) {
+  std::string text;
+  for (const auto& [name, least, most, from_inside] : ranges)
+    text += fmt::format(
+        "{}: thickness {:.4g} mm at {} to {:.4g} mm at {}; between the nodes as little as {:.4g} mm at {}\n", name,
+        least.distance, place_of(least.at), most.distance, place_of(most.at), from_inside.distance,
+        place_of(from_inside.at));
+  return text;
+}
+
+#define INSTANTIATE(Dim, Order)                                                    \
+  template std::optional<WallFaces> faces_of_wall(const SimplexMesh<Dim, Order>&); \
+  template std::vector<double> nodal_thickness(const SimplexMesh<Dim, Order>&);    \
+  template std::vector<ThicknessRange> thickness_ranges(const SimplexMesh<Dim, Order>&);
+FSI_FOR_EACH_MESH(INSTANTIATE)
+#undef INSTANTIATE
+
+}  // namespace fsi
