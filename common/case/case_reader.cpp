@@ -20,6 +20,7 @@
 #include "case/opening_keys.hpp"
 #include "case/periodic_end.hpp"
 #include "case/pressure_doubts.hpp"
+#include "case/start_pressure.hpp"
 #include "case/support_keys.hpp"
 #include "case/table_times.hpp"
 #include "case/viscosity_keys.hpp"
@@ -213,6 +214,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   set_lumped_start(whole_case, scene);
   warn_of_windkessel_units(whole_case, scene);
   warn_of_table_times(whole_case, scene);
+  warn_of_start_pressure(whole_case, scene);
   if (scene.structure) scene.structure->stabilisation = wall_stabilisation(scene);
   check_axis(whole_case, scene);
   check_supports(whole_case, scene);

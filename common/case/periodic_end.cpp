@@ -33,7 +33,7 @@ void read_periods(const CaseEntry& entry, TimeData& time) {
 CaseKey<TimeData> periods_key() {
   return leaf<TimeData>("periods", presence::optional,
                         "\"until 1%\": ends the run before `end`, once pressures, flows and displacements change by no "
-                        "more than that from one period to the next",
+                        "more than that from one period to the next, and are no farther from the periodic state",
                         {read_periods,
                          [](const TimeData& time) {
                            return time.periodic_change ? fmt::format("until {:.12g}%", 100 * *time.periodic_change)
@@ -55,10 +55,10 @@ void check_periodic_end(const CaseEntry& whole_case, Case& scene) {
   const CaseEntry periods = section.child("periods");
   if (!scene.fluid) periods.refuse("are of a fluid, and the scene has none", "leave them out");
   if (!time.period) time.period = require_period(periods, scene, "time.period");
-  if (2 * *time.period > time.end)
-    section.child("end").refuse(
-        fmt::format("{:g} ms is less than two periods of {:g} ms, which are compared", time.end, *time.period),
-        fmt::format("give at least {:g}", 2 * *time.period));
+  if (3 * *time.period > time.end)
+    section.child("end").refuse(fmt::format("{:g} ms is less than three periods of {:g} ms, whose changes are compared",
+                                            time.end, *time.period),
+                                fmt::format("give at least {:g}", 3 * *time.period));
 }
 
 }  // namespace fsi

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "case/network_data.hpp"
 #include "case/openings.hpp"
+#include "time/fitting_step.hpp"
 
 namespace fsi {
 
@@ -16,6 +19,8 @@ std::vector<std::pair<std::string, double>> periods_of_openings(const Case& setu
 }
 
 namespace {
+
+constexpr double same_phase = 1e-3;  // of a step
 
 /// "800 ms, that of opening.inlet.flow_rate"
 std::string period_with_owners(const Case& setup, double wanted) {
@@ -45,14 +50,32 @@ std::string about_statistics(const Case& setup) {
   return "statistics over periods of " + period_with_owners(setup, *wanted.period);
 }
 
+std::string about_steps_of_periods(const Case& setup) {
+  if (!setup.time || !setup.time->period) return "";
+  const TimeData& time = *setup.time;
+  if (time.adaptive) return "adaptive steps fall on other phases in each period";
+  const double steps = *time.period / time.step;
+  if (std::abs(steps - std::round(steps)) <= same_phase) return "";
+  // Steps end at jumps and begin anew.
+  for (const auto& [key, table] : tables_over_time(setup))
+    if (table->period == *time.period && table->jumps_in_period() > 0) return "";
+  const double fits = fitting_step(*time.period, time.step);
+  return fmt::format(
+      "a period of {:g} ms is no whole number of steps of {:g} ms, so that steps see kinks of the tables at other "
+      "places "
+      "in each; time.step = {:.12g} fits ({:.0f} a period)",
+      *time.period, time.step, fits, *time.period / fits);
+}
+
 std::string about_periodic_end(const Case& setup) {
   if (!setup.time || !setup.time->periodic_change) return "";
   const TimeData& time = *setup.time;
+  const std::string steps = about_steps_of_periods(setup);
   return fmt::format(
       "the run ends before {:g} ms once pressures, flows and displacements differ by at most {:g} % of their ranges "
-      "from "
-      "those one period before; periods of {}",
-      time.end, 100 * *time.periodic_change, period_with_owners(setup, *time.period));
+      "from those one period before, and their means from those of the periodic state; periods of {}{}",
+      time.end, 100 * *time.periodic_change, period_with_owners(setup, *time.period),
+      time.adaptive || steps.empty() ? "" : "; " + steps);
 }
 
 }  // namespace fsi

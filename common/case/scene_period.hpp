@@ -18,6 +18,8 @@ double require_period(const CaseEntry& asking, const Case& setup, const char* ke
 
 /// A sentence for the log on a run that ends when it has become periodic; empty of others.
 std::string about_periodic_end(const Case& setup);
+/// What is to be said of steps that do not fall on the same phases in each period, with a step that does; empty: they do.
+std::string about_steps_of_periods(const Case& setup);
 /// A sentence for the log on the period of the statistics, and whose it is; empty without statistics.
 std::string about_statistics(const Case& setup);
 

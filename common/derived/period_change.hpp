@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -24,22 +25,34 @@ struct PeriodicValues {
 struct PeriodChange {
   double end = 0;  ///< ms, of the period
   double pressure = 0, flow = 0, displacement = 0;
+  /// Of the means over the period, likewise: pressure, flow, displacement.
+  std::array<double, 3> mean{};
+  /// This change of the means over that of the period before, NaN where there is none to compare with: what a transient
+  /// of one time constant tau leaves of itself in a period, exp(-T/tau).
+  std::array<double, 3> contraction{};
 
   double largest() const;
 };
 
 /// Compares each period, 0 to T, T to 2 T, ..., with the one before, at `phases` equally spaced phases. Values are taken in
-/// at the end of each step, of any length, and count as linear in time between these.
+/// at the end of each step, of any length, and count as linear in time between these. What belongs to a phase is their mean
+/// around it, with a weight that falls linearly to zero at the phases beside it. Where steps do not fit the period, each
+/// period sees a kink of a table at another place, which moves the pressure there by a part of what it jumps, but such a
+/// mean by the square of step over phase of it only.
 class PeriodComparison {
  public:
   static constexpr int phases = 32;
   static constexpr double least_range = 1e-3;
 
-  /// Differences and ranges of a period, of the values here.
+  /// Differences and ranges of a period, of the values here. All combine by their largest.
   struct Extremes {
+    static constexpr double none = -std::numeric_limits<double>::max();
     std::array<double, 3> difference{};  ///< of pressures, flows, displacement
     std::array<double, 3> range{};
-    std::array<double, 3> size{};  ///< largest values
+    std::array<double, 3> size{};                     ///< largest values
+    std::array<double, 3> mean_difference{};          ///< of means over the period
+    std::array<double, 3> product{none, none, none};  ///< largest of a change of a mean with the one before
+    std::array<double, 3> square{};                   ///< largest of the latter; 0: there is none
   };
 
   /// \param period      T, ms
@@ -65,20 +78,36 @@ class PeriodComparison {
   void keep(Memory& memory);
 
  private:
-  void pass(int phase, const PeriodicValues& values);
-  void start_period(const PeriodicValues& values);
+  /// Numbers of openings, pressures before flows, and of the displacement.
+  struct Numbers {
+    std::vector<double> scalars, vectors;
+  };
+  /// The weighted mean around a phase, as far as it has been seen.
+  struct Around {
+    double weight = 0;  ///< ms
+    Numbers sum;        ///< times ms
+  };
+
+  /// Values linear in time between two times within one part between phases, in shares of it.
+  void take(double from, double to, const PeriodicValues& first, const PeriodicValues& last);
+  void pass(int phase, const Around& around);
+  /// The change of the means over the period that has ended.
+  void compare_means();
 
   double period_;
   std::size_t openings_;
   int components_;
   bool begun_ = false;
-  double time_ = 0;                        ///< ms, of the last values
-  std::int64_t passed_ = 0;                ///< phases since time 0 that have been passed
-  std::int64_t known_ = 0;                 ///< of the last ones, how many have been seen, two periods at most
-  PeriodicValues now_;                     ///< at time_
-  std::vector<double> scalars_, vectors_;  ///< the values of a period, by phase: pressures and flows; displacement
-  std::vector<double> least_, most_;       ///< pressures and flows in the period
-  Extremes extremes_;                      ///< of the period so far
+  double time_ = 0;                   ///< ms, of the last values
+  std::int64_t passed_ = 0;           ///< phases since time 0 that have been passed
+  std::int64_t known_ = 0;            ///< of the last ones, how many have been seen, two periods at most
+  PeriodicValues now_;                ///< at time_
+  Around before_, behind_;            ///< the phase that was passed last, and the next one
+  Numbers at_phases_;                 ///< the values of a period, by phase
+  Numbers mean_, mean_change_;        ///< of the last period, and from the one before it
+  std::int64_t means_ = 0;            ///< periods in a row whose means are known: 0, 1, or 2 where a change of them is
+  std::vector<double> least_, most_;  ///< pressures and flows in the period
+  Extremes extremes_;                 ///< of the period so far
 };
 
 /// The change that these extremes amount to.

@@ -252,6 +252,17 @@ class PeriodicEnd(FolderCase):
             self.said("missed", period_ms=12, asked=0.005, changes=changes),
             "not periodic within 0.5 % after 3 periods, the last of which changed by 0.8 %",
         )
+        changes[-1]["distance"] = 0.04
+        self.assertEqual(
+            self.said("far", period_ms=12, asked=0.01, changes=changes, reached=False),
+            "not periodic within 1 % after 3 periods, the last of which changed by 0.8 %; "
+            "the mean is about 4 % from the periodic state",
+        )
+        changes[-1].update(pressure=0.06, distance=0.001)
+        self.assertIn(
+            "periodic within 1 % but for its steps",
+            self.said("steps", period_ms=12, asked=0.01, changes=changes, reached=False, limited_by_steps=True),
+        )
         self.assertEqual(self.said("short", period_ms=12, asked=0.01, changes=[]), "no two periods were compared")
         self.assertEqual(periodic_end(open_run(write_run(self.base / "other", lambda t, z: z + t))), "")
 

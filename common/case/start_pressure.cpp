@@ -1,0 +1,60 @@
+#include "case/start_pressure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "materials/material.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr double small = 0.02;    // difference over the shear modulus: 6 % of the radius
+constexpr double at_once = 1e12;  // 1/ms: what is stored has no time to change
+
+/// Of the stiffest layer, kPa.
+double stiffest(const StructureData& structure) {
+  double modulus = 0;
+  for (const auto& [name, layer] : structure.layers)
+    modulus = std::max(modulus, shear_modulus(make_material(layer.material, layer.values)));
+  return modulus;
+}
+
+}  // namespace
+
+void warn_of_start_pressure(const CaseEntry& whole_case, const Case& scene) {
+  if (!scene.fluid || !scene.structure || !scene.time) return;
+  const double wall = scene.prestress ? scene.prestress->pressure : 0;
+  const bool lumped = scene.time->start == StartOfOpenings::lumped;
+  const double large = small * stiffest(*scene.structure);
+  const auto warn = [&](const CaseEntry& entry, double pressure, bool keeps) {
+    if (std::abs(pressure - wall) <= large) return;
+    const std::string carries =
+        scene.prestress ? fmt::format("a wall that carries {:g} kPa", wall) : std::string("a wall without load");
+    std::string remedy = fmt::format("{} prestress.pressure = {:.4g} where the mesh is the vessel under that pressure",
+                                     scene.prestress ? "set" : "add", pressure);
+    if (keeps && !lumped)
+      remedy += fmt::format(
+          ", or begin with {:g} kPa here; time.start = \"lumped\" finds the pressure of the periodic state", wall);
+    entry.warn(
+        fmt::format("begins with {:.4g} kPa against {}: the vessel is {} through this opening in the first steps",
+                    pressure, carries, pressure > wall ? "filled" : "emptied"),
+        remedy);
+  };
+  for (const auto& [surface, conditions] : scene.openings) {
+    const CaseEntry entry = whole_case.child("opening").child(surface);
+    if (conditions.law) {
+      const auto law = conditions.law->make();
+      const auto kept = law->start();
+      warn(entry.child(conditions.law->name), law->pressure(at_once, kept.data(), 0), !kept.empty());
+    }
+    // A pulse is meant; the course of a beat that begins somewhere is not the start of a vessel without load.
+    if (conditions.pressure && conditions.pressure->period > 0)
+      warn(entry.child("pressure"), conditions.pressure->at(0), false);
+  }
+}
+
+}  // namespace fsi
