@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "mesh/point_math.hpp"
 #include "support/element_meshes.hpp"
 #include "support/every_element.hpp"
 #include "support/scenes.hpp"
