@@ -25,8 +25,11 @@ struct HalfSpace {
 
 /// The shortest way into all half spaces, by projecting onto one after the other (Hildreth's method).
 Point shortest_way_into(const std::vector<HalfSpace>& spaces) {
-  constexpr int most_rounds = 200;
+  constexpr int most_rounds = 100;
+  constexpr double steepest = 20;  // way over what is missing, beyond which the half spaces have no point in common
   std::vector<double> multiplier(spaces.size(), 0.0);
+  double longest = 0;
+  for (const auto& space : spaces) longest = std::max(longest, steepest * space.missing);
   Point way{0, 0, 0};
   for (int round = 0; round < most_rounds; ++round) {
     double largest = 0;
@@ -37,7 +40,7 @@ Point shortest_way_into(const std::vector<HalfSpace>& spaces) {
       way = way + (multiplier[i] - before) * inwards;
       largest = std::max(largest, std::abs(multiplier[i] - before));
     }
-    if (largest < 1e-7 * (std::abs(multiplier[0]) + 1e-9)) break;
+    if (largest <= 1e-7 * longest || norm(way) > longest) break;
   }
   return way;
 }
@@ -76,7 +79,7 @@ Point OffsetDistance::along(const Point& from, const Point& way, double asked, d
 }
 
 Point OffsetDistance::onto(Point x, double reach, const std::vector<Point>& planes, int guess) const {
-  constexpr int most_steps = 30;
+  constexpr int most_steps = 30, most_in_vain = 4;
   constexpr std::size_t most_spaces = 8;
   struct Seen {
     Point nearest, away, inwards;
@@ -85,10 +88,12 @@ Point OffsetDistance::onto(Point x, double reach, const std::vector<Point>& plan
   std::vector<Seen> seen;
   Point best = x;
   double least = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < most_steps; ++step) {
+  int in_vain = 0;
+  for (int step = 0; step < most_steps && in_vain < most_in_vain; ++step) {
     const Place place = at(x, guess);
     guess = place.facet;
     const double wanted = reach * place.asked, missing = wanted - place.distance;
+    in_vain = std::abs(missing) < 0.9 * least * wanted ? 0 : in_vain + 1;
     if (std::abs(missing) < least * wanted) {
       least = std::abs(missing) / wanted;
       best = x;

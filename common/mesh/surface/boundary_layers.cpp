@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include "base/error.hpp"
 #include "mesh/flat_parts.hpp"
+#include "mesh/offset_distance.hpp"
 #include "mesh/offset_normals.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/prism_columns.hpp"
@@ -68,8 +70,9 @@ TriangleSurface moved_inwards(const TriangleSurface& wall, const BoundaryLayers&
     refuse(wall.nodes[narrowest - radius.begin()],
            fmt::format("are {:.3g} mm thick together, more than 0.4 of the radius {:.3g} mm", thickness, *narrowest));
   TriangleSurface inner = wall;
+  const OffsetDistance offset(wall.nodes, wall.triangles, std::vector<double>(wall.nodes.size(), thickness));
   for (const auto& [node, normal] : offset_normals(wall.nodes, wall.triangles, smoothing).normals)
-    inner.nodes[node] = wall.nodes[node] - thickness * normal;
+    inner.nodes[node] = offset.along(wall.nodes[node], -1 * normal, thickness, 1);
   for (const auto& [a, b, c] : wall.triangles) {
     const Point before = triangle_area_vector(wall.nodes[a], wall.nodes[b], wall.nodes[c]);
     const Point after = triangle_area_vector(inner.nodes[a], inner.nodes[b], inner.nodes[c]);
