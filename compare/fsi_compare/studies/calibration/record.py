@@ -24,11 +24,8 @@ class Record:
     unit: str
     bar: Bar
     truth: float
+    error: float  # of a curve the norm of its difference from the truth
     exact: bool = False  # the truth is the scene's, not a finer run's
-
-    @property
-    def error(self) -> float:
-        return abs(self.bar.value - self.truth)
 
     @property
     def known(self) -> float:
@@ -77,8 +74,9 @@ def records(
         quantity = one.quantity
         if quantity.curve not in truth or any(word in quantity.name for word in skipped):
             continue
-        value = quantity.of(truth[quantity.curve])
-        found.append(Record(scene, size, quantity.name, quantity.unit, one.bar, value, quantity.curve in exact))
+        curve = truth[quantity.curve]
+        value, error = quantity.of(curve), one.apart(curve)
+        found.append(Record(scene, size, quantity.name, quantity.unit, one.bar, value, error, quantity.curve in exact))
     return found
 
 

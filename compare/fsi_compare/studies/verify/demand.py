@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import List, Optional, Sequence
 
 from .cost import Costs
+from .quantities import Curve
 from .results import Judged
 from .verdict import Bar
 
@@ -63,11 +64,10 @@ def tolerance_factor(judged: Sequence[Judged], demand: float) -> float:
     return factor if factor < 0.5 or factor > 2 else 1.0
 
 
-def shown_by(one: Judged, value: float) -> Judged:
+def shown_by(one: Judged, curve: Curve) -> Judged:
     """The bar of another run, coarser than the family's centre or solved otherwise: that of the centre, and how far the two
     are apart. Mesh and step share the distance as they share the bar."""
-    bar = one.bar
-    apart = abs(value - bar.value)
+    bar, value, apart = one.bar, one.quantity.of(curve), one.apart(curve)
     share = bar.mesh.bar / (bar.mesh.bar + bar.step.bar) if bar.mesh.bar + bar.step.bar > 0 else 1.0
     mesh = replace(bar.mesh, bar=bar.mesh.bar + share * apart)
     step = replace(bar.step, bar=bar.step.bar + (1 - share) * apart)

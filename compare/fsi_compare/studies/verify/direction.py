@@ -6,13 +6,16 @@ member is what is known to be wrong, its difference from the finest, and FACTOR 
 
     bar = |y(1) - y(finest)| + FACTOR |e|.
 
-A sequence that swings is not extrapolated, neither is one whose differences do not fall. See docs/verification.md.
+A sequence that swings is not extrapolated, neither is one whose differences do not fall. Of curves the differences are norms: they
+cannot cancel, and what one member moves where another does not is in them, too. See docs/verification.md.
 """
 
-from dataclasses import dataclass
-from typing import Optional, Sequence, Tuple
+from dataclasses import dataclass, replace
+from typing import Any, Callable, Optional, Sequence, Tuple
 
 import numpy as np
+
+from .curve_norms import CurveNorm
 
 AS_EXPECTED, WIDENED, OUTSIDE, SILENT = "as expected", "widened", "outside", "silent"
 
@@ -21,6 +24,7 @@ SWING = 3.0  # times the largest difference, where a sequence swings
 LEAST_ORDER = 0.3  # below it the differences do not fall enough to say what is left
 SHARE_OF_ORDER = 0.7  # of the elements' order that must be observed for them to converge as they do
 LARGEST_ORDER = 8.0
+SAME_SHAPE = 0.7  # cosine of two successive differences of a curve, below which they are not multiples of one error
 TOO_FAST = 2.0  # times the order of theory: differences that fall faster do so by chance, as before a change of sign
 
 
@@ -33,7 +37,7 @@ class Part:
     order: Optional[float] = None  # observed; None: none was
     used: float = 1.0  # order that the bar is expected to fall with, for predictions
     remaining: float = 0.0  # signed estimate of the finest member's error; 0 where nothing is extrapolated
-    error: float = 0.0  # signed estimate of the error at size 1
+    error: Any = 0.0  # signed estimate of the error at size 1; of a curve one at each level and point
     lacking: bool = False  # too few members
 
     def at(self, size: float) -> float:
@@ -44,9 +48,13 @@ class Part:
 NOTHING = Part(SILENT, 0.0)
 
 
-def part_of(sizes: Sequence[float], values: Sequence[float], expected: float, noise: float) -> Part:
+def part_of(
+    sizes: Sequence[float], values: Sequence[float], expected: float, noise: float, curve: Optional[Part] = None
+) -> Part:
     """`sizes` relative to the user's own, which is 1 and among them; `expected`: the order of elements or scheme;
-    `noise`: what differences may be by chance, of the solver or of a mesh's making."""
+    `noise`: what differences may be by chance, of the solver or of a mesh's making. `curve`: the part of the curve that the
+    values are norms of. A norm can fall faster than its curve converges, while the curve moves without growing: it is
+    extrapolated by no larger order than the curve, and not at all where the curve's differences do not fall."""
     order = np.argsort(-np.asarray(sizes, dtype=float))
     x, y = np.asarray(sizes, dtype=float)[order], np.asarray(values, dtype=float)[order]
     steps = y[:-1] - y[1:]
@@ -63,17 +71,49 @@ def part_of(sizes: Sequence[float], values: Sequence[float], expected: float, no
         falls = abs(steps[-1]) <= 0.7 * float(np.max(np.abs(steps[:-1]))) or abs(steps[-1]) <= noise
         last = float(np.max(np.abs(steps[-2:])))
         return Part(WIDENED if falls else OUTSIDE, SWING * last + noise)
-    return _of_monotone(x, y, expected, noise, known)
+    if curve is not None and curve.state == OUTSIDE:
+        return Part(OUTSIDE, SWING * max(known, abs(float(steps[-1]))), curve.order)
+    return _of_monotone(x, y, expected, noise, known, curve)
 
 
-def by_elements(own: float, other: float, finer: Optional[float], own_is_linear: bool, noise: float) -> Part:
+def part_of_curves(
+    sizes: Sequence[float], curves: Sequence[np.ndarray], expected: float, noise: float, norm: CurveNorm
+) -> Part:
+    """Like part_of() for whole curves, (levels * points,): the sum of the norms of the differences from each member to the finest
+    one is a sequence that falls, and whose order is that of the curve."""
+    order = np.argsort(-np.asarray(sizes, dtype=float))
+    x, y = np.asarray(sizes, dtype=float)[order], [curves[i] for i in order]
+    if len(x) < 2 or np.any(x[:-1] <= x[1:]):
+        return NOTHING
+    steps = [one - other for one, other in zip(y, y[1:])]
+    lengths = np.array([norm(step) for step in steps])
+    own = y[int(np.argmin(np.abs(x - 1.0)))]
+    known, spread = norm(own - y[-1]), float(np.max(lengths))
+    if spread <= 2 * noise:
+        return Part(SILENT, max(spread, noise), None, expected)
+    if len(x) < 3:
+        return Part(OUTSIDE, SWING * spread, lacking=True)
+    falling = np.append(np.cumsum(lengths[::-1])[::-1], 0.0)
+    part = _of_monotone(x, falling, expected, noise, known)
+    if part.state == OUTSIDE:
+        return part
+    if part.state == AS_EXPECTED and norm.cosine(steps[-2], steps[-1]) < SAME_SHAPE:
+        more = (FACTOR[WIDENED] - FACTOR[AS_EXPECTED]) * abs(part.remaining)
+        part = replace(part, state=WIDENED, bar=part.bar + more)
+    last = float(lengths[-1])
+    return replace(part, error=own - y[-1] + (part.remaining / last if last > 0 else 0.0) * steps[-1])
+
+
+def by_elements(
+    own: Any, other: Any, finer: Optional[Any], own_is_linear: bool, noise: float, norm: Callable[[Any], float] = abs
+) -> Part:
     """Of a mesh with too few others, by both elements on it. The quadratic element's error is taken to be at most half of the
     linear one's (the saturation assumption of hierarchical estimates, [Bank1993]): of their difference d a linear result
     may then be off by 2 d and a quadratic one by d. Where a linear result on a finer mesh is known it must be nearer to the
     quadratic one."""
-    apart = abs(own - other)
-    if finer is not None and own_is_linear and abs(finer - other) > max(apart, noise):
-        return Part(OUTSIDE, SWING * abs(finer - other))
+    apart = norm(own - other)
+    if finer is not None and own_is_linear and norm(finer - other) > max(apart, noise):
+        return Part(OUTSIDE, SWING * norm(finer - other))
     return Part(WIDENED, (2 if own_is_linear else 1) * apart + noise, error=own - other if own_is_linear else 0.0)
 
 
@@ -82,11 +122,14 @@ def _swings(steps: np.ndarray, noise: float) -> bool:
     return bool(np.any(seen > 0) and np.any(seen < 0))
 
 
-def _of_monotone(x: np.ndarray, y: np.ndarray, expected: float, noise: float, known: float) -> Part:
+def _of_monotone(
+    x: np.ndarray, y: np.ndarray, expected: float, noise: float, known: float, curve: Optional[Part] = None
+) -> Part:
     last = float(y[-2] - y[-1])
     promised = _promised(x, y, expected)
+    most = expected if curve is None or curve.order is None else min(expected, curve.order)
     if abs(last) <= noise or abs(last) < promised * float((x[-1] / x[-2]) ** (expected * (TOO_FAST - 1))):
-        left = max(abs(last), promised) / float((x[-2] / x[-1]) ** expected - 1.0)
+        left = max(abs(last), promised) / float((x[-2] / x[-1]) ** most - 1.0)
         chance = promised > SWING * noise  # else converged as far as can be seen
         bar = known + (FACTOR[WIDENED] * left if chance else 0.0) + SWING * noise
         error = _own(x, y) - float(y[-1])
@@ -94,9 +137,11 @@ def _of_monotone(x: np.ndarray, y: np.ndarray, expected: float, noise: float, kn
     order, scatter = observed(x, y)
     if order is None or order < LEAST_ORDER:
         return Part(OUTSIDE, SWING * max(known, abs(last)), order)
-    used = min(order, expected)
+    used = min(order, most)
     remaining = last / float((x[-2] / x[-1]) ** used - 1.0)
     state = AS_EXPECTED if SHARE_OF_ORDER * expected <= order <= expected / SHARE_OF_ORDER else WIDENED
+    if curve is not None and curve.state == WIDENED:
+        state = WIDENED
     bar = known + FACTOR[state] * abs(remaining) + scatter + noise
     seen = order if order < LARGEST_ORDER - 0.1 else None  # faster than any power
     return Part(state, bar, seen, used, remaining, _own(x, y) - float(y[-1]) + remaining)

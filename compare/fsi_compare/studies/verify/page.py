@@ -43,11 +43,11 @@ def write_page(
             "which swing. What to refine stands beside them."
         )
     if waves:
-        report.section("Curves over time with their bands")
+        report.section("Curves and lines with their bands")
         for number, group in enumerate(_groups(waves), 1):
             stem = f"waves_{number}"
             names = "; ".join(f"{band.name} ({band.driver})" for band in group)
-            caption = f"{names}. The band is what each level may be off by."
+            caption = f"{names}. The band is what the curve may be off by at each place."
             report.figure(stem, lambda group=group: waves_figure(group), caption)  # type: ignore[misc]
     report.section("Where the error comes from")
     report.figure(
@@ -64,7 +64,7 @@ def _groups(waves: Sequence[Band]) -> List[List[Band]]:
     groups: dict = {}
     for band in waves:
         kind = re.sub(r" [xyz]$", "", band.name.rpartition(": ")[2])
-        groups.setdefault((kind, band.unit, band.driver), []).append(band)
+        groups.setdefault((kind, band.unit, band.driver, band.along), []).append(band)
     split = [group[i : i + ON_A_PICTURE] for group in groups.values() for i in range(0, len(group), ON_A_PICTURE)]
     return split[:MOST_WAVES]
 
@@ -73,11 +73,11 @@ def waves_figure(group: Sequence[Band]) -> Figure:
     figure = Figure(figsize=(7.0, 3.4), layout="constrained")
     axes = figure.add_subplot()
     for band in group:
-        (line,) = axes.plot(band.times, band.values, label=band.name, linewidth=1)
+        (line,) = axes.plot(band.x, band.values, label=band.name, linewidth=1)
         low, high = band.values - band.half_width, band.values + band.half_width
-        axes.fill_between(band.times, low, high, color=line.get_color(), alpha=0.25, linewidth=0)
-    axes.set_xlabel("time in ms")
-    axes.set_ylabel(f"{group[0].name.rpartition(': ')[2]} in {group[0].unit}".removesuffix(" in "))
+        axes.fill_between(band.x, low, high, color=line.get_color(), alpha=0.25, linewidth=0)
+    axes.set_xlabel("along the line in mm" if group[0].along else "time in ms")
+    axes.set_ylabel(f"{group[0].name.rpartition(': ')[2].partition(',')[0]} in {group[0].unit}".removesuffix(" in "))
     axes.legend(fontsize="small")
     return figure
 

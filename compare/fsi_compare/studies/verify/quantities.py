@@ -3,12 +3,16 @@ is of, which its error is relative to.
 
 | of a curve over time | of a line |
 |---|---|
-| largest and smallest value, by a parabola through the three levels about it | the same over all points |
+| the curve: norm of its error | the line over time: the same |
+| the largest error at any time | anywhere, at any time |
+| - | the line, and anywhere on it, at the end and at times asked for |
+| largest and smallest value, by a parabola through the three levels about it where the curve is smooth | the same over all points |
 | value at the end, and at times asked for | L2 norm along the line at these times |
 | L2 norm over time | L2 norm over line and time |
 | mean and swing over the last period, where the case has one | - |
 """
 
+import functools
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
@@ -19,6 +23,7 @@ from ...base.files import is_file
 from ...results.fields import read_fields
 from ...results.units import split_unit
 from ...runs.samples import LINES, PLANES, POINTS, Samples, read_samples
+from .curve_norms import CurveNorm, Stretch, norm_on, stretch_of
 
 TABLES = (POINTS, LINES, PLANES, "openings.csv", "surfaces.csv", "centerline_pressure.csv", "wall_displacement.csv")
 WITHOUT_NAMES = {"centerline_pressure.csv": "centre line", "wall_displacement.csv": "inner wall", "flow.csv": "tube"}
@@ -26,6 +31,10 @@ SKIPPED = ("step",)  # columns that are no results
 PRIMARY = ("displacement", "velocity", "pressure")  # fields that are solved for: samples have them, at any place
 SEEN = 2e-5  # relative to the largest of all curves with the unit: what is smaller is zero but for round-off
 ONE_SIDED = 0.02  # an extreme that is smaller than this part of the other is none
+SMOOTH = (
+    2.0  # times what the bend one level beside is of that at the largest: of a crest of 8 levels a period it is 0.7
+)
+AT_REST = 0.01  # of the largest value: an error of a line that is below this at a time is relative to that
 
 
 @dataclass(frozen=True)
@@ -61,6 +70,9 @@ class Quantity:
     scale: float
     of: Callable[[Curve], float]
     is_extreme: bool = False
+    whole: Optional[Stretch] = None  # the curve itself, whose error has a norm; `of` is then that of the curve
+    held_by: Optional[Stretch] = None  # the curve's error that this number's cannot exceed
+    is_norm: bool = False
 
 
 @dataclass(frozen=True)
@@ -128,31 +140,93 @@ def quantities_of(curves: Mapping[str, Curve], asked: Asked) -> List[Quantity]:
     return found
 
 
-def _of_curve(curve: Curve, asked: Asked) -> List[Quantity]:
-    def quantity(what: str, of: Callable[[Curve], float], extreme: bool = False) -> Quantity:
-        name = f"{curve.name}, {what}"
-        return Quantity(name, curve.name, curve.unit, curve.is_pressure, curve.largest, of, extreme)
+def norm_of(curve: Curve, stretch: Stretch) -> CurveNorm:
+    """Of differences from this curve, the user's own."""
+    return norm_on(curve.times, curve.s, stretch)
 
+
+def on(grid: Curve, curve: Curve, stretch: Stretch) -> np.ndarray:
+    """A member's curve at the levels and points of the user's own, (levels * points,)."""
+    return stretch_of(curve.times, curve.s, curve.values, (grid.times, grid.s), stretch)
+
+
+def _of_curve(curve: Curve, asked: Asked) -> List[Quantity]:
     line = curve.values.shape[1] > 1
-    at_end = quantity("L2 norm at the end" if line else "at the end", lambda c: _at(c, float(c.times[-1])))
+    end = float(curve.times[-1])
     if asked.static or len(curve.times) < 3:
-        return [at_end, *([quantity("largest at the end", _largest_at_end)] if line else [])]
+        return [*_whole(curve, end, " at the end"), *_at_end(curve)]
+    times = [time for time in asked.times if curve.times[0] <= time < end]
+    found = _whole(curve)
+    if line:
+        found += [one for time in times for one in _whole(curve, time, f" at {time:g} ms")]
+        found += _whole(curve, end, " at the end")
+    found += [*_extremes(curve), *_at_end(curve)[:1], _number(curve, "L2 norm", _l2, Stretch(False), is_norm=True)]
+    for time in times:
+        at = Stretch(False, time) if line else Stretch(True)
+        name = f"L2 norm at {time:g} ms" if line else f"at {time:g} ms"
+        found.append(_number(curve, name, functools.partial(_at, time=time), at, line))
+    if asked.period is not None and not line and asked.period <= end * (1 + 1e-9):
+        last, anywhere = end - asked.period, Stretch(True)
+        found.append(_number(curve, "mean of the last period", lambda c: _mean(c, last), anywhere))
+        found.append(_number(curve, "swing of the last period", lambda c: _swing(c, last), anywhere, extreme=True))
+    return found
+
+
+def _number(
+    curve: Curve,
+    what: str,
+    of: Callable[[Curve], float],
+    held_by: Stretch,
+    is_norm: bool = False,
+    extreme: bool = False,
+) -> Quantity:
+    name = f"{curve.name}, {what}"
+    return Quantity(name, curve.name, curve.unit, curve.is_pressure, curve.largest, of, extreme, None, held_by, is_norm)
+
+
+def size_of(curve: Curve, stretch: Stretch) -> float:
+    """What its error is relative to."""
+    return max(norm_of(curve, stretch)(on(curve, curve, stretch)), AT_REST * curve.largest)
+
+
+def _whole(curve: Curve, time: Optional[float] = None, when: str = "") -> List[Quantity]:
+    """The error of the curve itself: its norm, and the largest. A point has none at a single time."""
+    line = curve.values.shape[1] > 1
+    if time is not None and not line:
+        return []
+    names = (f"line{when or ' over time'}", f"anywhere{when}") if line else ("curve", "at any time")
     found = []
+    for name, largest in zip(names, (False, True)):
+        stretch = Stretch(largest, time)
+        found.append(
+            Quantity(
+                f"{curve.name}, {name}",
+                curve.name,
+                curve.unit,
+                curve.is_pressure,
+                size_of(curve, stretch),
+                lambda c, stretch=stretch: norm_of(c, stretch)(on(c, c, stretch)),  # type: ignore[misc]
+                largest and time is None,
+                stretch,
+            )
+        )
+    return found
+
+
+def _extremes(curve: Curve) -> Iterator[Quantity]:
     most, least = float(np.max(curve.values)), float(np.min(curve.values))
     if most > ONE_SIDED * curve.largest:
-        found.append(quantity("largest", lambda c: _extreme(c, 1.0), True))
+        yield _number(curve, "largest", lambda c: _extreme(c, 1.0), Stretch(True), extreme=True)
     if least < -ONE_SIDED * curve.largest:
-        found.append(quantity("smallest", lambda c: _extreme(c, -1.0), True))
-    found += [at_end, quantity("L2 norm", _l2)]
+        yield _number(curve, "smallest", lambda c: _extreme(c, -1.0), Stretch(True), extreme=True)
+
+
+def _at_end(curve: Curve) -> List[Quantity]:
     end = float(curve.times[-1])
-    for time in asked.times:
-        if curve.times[0] <= time < end:
-            found.append(quantity(f"at {time:g} ms", lambda c, time=time: _at(c, time)))  # type: ignore[misc]
-    if asked.period is not None and not line and asked.period <= end * (1 + 1e-9):
-        last = end - asked.period
-        found.append(quantity("mean of the last period", lambda c: _mean(c, last)))
-        found.append(quantity("swing of the last period", lambda c: _swing(c, last), True))
-    return found
+    if curve.values.shape[1] > 1:
+        norm = _number(curve, "L2 norm at the end", lambda c: _at(c, end), Stretch(False, end), True)
+        return [norm, _number(curve, "largest at the end", _largest_at_end, Stretch(True, end))]
+    return [_number(curve, "at the end", lambda c: _at(c, float(c.times[-1])), Stretch(True))]
 
 
 def _extreme(curve: Curve, sign: float) -> float:
@@ -162,18 +236,25 @@ def _extreme(curve: Curve, sign: float) -> float:
 
 
 def peak(t: np.ndarray, y: np.ndarray) -> float:
-    """The largest value of the parabola through the largest and its neighbours; the largest at an end."""
+    """The largest value, between levels by the parabola through the largest and its neighbours as far as the curve bends
+    there as it does one level before and behind: where it jumps or has a kink no parabola passes through it, and the
+    largest value itself counts."""
     i = int(np.argmax(y))
     if i == 0 or i == len(y) - 1:
         return float(y[i])
-    t0, t1, t2 = (float(v) for v in t[i - 1 : i + 2])
-    y0, y1, y2 = (float(v) for v in y[i - 1 : i + 2])
-    first, second = (y1 - y0) / (t1 - t0), (y2 - y1) / (t2 - t1)
-    bend = (second - first) / (t2 - t0)
+    bend = _bend(t, y, i)
     if bend >= 0:
-        return y1
-    slope = first + bend * (t1 - t0)  # at t1
-    return y1 - slope**2 / (4 * bend)
+        return float(y[i])
+    beside = [_bend(t, y, j) / bend for j in (i - 1, i + 1) if 0 < j < len(y) - 1]
+    smooth = min(1.0, SMOOTH * max(0.0, min(beside, default=0.0)))
+    slope = float((y[i] - y[i - 1]) / (t[i] - t[i - 1])) + bend * float(t[i] - t[i - 1])  # at the largest
+    return float(y[i]) - smooth * slope**2 / (4 * bend)
+
+
+def _bend(t: np.ndarray, y: np.ndarray, i: int) -> float:
+    """Half of the second derivative of the parabola through three levels."""
+    first, second = (y[i] - y[i - 1]) / (t[i] - t[i - 1]), (y[i + 1] - y[i]) / (t[i + 1] - t[i])
+    return float((second - first) / (t[i + 1] - t[i - 1]))
 
 
 def _at(curve: Curve, time: float) -> float:

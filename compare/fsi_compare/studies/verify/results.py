@@ -1,16 +1,17 @@
 """What the runs of a family say: bars of all quantities by driver, and bands of curves."""
 
 from dataclasses import dataclass, replace
-from typing import Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
 from ..running.study_run import StudyRun
-from .direction import FACTOR, OUTSIDE, WIDENED
+from .curve_norms import Stretch
+from .direction import FACTOR, LEAST_ORDER, WIDENED, Part
 from .doubt import doubt, on_common_points
 from .family import CaseFacts, Member
-from .quantities import Curve, Quantity, chosen, curves_of, quantities_of
-from .verdict import NOT_IN_RANGE, Bar, Value, bar_of
+from .quantities import Curve, Quantity, chosen, curves_of, norm_of, on, quantities_of, size_of
+from .verdict import NOT_IN_RANGE, Bar, Value, bar_of, inherited
 
 
 @dataclass(frozen=True)
@@ -20,19 +21,28 @@ class Judged:
     driver: str
     quantity: Quantity
     bar: Bar
-    values: Tuple[Value, ...]  # of all members
+    values: Tuple[Value, ...]  # of all members; of a curve how far each is from the user's own
+    own: Optional[Curve] = None  # that the value is of; of the coarsest mesh where the user's own is missing
+
+    def apart(self, other: Curve) -> float:
+        """What the value of another run differs by."""
+        stretch = self.quantity.whole
+        if stretch is None or self.own is None:
+            return abs(self.quantity.of(other) - self.bar.value)
+        return norm_of(self.own, stretch)(on(self.own, other, stretch) - on(self.own, self.own, stretch))
 
 
 @dataclass(frozen=True)
 class Band:
-    """A curve over time with what it may be off by at each level."""
+    """A curve over time, or a line at one time, with what it may be off by at each place."""
 
     driver: str
     name: str
     unit: str
-    times: np.ndarray
+    x: np.ndarray  # ms, or mm along a line
     values: np.ndarray
     half_width: np.ndarray
+    along: bool = False  # a line
 
 
 @dataclass
@@ -118,69 +128,136 @@ def judge(
     if own is None:
         return []
     curves = on_common_points(curves)
-    real = sizes(family.done)
-    found = []
-    for quantity in chosen(quantities_of(curves[own], facts.asked(times)), names):
-        values = tuple(
-            Value(
-                real.get(member.mesh, member.mesh),
-                member.step,
-                quantity.of(of[quantity.curve]),
-                member.looser,
-                member.other,
-            )
-            for member, of in curves.items()
-            if quantity.curve in of
+    judging = _Judging(family.driver, curves, curves[own], sizes(family.done), facts, additive)
+    found = (judging.judged(quantity) for quantity in chosen(quantities_of(curves[own], facts.asked(times)), names))
+    return [one for one in found if one is not None]
+
+
+class _Judging:
+    """Of one driver's family."""
+
+    def __init__(
+        self,
+        driver: str,
+        curves: Mapping[Member, Mapping[str, Curve]],
+        own: Mapping[str, Curve],
+        real: Mapping[float, float],
+        facts: CaseFacts,
+        additive: bool,
+    ) -> None:
+        self.driver, self.curves, self.own, self.real, self.facts, self.additive = (
+            driver,
+            curves,
+            own,
+            real,
+            facts,
+            additive,
         )
-        orders = facts.space_order(quantity.is_pressure), facts.time_order
-        bar = bar_of(values, quantity.scale, *orders, facts.element, additive)
-        advice = doubt(quantity, [of[quantity.curve] for of in curves.values() if quantity.curve in of], facts)
-        if bar is not None and advice:
+        self._whole: Dict[Tuple[str, Stretch], Optional[Bar]] = {}
+
+    def judged(self, quantity: Quantity) -> Optional[Judged]:
+        """None where nothing can be said of the user's own run."""
+        if quantity.whole is not None:
+            bar = self._of_curve(quantity, quantity.whole)
+            return None if bar is None else self._doubted(quantity, bar, self._distances(quantity))
+        values = self._values(quantity.curve, quantity.of)
+        whole = None if quantity.held_by is None else self._of_curve(quantity, quantity.held_by)
+        orders = self._orders(quantity)
+        bar = bar_of(
+            values,
+            quantity.scale,
+            *orders,
+            self.facts.element,
+            self.additive,
+            curve=whole if quantity.is_norm else None,
+        )
+        if bar is not None and whole is not None and not bar.given and whole.given:
+            bar = inherited(bar, whole)
+        return None if bar is None else self._doubted(quantity, bar, values)
+
+    def _orders(self, quantity: Quantity) -> Tuple[float, float]:
+        return self.facts.space_order(quantity.is_pressure), self.facts.time_order
+
+    def _values(self, name: str, of: Callable[[Curve], Any]) -> Tuple[Value, ...]:
+        return tuple(
+            Value(self.real.get(m.mesh, m.mesh), m.step, of(found[name]), m.looser, m.other)
+            for m, found in self.curves.items()
+            if name in found
+        )
+
+    def _of_curve(self, quantity: Quantity, stretch: Stretch) -> Optional[Bar]:
+        """The bar of the curve's error itself."""
+        key = quantity.curve, stretch
+        if key not in self._whole:
+            grid = self.own[quantity.curve]
+            norm = norm_of(grid, stretch)
+            values = self._values(quantity.curve, lambda curve: on(grid, curve, stretch))
+            orders = self._orders(quantity)
+            self._whole[key] = bar_of(values, size_of(grid, stretch), *orders, self.facts.element, self.additive, norm)
+        return self._whole[key]
+
+    def _distances(self, quantity: Quantity) -> Tuple[Value, ...]:
+        """Of all members' curves from that of the user's own, or what stands for it."""
+        assert quantity.whole is not None
+        grid, stretch = self.own[quantity.curve], quantity.whole
+        norm, own = norm_of(grid, stretch), on(grid, grid, stretch)
+        return self._values(quantity.curve, lambda curve: norm(on(grid, curve, stretch) - own))
+
+    def _doubted(self, quantity: Quantity, bar: Bar, values: Tuple[Value, ...]) -> Judged:
+        curves = [of[quantity.curve] for of in self.curves.values() if quantity.curve in of]
+        advice = doubt(quantity, curves, self.facts)
+        if advice:
             bar = replace(bar, verdict=NOT_IN_RANGE, advice=advice)
-        if bar is not None:
-            found.append(Judged(family.driver, quantity, bar, values))
-    return found
+        return Judged(self.driver, quantity, bar, values, self.own[quantity.curve])
 
 
 def bands(family: FamilyRuns, curves: Mapping[Member, Mapping[str, Curve]], judged: Sequence[Judged]) -> List[Band]:
-    """Of curves at one point whose L2 norm has a bar. At each level the own curve's distance from the finest in each
-    direction, and what that direction's order says is left beyond it; the largest over the neighbouring levels, since a wave
-    that comes at another moment crosses the own curve where the distance is zero."""
+    """Of curves whose error has a bar: of points over time, of lines along them at the end and at the times asked for. At each
+    place the own curve's distance from the finest in each direction, and what that direction's order says is left beyond it;
+    the largest of the neighbourhood, since a wave that comes at another moment crosses the own curve where the distance is
+    zero."""
     own = next((member for member in curves if member.is_own), None)
     found: List[Band] = []
     if own is None:
         return found
+    curves = on_common_points(curves)
     for one in judged:
-        curve = curves[own].get(one.quantity.curve)
-        if (
-            curve is None
-            or not one.quantity.name.endswith(", L2 norm")
-            or not one.bar.given
-            or curve.values.shape[1] > 1
-        ):
+        stretch, grid = one.quantity.whole, curves[own].get(one.quantity.curve)
+        if stretch is None or grid is None or stretch.largest or not one.bar.given:
             continue
-        width = np.zeros(len(curve.times))
-        for along, part in ((0, one.bar.mesh), (1, one.bar.step)):
-            line = [
-                m
-                for m in curves
-                if not (m.looser or m.other) and (m.step if along == 0 else m.mesh) == 1 and curve.name in curves[m]
-            ]
-            line.sort(key=lambda m: m.mesh if along == 0 else m.step)
-            if len(line) < 2:
-                continue
-            finest, next_one = (_at(curves[m][curve.name], curve.times) for m in line[:2])
-            ratio = (line[1].mesh / line[0].mesh) if along == 0 else (line[1].step / line[0].step)
-            factor = FACTOR.get(part.state, FACTOR[WIDENED])
-            order = max(part.used, 1.0) if part.state != OUTSIDE else 1.0
-            width += np.abs(curve.values[:, 0] - finest) + factor * np.abs(next_one - finest) / (ratio**order - 1)
-        width += one.bar.solver + one.bar.together
-        found.append(Band(family.driver, curve.name, curve.unit, curve.times, curve.values[:, 0], _widest(width)))
+        if stretch.time is None and grid.values.shape[1] > 1:
+            continue
+        rows = {m: on(grid, of[grid.name], stretch) for m, of in curves.items() if grid.name in of}
+        width = np.full(len(rows[own]), one.bar.solver + one.bar.together)
+        width = width + _width(rows, own, one.bar.mesh, lambda m: m.mesh, lambda m: m.step)
+        width = width + _width(rows, own, one.bar.step, lambda m: m.step, lambda m: m.mesh)
+        x = grid.times if stretch.time is None else grid.s
+        name = grid.name if stretch.time is None else one.quantity.name
+        found.append(Band(family.driver, name, grid.unit, x, rows[own], _widest(width), stretch.time is not None))
     return found
 
 
-def _at(curve: Curve, times: np.ndarray) -> np.ndarray:
-    return np.interp(times, curve.times, curve.values[:, 0])
+def _width(
+    rows: Mapping[Member, np.ndarray],
+    own: Member,
+    part: Part,
+    size: Callable[[Member], float],
+    other: Callable[[Member], float],
+) -> np.ndarray:
+    """In one direction; the factors are those of the bar."""
+    line = sorted((m for m in rows if not (m.looser or m.other) and other(m) == 1), key=size)
+    if len(line) < 2:
+        return np.zeros(len(rows[own]))
+    finest, coarser = line[:2]
+    ratio = size(coarser) / size(finest)
+    order = max(part.used, LEAST_ORDER)
+    known = np.abs(rows[own] - rows[finest])
+    left = FACTOR.get(part.state, FACTOR[WIDENED]) * np.abs(rows[coarser] - rows[finest]) / (ratio**order - 1)
+    there = ~np.isnan(known + left)
+    if not there.any():
+        return np.full(len(known), part.bar)
+    place = np.arange(len(known))
+    return np.interp(place, place[there], (known + left)[there])
 
 
 def _widest(width: np.ndarray) -> np.ndarray:

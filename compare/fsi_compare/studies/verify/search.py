@@ -266,7 +266,7 @@ class Search:
 def _shown(asked: Sequence[Judged], run: StudyRun) -> List[Judged]:
     """Bars of a run by those of another."""
     curves = curves_of(run.folder)
-    return [shown_by(one, one.quantity.of(curves[one.quantity.curve])) for one in asked if one.quantity.curve in curves]
+    return [shown_by(one, curves[one.quantity.curve]) for one in asked if one.quantity.curve in curves]
 
 
 def _round(size: float) -> float:

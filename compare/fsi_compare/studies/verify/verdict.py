@@ -1,5 +1,5 @@
 """The error bar of one value at the user's own settings: its parts by mesh, step, their product and the solver, and what
-can be said of it.
+can be said of it. A value is a number, or a whole curve with a norm.
 
     y(h, dt) = y0 + a h^p + b dt^q + c h^p dt^q
 
@@ -9,10 +9,11 @@ at the corners of a rectangle y11 - y10 - y01 + y00 = c (1 - h^p) (1 - dt^q), wh
 when the step does. The parts are added up, not their squares: nothing says that they are independent.
 """
 
-from dataclasses import dataclass
-from typing import List, Mapping, Optional, Sequence, Tuple
+from dataclasses import dataclass, replace
+from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple
 
-from .direction import NOTHING, OUTSIDE, WIDENED, Part, by_elements, part_of
+from .curve_norms import CurveNorm
+from .direction import NOTHING, OUTSIDE, WIDENED, Part, by_elements, part_of, part_of_curves
 
 CONVERGES, BAR_WIDENED, NOT_IN_RANGE = (
     "converges as its elements do",
@@ -33,14 +34,14 @@ class Value:
 
     mesh: float  # size of elements relative to the user's own
     step: float  # the same of steps
-    value: float
+    value: Any  # a number, or a curve's values at all levels and points
     looser: bool = False  # solved with looser tolerances
     other: bool = False  # by the other element
 
 
 @dataclass(frozen=True)
 class Bar:
-    value: float  # of the user's own member
+    value: float  # of the user's own member; of a curve its norm
     scale: float  # what a relative error is relative to
     mesh: Part
     step: Part
@@ -49,6 +50,7 @@ class Bar:
     verdict: str
     advice: str  # what to refine; empty: nothing needs it
     best: float  # estimate of the exact value; the finest member's where nothing is extrapolated
+    off: float = 0.0  # what the value and that estimate are apart; of a curve in its norm
 
     @property
     def total(self) -> float:
@@ -76,10 +78,14 @@ def bar_of(
     time_order: float,
     element: str = "p2p1",
     additive: bool = False,
+    norm: Optional[CurveNorm] = None,
+    curve: Optional[Bar] = None,
 ) -> Optional[Bar]:
     """None where the user's own member is missing. `scale`: the largest of the curve that the value is of. `additive`: it need not
     be there for its bar; the value is then made of column and row, y(1, column) + y(row, 1) - y(row, column), which leaves out
-    c (1 - row^p) (1 - column^q)."""
+    c (1 - row^p) (1 - column^q). `norm`: of values that are curves. `curve`: the bar of the curve that the values are norms of.
+    """
+    measured = norm or _size
     table = {(v.mesh, v.step): v.value for v in values if not (v.looser or v.other)}
     column, row = _step_of_meshes(table), _mesh_of_steps(table)
     own = table.get((1.0, 1.0))
@@ -88,35 +94,47 @@ def bar_of(
     if own is None:
         return None
     loose = [(v.value, table[v.mesh, v.step]) for v in values if v.looser and (v.mesh, v.step) in table]
-    solver = SOLVER_FACTOR * max((abs(y - tight) for y, tight in loose), default=0.0) / (LOOSER - 1)
+    solver = SOLVER_FACTOR * max((measured(y - tight) for y, tight in loose), default=0.0) / (LOOSER - 1)
     noise = max(solver, DETECTED * scale)
-    mesh = _along([(m, y) for (m, s), y in table.items() if s == column], space_order, noise)
+    of_column = [(m, y) for (m, s), y in table.items() if s == column]
+    mesh = _along(of_column, space_order, noise, norm, None if curve is None else curve.mesh)
     others = [v.value for v in values if v.other and (v.mesh, v.step) == (1.0, 1.0)]
     if others and (mesh is NOTHING or mesh.lacking):
         finer = [y for (m, s), y in sorted(table.items()) if s == 1.0 and m < 1]
-        mesh = by_elements(own, others[0], finer[0] if finer else None, element == "p1", noise)
+        mesh = by_elements(own, others[0], finer[0] if finer else None, element == "p1", noise, measured)
     elif mesh is NOTHING:  # all other meshes are missing
         mesh = Part(OUTSIDE, scale, lacking=True)
-    step = _along([(s, y) for (m, s), y in table.items() if m == row], time_order, noise)
-    together = _together(table, row, column, mesh, step, noise)
-    best = own - mesh.error - step.error
+    of_row = [(s, y) for (m, s), y in table.items() if m == row]
+    step = _along(of_row, time_order, noise, norm, None if curve is None else curve.step)
+    together = _together(table, row, column, mesh, step, noise, measured)
+    error = mesh.error + step.error
+    value, best = (own, own - error) if norm is None else (norm(own), norm(own - error))
     verdict, advice = _judged(mesh, step, together, solver, NEGLIGIBLE * scale)
-    return Bar(own, scale, mesh, step, together, solver, verdict, advice, best)
+    return Bar(value, scale, mesh, step, together, solver, verdict, advice, best, measured(error + 0.0 * own))
 
 
-def _along(points: Sequence[Tuple[float, float]], expected: float, noise: float) -> Part:
+def _size(number: Any) -> float:
+    return float(abs(number))
+
+
+def _along(
+    points: Sequence[Tuple[float, Any]], expected: float, noise: float, norm: Optional[CurveNorm], curve: Optional[Part]
+) -> Part:
     if len(points) < 2:
         return NOTHING
-    return part_of([x for x, _ in points], [y for _, y in points], expected, noise)
+    sizes, values = [x for x, _ in points], [y for _, y in points]
+    if norm is not None:
+        return part_of_curves(sizes, values, expected, noise, norm)
+    return part_of(sizes, values, expected, noise, curve)
 
 
-def _mesh_of_steps(table: Mapping[Tuple[float, float], float]) -> float:
+def _mesh_of_steps(table: Mapping[Tuple[float, float], Any]) -> float:
     """The row, whose members tell the error of the step: the user's own mesh, or that on which most steps were tried."""
     numbers = {m: sum(1 for other, _ in table if other == m) for m, s in table if s == 1.0}
     return _most(numbers)
 
 
-def _step_of_meshes(table: Mapping[Tuple[float, float], float]) -> float:
+def _step_of_meshes(table: Mapping[Tuple[float, float], Any]) -> float:
     """The column, whose members tell the error of the mesh: the user's own step, or that by which most meshes were tried."""
     numbers = {s: sum(1 for _, other in table if other == s) for m, s in table if m == 1.0}
     return _most(numbers)
@@ -127,7 +145,13 @@ def _most(numbers: Mapping[float, int]) -> float:
 
 
 def _together(
-    table: Mapping[Tuple[float, float], float], row: float, column: float, mesh: Part, step: Part, noise: float
+    table: Mapping[Tuple[float, float], Any],
+    row: float,
+    column: float,
+    mesh: Part,
+    step: Part,
+    noise: float,
+    measured: Callable[[Any], float],
 ) -> float:
     """Of the members refined in both the finest. Where row and column are not the user's own mesh and step, the sum of both parts
     is off by c (row^p + column^q - 1)."""
@@ -139,7 +163,7 @@ def _together(
     if not corners:
         return 0.0
     m, s = min(corners, key=lambda corner: corner[0] * corner[1])
-    mixed = abs(table[m, s] - table[m, column] - table[row, s] + table[row, column])
+    mixed = measured(table[m, s] - table[m, column] - table[row, s] + table[row, column])
     if mixed <= 2 * noise:
         return 0.0
     share = abs(row**mesh.used - m**mesh.used) * abs(column**step.used - s**step.used)
@@ -166,6 +190,12 @@ def _advice(what: Sequence[str], lacking: Sequence[str] = ()) -> str:
         )
     words: List[str] = [{"mesh": "refine the mesh", "step": "shorten the step"}[name] for name in what]
     return " and ".join(words) + (", both together" if len(words) > 1 else "")
+
+
+def inherited(bar: Bar, curve: Bar) -> Bar:
+    """Of a number whose members say nothing: it is off by no more than its curve is. Nothing is extrapolated."""
+    parts = replace(curve.mesh, error=0.0), replace(curve.step, error=0.0)
+    return Bar(bar.value, bar.scale, *parts, curve.together, curve.solver, BAR_WIDENED, "", bar.value)
 
 
 def dominating(bar: Bar) -> str:
