@@ -18,14 +18,16 @@ struct Rivals {
   const char* rival;
   bool only_array;  ///< only an array excludes the other one
 };
-constexpr std::array<Rivals, 8> rivals = {{{"mesh", "file", "level", false},
-                                           {"mesh", "file", "error", false},
-                                           {"mesh", "level", "error", false},
-                                           {"mesh", "error", "file", false},
-                                           {"mesh", "error", "level", false},
-                                           {"mesh", "level", "file", false},
-                                           {"inlet", "pressure", "until", true},
-                                           {"load", "pressure", "until", true}}};
+constexpr std::array<Rivals, 10> rivals = {{{"mesh", "file", "level", false},
+                                            {"mesh", "file", "error", false},
+                                            {"mesh", "file", "waves", false},
+                                            {"mesh", "level", "error", false},
+                                            {"mesh", "level", "waves", false},
+                                            {"mesh", "error", "file", false},
+                                            {"mesh", "error", "level", false},
+                                            {"mesh", "level", "file", false},
+                                            {"inlet", "pressure", "until", true},
+                                            {"load", "pressure", "until", true}}};
 
 std::vector<std::string> parts_of(const std::string& key, const std::string& override_text) {
   std::vector<std::string> parts(1);

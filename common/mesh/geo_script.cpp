@@ -47,7 +47,8 @@ void require_constants(const std::filesystem::path& script, const std::map<std::
   throw InputError(script.string(), "", "its mesh: " + said, "correct the script; gmsh itself shows the mesh");
 }
 
-/// The sizes in place of those that the script gives points, curves and fields; its least and largest size stay.
+/// The sizes in place of all that the script says of sizes: those of points, curves and fields, and its least and largest
+/// one. They would keep cells as long as they were where the error asks for shorter ones.
 void set_sizes(const SizeField& sizes) {
   const std::size_t numbers = 4 * (static_cast<std::size_t>(sizes.dimension) + 1);
   const int view = gmsh::view::add("sizes");
@@ -58,6 +59,9 @@ void set_sizes(const SizeField& sizes) {
   gmsh::model::mesh::field::setAsBackgroundMesh(field);
   for (const char* other : {"Mesh.MeshSizeExtendFromBoundary", "Mesh.MeshSizeFromPoints", "Mesh.MeshSizeFromCurvature"})
     gmsh::option::setNumber(other, 0);
+  gmsh::option::setNumber("Mesh.MeshSizeMin", 0);
+  gmsh::option::setNumber("Mesh.MeshSizeMax", 1e22);  // gmsh's own: no bound
+  gmsh::option::setNumber("Mesh.MeshSizeFactor", 1);  // the sizes are those of the mesh that it has been in
 }
 
 template <int Dim>

@@ -40,7 +40,7 @@ def _guarded_main(arguments: Sequence[str], version: str) -> int:
         print(f"{PROGRAM}: interrupted by {signal}{_what_stays(arguments)}", file=sys.stderr)
         return signal.code
     except MemoryError:
-        say_error("out of memory; compare fewer or smaller runs, or take a larger machine")
+        say_error(f"out of memory; {_less(arguments)}, or take a larger machine")
         return 1
     except ReaderLeft:
         return 0  # the reader, e.g. `head`, has seen enough
@@ -65,6 +65,26 @@ def _loaded() -> Callable[[Sequence[str], str], int]:
             str(folder), "", "byte code beside the sources is damaged", f"remove the folders __pycache__ in {folder}"
         ) from None
     return run
+
+
+LESS = {  # by command; others compare runs
+    "report": "give fewer runs, or fewer times by --frames",
+    "picture": "take a run with fewer nodes",
+    "watch": "leave --page out",
+    "export": "give fewer --fields",
+    "convert-mesh": "give a mesh with fewer cells",
+    "convert-surface": "give a surface with fewer triangles",
+    "study": "leave the largest runs out of the study file; finished ones are kept",
+    "solvers": "give fewer or smaller levels; finished runs are kept",
+    "gallery": "name fewer scenes, or give --quick",
+    "verify": "give --coarser, sample fewer points, or take a coarser case; finished runs are kept",
+    "tune": "take a coarser case; finished runs are kept",
+}
+
+
+def _less(arguments: Sequence[str]) -> str:
+    """What a command may be given less of."""
+    return LESS.get(arguments[0] if arguments else "", "compare fewer or smaller runs")
 
 
 def _what_stays(arguments: Sequence[str]) -> str:

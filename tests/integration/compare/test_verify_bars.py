@@ -2,11 +2,15 @@
 
 import math
 import random
+import types
 import unittest
 
 import numpy as np
 import synthetic  # noqa: F401: the package onto the path
-from fsi_compare.studies.verify.direction import AS_EXPECTED, OUTSIDE, SILENT, WIDENED, observed, part_of
+from fsi_compare.studies.verify.direction import AS_EXPECTED, OUTSIDE, SILENT, WIDENED, Part, observed, part_of
+from fsi_compare.studies.verify.family import Member
+from fsi_compare.studies.verify.quantities import Asked, Curve, peak
+from fsi_compare.studies.verify.results import FamilyRuns, bands, judge, missed_sizes
 from fsi_compare.studies.verify.verdict import BAR_WIDENED, CONVERGES, NOT_IN_RANGE, Value, bar_of
 
 EXACT = 3.0
@@ -185,6 +189,119 @@ class MeshAndStep(unittest.TestCase):
         """Logarithms have no order: whatever the ratio, differences stay as large."""
         values = [Value(h, 1, math.log(h)) for h in (2, 1, 0.5, 0.25)]
         self.assertEqual(bar_of(values, 1.0, 2, 2).verdict, NOT_IN_RANGE)
+
+
+class Waves(unittest.TestCase):
+    """A pulse that a coarse mesh carries too slowly: y(s, t) = exp(-(s - (1 - e) t)^2), e = a h^p + b dt^q. Its norm does not
+    know: the curve itself is off."""
+
+    FAMILY = ((1.5, 1), (1, 1), (1 / 1.5, 1), (1, 2), (1, 0.5), (1 / 1.5, 0.5))
+
+    def curve(self, h, dt, a, b, p):
+        times, s = np.arange(1, round(8 / (0.125 * dt)) + 1) * 0.125 * dt, np.linspace(0, 18, 91)
+        slow = 1 - a * h**p - b * dt**2
+        y = np.exp(-((s[None, :] - 3 - slow * times[:, None]) ** 2))
+        return Curve("line: pressure", "Pa", times, y, s)
+
+    def judged(self, a, b=0.0, p=2.0):
+        curves = {Member(h, dt): {"line: pressure": self.curve(h, dt, a, b, p)} for h, dt in self.FAMILY}
+        runs = {
+            m: types.SimpleNamespace(done=True, summary={"mesh": {"nodes": round(1e6 / m.mesh**2)}}) for m in curves
+        }
+        asked = Asked((4.0,))
+        facts = types.SimpleNamespace(
+            space_order=lambda pressure: 2.0,
+            time_order=2.0,
+            element="p1",
+            flow_interval=None,
+            asked=lambda times: asked,
+        )
+        found = judge(FamilyRuns("monolithic", runs), curves, facts, (4.0,), ())
+        return {one.quantity.name.partition(", ")[2]: one for one in found}
+
+    def test_error_of_the_line_is_held_where_that_of_its_norm_is_tiny(self):
+        truth = self.curve(1e-3, 1.0, 0.0, 0.0, 2.0)
+        for a in (0.002, 0.01, 0.03):
+            found = self.judged(a)
+            for name in ("line over time", "line at 4 ms", "line at the end", "anywhere", "anywhere at the end"):
+                one = found[name]
+                error = one.apart(truth)
+                self.assertTrue(one.bar.given, name)
+                self.assertTrue(error <= one.bar.total <= 8 * error, (a, name, error, one.bar.total))
+                self.assertTrue(0.6 * error <= one.bar.off <= 1.6 * error, (name, one.bar.off, error))
+            norm = found["L2 norm"]
+            self.assertLess(abs(norm.bar.value - norm.quantity.of(truth)), 0.01 * found["line over time"].apart(truth))
+
+    def test_order_is_that_of_the_curve(self):
+        one = self.judged(0.002, 0.001)["line over time"]
+        self.assertAlmostEqual(one.bar.mesh.order, 2, delta=0.1)
+        self.assertAlmostEqual(one.bar.step.order, 2, delta=0.1)
+        self.assertEqual(one.bar.verdict, CONVERGES)
+
+    def test_value_without_order_has_the_bar_of_its_curve(self):
+        """By the end the pulse has passed some points and not others: whatever a number of the curve does, it is off by no
+        more than the curve is."""
+        for name, one in self.judged(0.01).items():
+            if one.quantity.whole is None:
+                error = abs(one.bar.value - one.quantity.of(self.curve(1e-3, 1.0, 0.0, 0.0, 2.0)))
+                self.assertTrue(one.bar.given and error <= one.bar.total + 1e-12, name)
+
+    def test_norm_is_not_better_known_than_its_curve(self):
+        """Values that fall by order 2 are extrapolated by the order of a curve that falls by less, and refused with it."""
+
+        values = line((1.5, 1, 1 / 1.5), 2)
+        free = part_of((1.5, 1, 1 / 1.5), values, 2, 1e-12)
+        slow = part_of((1.5, 1, 1 / 1.5), values, 2, 1e-12, Part(WIDENED, 1.0, 0.8))
+        self.assertEqual((free.state, slow.state), (AS_EXPECTED, WIDENED))
+        self.assertGreater(slow.bar, 2 * free.bar)
+        lost = part_of((1.5, 1, 1 / 1.5), values, 2, 1e-12, Part(OUTSIDE, 1.0, 0.1))
+        self.assertEqual(lost.state, OUTSIDE)
+
+    def test_bands_hold_the_curve(self):
+        def at(h, dt):
+            of = self.curve(h, dt, 0.01, 0.005, 2.0)
+            return Curve("tip: pressure", "Pa", of.times, of.values[:, 40:41], of.s[40:41])
+
+        curves = {Member(h, dt): {"tip: pressure": at(h, dt)} for h, dt in self.FAMILY}
+        along = {m: {"line: pressure": self.curve(m.mesh, m.step, 0.01, 0.005, 2.0)} for m in curves}
+        runs = {m: types.SimpleNamespace(done=True, summary={}) for m in curves}
+        facts = types.SimpleNamespace(
+            space_order=lambda pressure: 2.0, time_order=2.0, element="p1", flow_interval=None, asked=lambda times: None
+        )
+
+        facts.asked = lambda times: Asked((4.0,))
+        for of, number in ((curves, 1), (along, 2)):
+            family = FamilyRuns("monolithic", runs)
+            found = bands(family, of, judge(family, of, facts, (4.0,), ()))
+            self.assertEqual(len(found), number)
+            for band in found:
+                exact = self.curve(1e-3, 1.0, 0.0, 0.0, 2.0).values
+                truth = exact[:, 40] if not band.along else exact[-1 if "end" in band.name else 31]
+                self.assertEqual(len(band.x), len(truth))
+                self.assertTrue(np.all(np.abs(band.values - truth) <= band.half_width), band.name)
+
+
+class Sizes(unittest.TestCase):
+    def test_meshes_that_stop_growing_are_named(self):
+        def family(*cells):
+            members = (Member(1.5, 1.0), Member(1.0, 1.0), Member(1 / 1.5, 1.0))
+            return {m: types.SimpleNamespace(summary={"mesh": {"triangles": n}}) for m, n in zip(members, cells)}
+
+        self.assertEqual(missed_sizes(family(440, 1000, 2200)), "")
+        self.assertEqual(missed_sizes(family(500, 1000, 2100)), "")  # a generator's own roundings
+        self.assertIn("sizes 1 and 0.667 differ", missed_sizes(family(440, 1000, 1010)))  # a script's least size
+        self.assertIn("not 1.5", missed_sizes(family(990, 1000, 1010)))
+
+
+class Peaks(unittest.TestCase):
+    def test_no_parabola_passes_over_a_jump(self):
+        t = np.arange(1, 9) / 32
+        self.assertEqual(peak(t, np.array([1290.0, 1326.0, 1328.0, 1328.4, 0.0, 10.0, 0.0, 5.0])), 1328.4)
+        cusp = np.array([0.9, 1.2, 1.4, 1.451, 0.8, 0.5, 0.3, 0.2])  # a flow that the pressure has left
+        self.assertLess(peak(t, cusp), 1.451 * 1.001)
+        for shift in np.linspace(-0.5, 0.5, 11):  # a smooth crest of 8 levels a period
+            y = np.cos((np.arange(8) - 3 + shift) * 2 * math.pi / 8)
+            self.assertAlmostEqual(peak(np.arange(8.0), y), 1, delta=0.012)
 
 
 if __name__ == "__main__":

@@ -110,7 +110,7 @@ class Maker:
         """Seconds of those that are not there yet, by all drivers, from those that are."""
         found = 0.0
         for driver, family in self.families.items():
-            costs = learn(family.runs, self.dimension)
+            costs = learn(family.runs, self.dimension, self.requests.facts.element)
             if costs is not None:
                 found += sum(costs.seconds(m.mesh, m.step) for m in members if m not in family.runs)
         return found

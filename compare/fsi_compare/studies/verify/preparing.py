@@ -22,6 +22,7 @@ STAYS = (
 SHAPE = STAYS + '--mesh "geo SCRIPT.geo".'
 ADAPTED = STAYS + "by the commands of --mesh, without --adapt."
 SURFACE = "The vessel is the smoothed surface: what that is off by, and what its smoothing and its triangles leave, is in no bar."
+TRIED = 0.25  # of the budget, that a member may take before the family is known to fit
 PRINTED = (SHAPE, ADAPTED, SURFACE)  # with the bars, not only in the report
 
 
@@ -69,7 +70,10 @@ def within_budget(options: argparse.Namespace, maker: Maker, family: Sequence[Me
     if maker.seconds + maker.predicted(family) <= budget:
         return family
     requests = maker.requests
+    _try_out(maker, family, budget)
     whole = maker.seconds + maker.predicted(family)
+    if whole <= budget:
+        return family
     if requests.recipe.coarsens and not options.coarser:
         options.coarser = True
         cheaper = plan(requests.recipe, requests.facts, options)
@@ -79,6 +83,15 @@ def within_budget(options: argparse.Namespace, maker: Maker, family: Sequence[Me
         whole = maker.seconds + maker.predicted(cheaper)
     problem = f"{options.budget:g} min are too short: the cheapest family takes about {duration(whole)}"
     raise InputError("", "--budget", problem, f"give {whole / 60:.2g} or more, or a coarser case")
+
+
+def _try_out(maker: Maker, family: Sequence[Member], budget: float) -> None:
+    """Runs members of other meshes, from the cheapest, while one is predicted to take little of the budget: how seconds grow
+    with the mesh is measured, not assumed, before a family is refused."""
+    for member in sorted((m for m in family if m.step == 1 and not (m.looser or m.other)), key=lambda m: -m.mesh):
+        if maker.predicted([member]) > TRIED * budget or maker.seconds + maker.predicted([member]) > budget:
+            return
+        maker.run([member])
 
 
 def tell_mesh(maker: Maker, recipe: Recipe) -> None:

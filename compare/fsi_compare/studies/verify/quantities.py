@@ -31,9 +31,7 @@ SKIPPED = ("step",)  # columns that are no results
 PRIMARY = ("displacement", "velocity", "pressure")  # fields that are solved for: samples have them, at any place
 SEEN = 2e-5  # relative to the largest of all curves with the unit: what is smaller is zero but for round-off
 ONE_SIDED = 0.02  # an extreme that is smaller than this part of the other is none
-SMOOTH = (
-    2.0  # times what the bend one level beside is of that at the largest: of a crest of 8 levels a period it is 0.7
-)
+SMOOTH = 2.5  # times the bend one level beside over that at the largest, which is 0.41 at least of 8 levels a period
 AT_REST = 0.01  # of the largest value: an error of a line that is below this at a time is relative to that
 
 

@@ -111,6 +111,24 @@ def sizes(runs: Mapping[Member, StudyRun]) -> Dict[float, float]:
     return {mesh: 1.0 if mesh == 1 else (own / cells) ** (1 / directions) for mesh, cells in counts.items()}
 
 
+SAME_AS_ASKED = (0.5, 2.0)  # real ratio of two meshes' sizes, as a power of the planned one
+
+
+def missed_sizes(runs: Mapping[Member, StudyRun]) -> str:
+    """That meshes have not the sizes which were asked for, as where a script bounds them; empty: they have. Such members do not
+    show what finer elements change."""
+    real = sizes(runs)
+    planned = sorted(real, reverse=True)
+    for coarse, fine in zip(planned, planned[1:]):
+        power = np.log(max(real[coarse] / real[fine], 1e-9)) / np.log(coarse / fine)
+        if not SAME_AS_ASKED[0] <= power <= SAME_AS_ASKED[1]:
+            return (
+                f"elements of sizes {coarse:.3g} and {fine:.3g} differ in length by a factor of {real[coarse] / real[fine]:.3g}, "
+                f"not {coarse / fine:.3g}: let nothing but the script's sizes decide how long they are"
+            )
+    return ""
+
+
 def judge(
     family: FamilyRuns,
     curves: Mapping[Member, Mapping[str, Curve]],
@@ -129,6 +147,7 @@ def judge(
         return []
     curves = on_common_points(curves)
     judging = _Judging(family.driver, curves, curves[own], sizes(family.done), facts, additive)
+    judging.missed = missed_sizes(family.done)
     found = (judging.judged(quantity) for quantity in chosen(quantities_of(curves[own], facts.asked(times)), names))
     return [one for one in found if one is not None]
 
@@ -153,6 +172,7 @@ class _Judging:
             facts,
             additive,
         )
+        self.missed = ""  # what forbids all bars
         self._whole: Dict[Tuple[str, Stretch], Optional[Bar]] = {}
 
     def judged(self, quantity: Quantity) -> Optional[Judged]:
@@ -205,7 +225,7 @@ class _Judging:
 
     def _doubted(self, quantity: Quantity, bar: Bar, values: Tuple[Value, ...]) -> Judged:
         curves = [of[quantity.curve] for of in self.curves.values() if quantity.curve in of]
-        advice = doubt(quantity, curves, self.facts)
+        advice = self.missed or doubt(quantity, curves, self.facts)
         if advice:
             bar = replace(bar, verdict=NOT_IN_RANGE, advice=advice)
         return Judged(self.driver, quantity, bar, values, self.own[quantity.curve])

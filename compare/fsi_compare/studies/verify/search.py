@@ -160,7 +160,7 @@ class Search:
 
     def _best(self, judged: Sequence[Judged], demand: float) -> Optional[Settings]:
         family = about(self.maker.families[self.driver], self.centre)
-        costs = learn(family.runs, self.maker.dimension)
+        costs = learn(family.runs, self.maker.dimension, self.maker.requests.facts.element)
         requests = self.maker.requests
         if costs is None:
             return None
@@ -204,7 +204,11 @@ class Search:
 
     def _move(self, target: Member, lines: List[str]) -> bool:
         """The family to another centre; False where that does not fit the budget."""
-        costs = learn(about(self.maker.families[self.driver], Member(1.0, 1.0)).runs, self.maker.dimension)
+        costs = learn(
+            about(self.maker.families[self.driver], Member(1.0, 1.0)).runs,
+            self.maker.dimension,
+            self.maker.requests.facts.element,
+        )
         before, self.centre = (self.centre, self.corner), target
         self._follow()
         seconds = self.maker.predicted(dict.fromkeys([*self._members(), target]))
