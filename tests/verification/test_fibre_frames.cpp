@@ -298,6 +298,46 @@ TEST(FibreFrames, KnowACylinderByItsShape) {
   EXPECT_FALSE(is_cylinder<P1Tetrahedron>(block, wall_boundary<P1Tetrahedron>(block, {0}), {}));
 }
 
+/// A grid of 2 x 4 quadrilaterals, the first direction through the wall, with the group `inner`; ends have no name.
+TriangleMesh section(const std::function<Point(int, int)>& place) {
+  auto mesh = triangle_grid({2, 4}, {"media"}, place, [](int, int) { return 0; });
+  mesh.facet_groups = {{group::inner, {}}};
+  for (const auto& facet : boundary_facets(mesh))
+    if (facet.nodes[0] % 3 == 0 && facet.nodes[1] % 3 == 0) mesh.facet_groups[0].facets.push_back(facet.nodes);
+  return mesh;
+}
+
+template <class Element>
+void expect_own_frame_through(const TriangleMesh& mesh) {
+  EXPECT_EQ(chosen<Element>(mesh).kind, FibreFrame::laplace);
+  const FrameBoundary found =
+      frame_boundary<Element>(mesh, whole(mesh), wall_boundary<Element>(mesh, {0}), "case.toml", "the frame");
+  for (int a = 0; a < static_cast<int>(mesh.nodes.size()); ++a) {
+    EXPECT_EQ(found.inner[a] != 0, a % 3 == 0);
+    EXPECT_EQ(found.outer[a] != 0, a % 3 == 2) << "ends and the axis have no potential";
+  }
+}
+
+TEST(FibreFrames, InTwoDimensionsAreChosenLikewise) {
+  const auto tube = [](double slope) {
+    return section([=](int i, int j) { return Point{1.5 + 0.2 * i + slope * j, 0, 0.5 * j}; });
+  };
+  EXPECT_EQ(chosen<P1AxisymmetricTriangle>(tube(0)).kind, FibreFrame::cylinder);
+  expect_own_frame_through<P1AxisymmetricTriangle>(tube(0.1));
+  expect_own_frame_through<P1AxisymmetricTriangle>(section([](int i, int j) {  // a dome, closed on the axis
+    const double r = 1.5 + 0.2 * i, angle = pi / 8 * j;
+    return Point{j == 4 ? 0 : r * std::cos(angle), 0, r * std::sin(angle)};
+  }));
+  const auto ring = [](double oval) {
+    return section([=](int i, int j) {
+      const double r = 1.5 + 0.2 * i, angle = pi / 8 * j;
+      return Point{(1 + oval) * r * std::cos(angle), r * std::sin(angle), 0};
+    });
+  };
+  EXPECT_EQ(chosen<P1PlaneTriangle>(ring(0)).kind, FibreFrame::cylinder);
+  expect_own_frame_through<P1PlaneTriangle>(ring(0.3));
+}
+
 /// What an action is refused with; "" if it is not.
 std::string refusal(const std::function<void()>& action) {
   try {
