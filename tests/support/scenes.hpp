@@ -26,6 +26,7 @@ inline Case coupled_case(const std::string& material, double step = 0.125) {
   setup.structure->density = 1.2;
   setup.structure->bulk_modulus = 1e5;
   setup.structure->layer_pressure = LayerPressure::continuous;
+  setup.structure->fibre_frame = FibreFrame::cylinder;  // also of walls that are no vessels
   setup.structure->layers["media"] =
       layer_of(material, {{"c10", 3.0}, {"c01", 0.3}, {"k1", 2.3632}, {"k2", 0.8393}, {"alpha", 29.0}});
   setup.structure->layers["adventitia"] =
