@@ -207,13 +207,8 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     const bool outdated = problem.outdated();
     if (outdated) ++switches;
     const bool tiny = problem.negligible(increment, tiny_increment);
-    // An old Jacobian may answer with next to nothing because it is the one of a place far away.
-    const auto lost_in_rounding = [&] {
-      return problem.negligible(increment, rounding_increment) &&
-             (iteration.linearised || rounding.is_all_of(new_residual));
-    };
     const bool small = iteration.step == 1 && !outdated &&
-                       (accurate || (tiny && lost_in_rounding()) ||
+                       (accurate || (tiny && problem.negligible(increment, rounding_increment)) ||
                         (options.stop_at_rounding && (tiny || Rounding::is_likely(new_residual / residual)) &&
                          rounding.is_all_of(new_residual)));
     const bool solved = options.residual_tolerance == 0 ||

@@ -1,6 +1,5 @@
 """A neo-Hookean tube under more pressure than it bears at rest: the programs say so, and only then."""
 
-import re
 import unittest
 from pathlib import Path
 
@@ -20,14 +19,13 @@ class LimitLoad(FolderTest):
 
     def test_at_rest(self):
         for program in DRIVERS:
-            said = self.failure(program, STATIC, "load.pressure=1.332", "static.load_steps=1")
-            reached = float(re.search(r"load step \d+ \(to (\S+) of the load\)", said).group(1))
-            self.assertTrue(0 < reached * 1.332 < 0.7, "load steps are halved towards the limit")
+            said = self.failure(program, STATIC, "load.pressure=1.332", "static.load_steps=1", "static.retries=0")
+            self.assertIn("load step 1 (to 1 of the load)", said)
             self.assertIn(LIMIT, said)
             self.assertIn("artery", said)
 
     def test_at_rest_below_the_limit(self):
-        said = self.failure(MONOLITHIC, STATIC, "load.pressure=0.5", "static.load_steps=3")
+        said = self.failure(MONOLITHIC, STATIC, "load.pressure=0.5", "static.load_steps=3", "static.retries=1")
         self.assertIn(LIMIT, said)
         self.assertIn("may be the limit load of this one; on a coarse mesh the wall is too soft", said)
 
