@@ -84,7 +84,9 @@ class CollapsedWall(FolderTest):
         case = self.of_linear_elastic()
         for program in DRIVERS:
             for traction, warned in ((4, False), (20, True)):
-                process = attempt(program, case, "--force", folder=self.base / "linear", settings=self.settings(traction, 2))
+                process = attempt(
+                    program, case, "--force", folder=self.base / "linear", settings=self.settings(traction, 2)
+                )
                 self.assertEqual(process.returncode, 0, process.stderr)
                 self.assertEqual("linear-elastic holds for small strains" in process.stdout, warned, process.stdout)
                 strain = summary(self.base / "linear")["wall_deformation"]["wall"]["largest_strain"]["value"]
