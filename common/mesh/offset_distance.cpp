@@ -79,7 +79,7 @@ Point OffsetDistance::along(const Point& from, const Point& way, double asked, d
 }
 
 Point OffsetDistance::onto(Point x, double reach, const std::vector<Point>& planes, int guess) const {
-  constexpr int most_steps = 30, most_in_vain = 4;
+  constexpr int most_steps = 60, most_in_vain = 6;
   constexpr std::size_t most_spaces = 8;
   struct Seen {
     Point nearest, away, inwards;
@@ -93,7 +93,7 @@ Point OffsetDistance::onto(Point x, double reach, const std::vector<Point>& plan
     const Place place = at(x, guess);
     guess = place.facet;
     const double wanted = reach * place.asked, missing = wanted - place.distance;
-    in_vain = std::abs(missing) < 0.9 * least * wanted ? 0 : in_vain + 1;
+    in_vain = std::abs(missing) < 0.99 * least * wanted ? 0 : in_vain + 1;
     if (std::abs(missing) < least * wanted) {
       least = std::abs(missing) / wanted;
       best = x;

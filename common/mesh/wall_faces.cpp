@@ -141,23 +141,28 @@ ThicknessRange range_between(const std::string& name, const std::vector<Point>& 
   return range;
 }
 
+template <int Dim, int Order>
+struct Layer {
+  int region;
+  std::vector<BoundaryFacet<Dim, Order>> boundary;
+};
+
 /// The wall's regions from inside outwards, each with neighbours before and behind it alone; empty where they lie otherwise.
 template <int Dim, int Order>
-std::vector<int> layers_of(const SimplexMesh<Dim, Order>& mesh, const FacetsOfWall<Dim, Order>& wall) {
-  std::vector<int> layers, left = wall.regions;
+std::vector<Layer<Dim, Order>> layers_of(const SimplexMesh<Dim, Order>& mesh, const FacetsOfWall<Dim, Order>& wall) {
+  std::vector<Layer<Dim, Order>> layers, left;
+  for (const int region : wall.regions) left.push_back({region, boundary_facets(mesh, {region})});
   auto reached = keys_of<Dim>(wall.inner);
+  const auto is_next = [&](const Layer<Dim, Order>& layer) {
+    return std::any_of(layer.boundary.begin(), layer.boundary.end(),
+                       [&](const auto& facet) { return reached.count(facet_key<Dim>(facet.nodes)) > 0; });
+  };
   while (!left.empty()) {
-    std::vector<int> here;
-    for (const int region : left) {
-      const auto boundary = boundary_facets(mesh, {region});
-      if (std::any_of(boundary.begin(), boundary.end(),
-                      [&](const auto& facet) { return reached.count(facet_key<Dim>(facet.nodes)) > 0; }))
-        here.push_back(region);
-    }
-    if (here.size() != 1) return {};
-    layers.push_back(here.front());
-    left.erase(std::find(left.begin(), left.end(), here.front()));
-    for (const auto& facet : boundary_facets(mesh, here)) reached.insert(facet_key<Dim>(facet.nodes));
+    const auto next = std::find_if(left.begin(), left.end(), is_next);
+    if (std::count_if(left.begin(), left.end(), is_next) != 1) return {};
+    for (const auto& facet : next->boundary) reached.insert(facet_key<Dim>(facet.nodes));
+    layers.push_back(std::move(*next));
+    left.erase(next);
   }
   return layers;
 }
@@ -196,18 +201,17 @@ std::vector<ThicknessRange> thickness_ranges(const SimplexMesh<Dim, Order>& mesh
   const auto layers = layers_of(mesh, wall);
   auto near = face_of<Dim, Order>(mesh, wall.inner);
   for (std::size_t k = 0; layers.size() > 1 && k < layers.size(); ++k) {
-    const std::vector<int> beyond(layers.begin() + static_cast<std::ptrdiff_t>(k) + 1, layers.end());
     Facets<Dim, Order> far = wall.outer;
-    if (!beyond.empty()) {
-      Facets<Dim, Order> of_others;
-      for (const auto& facet : boundary_facets(mesh, beyond)) of_others.push_back(facet.nodes);
-      far = chosen<Dim, Order>(boundary_facets(mesh, {layers[k]}), keys_of<Dim>(of_others), true);
+    if (k + 1 < layers.size()) {
+      Keys<Dim> of_next;
+      for (const auto& facet : layers[k + 1].boundary) of_next.insert(facet_key<Dim>(facet.nodes));
+      far = chosen<Dim, Order>(layers[k].boundary, of_next, true);
     }
     auto next = face_of<Dim, Order>(mesh, far);
-    ranges.push_back(range_between(mesh.regions[layers[k]], mesh.nodes, near, next));
+    ranges.push_back(range_between(mesh.regions[layers[k].region], mesh.nodes, near, next));
     near = std::move(next);
   }
-  ranges.push_back(range_between(layers.size() == 1 ? mesh.regions[layers[0]] : "wall", mesh.nodes,
+  ranges.push_back(range_between(layers.size() == 1 ? mesh.regions[layers[0].region] : "wall", mesh.nodes,
                                  face_of<Dim, Order>(mesh, wall.inner), face_of<Dim, Order>(mesh, wall.outer)));
   return ranges;
 }

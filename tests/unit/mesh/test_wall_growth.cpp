@@ -167,7 +167,8 @@ INSTANTIATE_TEST_SUITE_P(Blocks, GrownOn,
                                          Crease{"crease_of_70_smoothed", 55, 12, 20},
                                          Crease{"crease_of_70_fine", 55, 32, 2},
                                          Crease{"crease_of_70_fine_not_smoothed", 55, 32, 0},
-                                         Crease{"crease_of_40", 70, 12, 2}, Crease{"ridge_of_90", -45, 16, 4}),
+                                         Crease{"crease_of_40", 70, 12, 2}, Crease{"crease_of_30", 75, 16, 2},
+                                         Crease{"ridge_of_90", -45, 16, 4}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST(WallGrowth, EndsInThePlanesOfItsRims) {
