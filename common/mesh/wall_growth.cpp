@@ -211,8 +211,8 @@ std::vector<std::string> warnings_of(const ReachedThickness& reached) {
   if (reached.least_between < between_tolerance)
     warnings.push_back(
         fmt::format("between its nodes the wall is thinner than asked for: {} at {}, where the surface bends round "
-                    "sharper than its "
-                    "facets, as at an edge, or facets stretch beside a sharp crease; make them smaller there",
+                    "sharper than its facets, as at an edge, or facets stretch beside a sharp crease; make them "
+                    "smaller there",
                     per_cent(reached.least_between), place_of(reached.least_between_at)));
   return warnings;
 }
