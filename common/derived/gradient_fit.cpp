@@ -17,14 +17,14 @@ constexpr double steepness = 3;
 }  // namespace
 
 GradientFit::GradientFit(std::vector<int> axes, int degree) : axes_(std::move(axes)), degree_(degree) {
-  static constexpr double factorial[] = {1, 1, 2, 6, 24};
-  for (int total = 0; total <= degree + 1; ++total)
+  static constexpr double factorial[] = {1, 1, 2, 6, 24};  // quadratic elements: up to degree four
+  for (int total = 0; total <= degree + 2; ++total)
     for (int i = total; i >= 0; --i)
       for (int j = total - i; j >= 0; --j) {
         const int k = total - i - j;
         if (axes_.size() < 3 && k > 0) continue;
         const double scale = std::sqrt(factorial[total] / (factorial[i] * factorial[j] * factorial[k]));
-        (total <= degree ? own_ : above_).push_back({{i, j, k}, scale});
+        (total <= degree ? own_ : total <= degree + 1 ? above_ : beyond_).push_back({{i, j, k}, scale});
       }
 }
 
@@ -48,6 +48,7 @@ bool GradientFit::set(const std::vector<Point>& patch, Frame frame) {
   for (Eigen::Index i = 0; i < rows; ++i)
     for (Eigen::Index c = 0; c < dim; ++c) x(i, c) = patch[i][axes_[c]] - patch[0][axes_[c]];
   distances_ = x.rowwise().norm();
+  lengths_ = x / (distances_.norm() / std::sqrt(static_cast<double>(rows)));
   const Eigen::MatrixXd about_mean = x.rowwise() - x.colwise().mean();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> moments(about_mean.transpose() * about_mean /
                                                                static_cast<double>(rows));
@@ -82,6 +83,7 @@ bool GradientFit::set(const std::vector<Point>& patch, Frame frame) {
 }
 
 bool GradientFit::solve(int left_out) {
+  left_out_ = left_out;
   weights_ = slopes_;
   for (Eigen::Index k = left_out; k < squares_.size(); ++k) {
     if (!(squares_[k] > indistinguishable * top_.squaredNorm() / static_cast<double>(top_.rows()))) return false;
@@ -96,6 +98,11 @@ bool GradientFit::solve(int left_out) {
 
 double GradientFit::amplification() const {
   return (xi_.rowwise().norm().array() * (weights_ * from_xi_).rowwise().norm().array()).sum();
+}
+
+Eigen::MatrixXd GradientFit::error_directions() const {
+  const Eigen::MatrixXd errors = values(left_out_ > 0 ? above_ : beyond_, lengths_).transpose() * weights_;
+  return errors.transpose() * errors;
 }
 
 double GradientFit::remainder() const {

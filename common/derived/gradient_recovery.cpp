@@ -1,10 +1,14 @@
 #include "derived/gradient_recovery.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "derived/gradient_fit.hpp"
+#include "derived/surface_shape.hpp"
+#include "mesh/point_math.hpp"
 
 namespace fsi {
 
@@ -13,60 +17,145 @@ namespace {
 constexpr int most_rings = 4, reduced_rings = 2;
 constexpr double worthwhile = 0.5;  // remainder of a larger patch against that of a smaller one
 
-std::vector<Point> positions(const std::vector<PatchPoint>& patch) {
+using PointWeights = std::vector<std::array<double, 3>>;
+
+/// Where the points of a patch are, seen from the first; along the curved boundary there, if it has a shape.
+/// \returns nothing where the patch reaches a centre of curvature
+std::optional<std::vector<Point>> positions(const std::vector<PatchPoint>& patch, const SurfaceShape* shape) {
   std::vector<Point> points;
   points.reserve(patch.size());
-  for (const auto& point : patch) points.push_back(point.position);
+  for (const auto& point : patch) {
+    const Point from_first = point.position - patch[0].position;
+    const auto there = shape ? shape->straightened(from_first) : from_first;
+    if (!there) return std::nullopt;
+    points.push_back(*there);
+  }
   return points;
 }
+
+/// Makes weights exact for linear fields again, which straightened coordinates do not know: the gradient of X is one.
+void keep_linear_fields(const std::vector<PatchPoint>& patch, const std::vector<int>& axes, PointWeights& weights) {
+  const auto dim = static_cast<Eigen::Index>(axes.size());
+  Eigen::MatrixXd of_position = Eigen::MatrixXd::Zero(dim, dim);
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    for (Eigen::Index r = 0; r < dim; ++r)
+      for (Eigen::Index c = 0; c < dim; ++c)
+        of_position(r, c) += (patch[i].position[axes[r]] - patch[0].position[axes[r]]) * weights[i][c];
+  const Eigen::MatrixXd inverse = of_position.inverse();
+  for (auto& weight : weights) {
+    std::array<double, 3> corrected{0, 0, 0};
+    for (Eigen::Index r = 0; r < dim; ++r)
+      for (Eigen::Index c = 0; c < dim; ++c) corrected[c] += weight[r] * inverse(r, c);
+    weight = corrected;
+  }
+}
+
+/// Finds weights for one node after another.
+class WeightSearch {
+ public:
+  explicit WeightSearch(const RecoveryCells& cells)
+      : axes_(cells.axes), patches_(cells), shapes_(cells), fit_(cells.axes, cells.order) {}
+
+  /// \returns whether the polynomial has the degree above the element's in all directions
+  bool find(int node) {
+    const SurfaceShape* shape = shapes_.at(node);
+    bool full = find_full(node, shape);
+    if (!full && !find_reduced(node, shape)) {  // the first ring reaches the centre of curvature
+      shape = nullptr;
+      full = find_full(node, shape);
+      if (!full && !find_reduced(node, shape)) assert(!"the nodes of a single cell determine the element's polynomial");
+    }
+    if (shape) keep_linear_fields(patches_.points(), axes_, weights_);
+    return full;
+  }
+  /// Of the patch's first points, as many as there are.
+  const PointWeights& weights() const { return weights_; }
+  const Mat3<double>& error_directions() const { return error_directions_; }
+  const RecoveryPatches& patches() const { return patches_; }
+
+ private:
+  enum class Growth { determined, undetermined, at_a_centre };
+  Growth grow(const SurfaceShape* shape, GradientFit::Frame frame = GradientFit::Frame::of_the_patch) {
+    patches_.grow();
+    const auto points = positions(patches_.points(), shape);
+    if (!points) return Growth::at_a_centre;
+    return fit_.set(*points, frame) ? Growth::determined : Growth::undetermined;
+  }
+
+  bool find_full(int node, const SurfaceShape* shape) {
+    patches_.begin(node);
+    std::optional<double> least;
+    for (int ring = 0; ring < most_rings; ++ring) {
+      const Growth growth = grow(shape);
+      if (growth == Growth::at_a_centre) break;
+      if (growth == Growth::undetermined || !fit_.solve() ||
+          fit_.amplification() > GradientRecovery::largest_amplification)
+        continue;
+      const double remainder = fit_.remainder();
+      if (least && !(remainder < worthwhile * *least)) break;
+      least = remainder;
+      take();
+      if (fit_.amplification() <= GradientRecovery::good_amplification) break;
+    }
+    return least.has_value();
+  }
+
+  bool find_reduced(int node, const SurfaceShape* shape) {
+    patches_.begin(node);
+    bool found = false;
+    for (int ring = 0; ring < most_rings && (ring < reduced_rings || !found); ++ring) {
+      const Growth growth = grow(shape, GradientFit::Frame::of_space);
+      if (growth == Growth::at_a_centre) break;
+      found = growth == Growth::determined;
+    }
+    if (!found) return false;
+    int left_out = 1;
+    while (left_out < fit_.directions() &&
+           !(fit_.solve(left_out) && fit_.amplification() <= GradientRecovery::largest_amplification))
+      ++left_out;
+    fit_.solve(left_out);
+    take();
+    return true;
+  }
+
+  void take() {
+    weights_ = fit_.weights();
+    const Eigen::MatrixXd directions = fit_.error_directions();
+    error_directions_ = {};
+    for (std::size_t r = 0; r < axes_.size(); ++r)
+      for (std::size_t c = 0; c < axes_.size(); ++c)
+        error_directions_(axes_[r], axes_[c]) =
+            directions(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) / directions.trace();
+  }
+
+  std::vector<int> axes_;
+  RecoveryPatches patches_;
+  SurfaceShapes shapes_;
+  GradientFit fit_;
+  PointWeights weights_;
+  Mat3<double> error_directions_{};
+};
 
 }  // namespace
 
 GradientRecovery::GradientRecovery(const RecoveryCells& cells, std::vector<int> at)
     : at_(std::move(at)), axes_(cells.axes), axisymmetric_(cells.axisymmetric) {
-  RecoveryPatches patches(cells);
-  GradientFit fit(cells.axes, cells.order);
-  const auto grow = [&](GradientFit::Frame frame = GradientFit::Frame::of_the_patch) {
-    patches.grow();
-    return fit.set(positions(patches.points()), frame);
-  };
+  WeightSearch search(cells);
   for (const int node : at_) {
     if (axisymmetric_) radius_.push_back(cells.points[node][0]);
-    patches.begin(node);
-    std::optional<double> least;
-    std::vector<std::array<double, 3>> weights;
-    for (int ring = 0; ring < most_rings; ++ring) {
-      if (!grow() || !fit.solve() || fit.amplification() > largest_amplification) continue;
-      if (const double remainder = fit.remainder(); !least || remainder < worthwhile * *least) {
-        least = remainder;
-        weights = fit.weights();
-      } else {
-        break;
-      }
-      if (fit.amplification() <= good_amplification) break;
-    }
-    if (!least) {
-      ++fallbacks_;
-      patches.begin(node);
-      bool found = false;
-      for (int ring = 0; ring < most_rings && (ring < reduced_rings || !found); ++ring)
-        found = grow(GradientFit::Frame::of_space);
-      assert(found && "the nodes of a single cell determine the element's polynomial");
-      int left_out = 1;
-      while (left_out < fit.directions() && !(fit.solve(left_out) && fit.amplification() <= largest_amplification))
-        ++left_out;
-      fit.solve(left_out);
-      weights = fit.weights();
-    }
+    if (!search.find(node)) ++fallbacks_;
+    const auto& weights = search.weights();
+    const auto& points = search.patches().points();
     weights_.insert(weights_.end(), weights.begin(), weights.end());
     for (std::size_t i = 0; i < weights.size(); ++i) {
-      patch_.push_back(patches.points()[i].node);
-      turn_.push_back(patches.points()[i].image);
+      patch_.push_back(points[i].node);
+      turn_.push_back(points[i].image);
     }
+    error_directions_.push_back(search.error_directions());
     offsets_.push_back(patch_.size());
   }
-  for (int image = 0; image < patches.images(); ++image) turns_.push_back(patches.turn(image));
-  if (patches.images() == 1) turn_ = {};
+  for (int image = 0; image < search.patches().images(); ++image) turns_.push_back(search.patches().turn(image));
+  if (search.patches().images() == 1) turn_ = {};
 }
 
 void GradientRecovery::restrict_to(const PartRestriction& here) {

@@ -56,6 +56,9 @@ class GradientRecovery {
   /// Nodes at which the polynomial lacks some directions of the degree above the element's.
   std::size_t fallbacks() const { return fallbacks_; }
 
+  /// GradientFit::error_directions() in space, of trace one.
+  const Mat3<double>& error_directions(std::size_t i) const { return error_directions_[i]; }
+
   /// Of the field's vectors, (i, j) = d u_i / d X_j in space, with u_r / r in (1, 1) of bodies of revolution; at entry
   /// i of nodes().
   /// \param field    of reach()
@@ -102,6 +105,7 @@ class GradientRecovery {
   std::vector<std::size_t> offsets_{0};         ///< per entry, into the patches
   std::vector<int> patch_;                      ///< nodes
   std::vector<std::array<double, 3>> weights_;  ///< 1/mm, per node of a patch and coordinate
+  std::vector<Mat3<double>> error_directions_;  ///< per entry
   std::vector<int> turn_;                       ///< per node of a patch, in turns_; empty: none is a mirror image
   std::vector<Mat3<double>> turns_;             ///< of vectors to those of mirror images, the identity first
   std::size_t fallbacks_ = 0;

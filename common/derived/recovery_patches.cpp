@@ -18,7 +18,7 @@ constexpr Mat3<double> no_turn{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 /// Length of a cell's longest edge, mm.
 double size_of(const RecoveryCells& cells, std::size_t cell) {
-  const auto vertices = cells.axes.size() + 1;
+  const auto vertices = static_cast<std::size_t>(cells.corners);
   const int* node = &cells.nodes[cell * static_cast<std::size_t>(cells.nodes_per_cell)];
   double largest = 0;
   for (std::size_t a = 0; a < vertices; ++a)

@@ -24,6 +24,7 @@ struct RecoveryCells {
   std::vector<int> axes;  ///< of space, one per coordinate
   bool axisymmetric = false;
   std::vector<RecoveryMirror> mirrors{};
+  int corners = static_cast<int>(axes.size()) + 1;  ///< of a cell, its first nodes; facets have one less
 };
 
 /// A node of a patch, or an image of one.

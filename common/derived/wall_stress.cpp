@@ -19,27 +19,61 @@ namespace fsi {
 
 namespace {
 
-/// The first Piola-Kirchhoff stress P of the wall's weak form at a point of every lane, kPa.
+/// What the wall's weak form has at a point of every lane: the first Piola-Kirchhoff stress P in kPa as flux, and the
+/// volume condition -g - p / kappa as scalar source.
 /// \param fibres  or constants, where they vary
 template <class Law, class Point>
-Mat3<Pack> piola_stress(const Law& law, double bulk_modulus, const Mat3<Pack>& grad_d, const Pack& pressure,
-                        const Point& fibres) {
+auto at_point_of(const Law& law, double bulk_modulus, const Mat3<Pack>& grad_d, const Pack& pressure,
+                 const Point& fibres) {
   const Vec3<Pack> none{{Pack(0.0), Pack(0.0), Pack(0.0)}};
   const Hyperelastic<Law> form{0.0, bulk_modulus, 0.0, law};
   const auto prepared = form.prepare(grad_d, none, Unstabilised{});
   if constexpr (Hyperelastic<Law>::has_fibres) {
-    return form.integrand(prepared, none, pressure, fibres).flux;
+    return form.integrand(prepared, none, pressure, fibres);
   } else {
     static_cast<void>(fibres);
-    return form.integrand(prepared, none, pressure, {}).flux;
+    return form.integrand(prepared, none, pressure, {});
   }
 }
 
-/// A layer: its vertices with recovered gradients, and the fibres there.
+/// Bulk modulus over shear modulus from which on a law counts as nearly incompressible: Poisson's ratio of 0.49.
+constexpr double nearly_incompressible = 50;
+constexpr int volume_steps = 3;
+
+/// Adds to a gradient what it misses of the volume condition g(F) + p / kappa = 0 of the weak form, in the direction
+/// J F^-T U with U the recovery's error directions: of all changes that fulfil it to first order the likeliest. By the
+/// secant method; a lane that comes no nearer keeps what it has.
+/// \param missing  of a gradient: -g - p / kappa
+/// \param where    lanes that are nearly incompressible
+template <class Missing>
+void keep_volume(const Missing& missing, const Mat3<Pack>& error_directions, Pack::Mask where, Mat3<Pack>& grad_d) {
+  const Mat3<Pack> cofactors = deformation(grad_d).cofactor_gradient, way = cofactors * error_directions;
+  const auto moved = [&](const Pack& by) { return grad_d + by * way; };
+  const Pack first = missing(grad_d);
+  Pack slope = Pack(-1.0) * contract(cofactors, way), by = Pack(0.0), left = first;
+  for (int step = 0; step < volume_steps; ++step) {
+    const Pack next = by - left / slope, of_next = missing(moved(next));
+    const Pack::Mask changes = (left * left > Pack(0.0)) & ((of_next - left) * (of_next - left) > Pack(0.0));
+    slope = select(changes, (of_next - left) / (next - by), slope);
+    by = select(changes, next, by);
+    left = select(changes, of_next, left);
+  }
+  const Pack::Mask nearer = where & (first * first > left * left);
+  grad_d = moved(select(nearer, by, Pack(0.0)));
+}
+
+/// A node of a layer.
+struct StressNode {
+  std::array<int, 2> ends;  ///< of its edge, where it lies in the middle of one; else the node itself, twice
+  int place;                ///< of its stress
+};
+
+/// A layer: its nodes with recovered gradients, and the fibres there.
 struct StressLayer {
   ElementLaw law;
   double bulk_modulus;  ///< kPa
   GradientRecovery gradients;
+  std::vector<StressNode> nodes;  ///< per entry of gradients.nodes()
   bool has_fibres;
   std::vector<std::array<Vec3<double>, 2>> fibres;  ///< per entry of gradients.nodes(), unit length; or empty
   std::optional<VaryingLaw> varying{};              ///< in place of `law`, with
@@ -137,30 +171,31 @@ class WallStressOf : public WallStress<Element::components> {
                           Element::order,
                           {std::begin(Element::axis), std::end(Element::axis)},
                           Element::axisymmetric};
-      std::vector<int> vertices;
+      std::map<int, std::array<int, 2>> ends;  // of nodes
       const int region = mesh.region_index(name);
       for (std::size_t c = 0; c < part.cells.size(); ++c) {
         if (part.cell_region[c] != region) continue;
         const auto& cell = part.cells[c];
         cells.nodes.insert(cells.nodes.end(), cell.begin(), cell.end());
-        vertices.insert(vertices.end(), cell.begin(), cell.begin() + Element::scalar_nodes);
+        for (int a = 0; a < Element::nodes; ++a) ends[cell[a]] = ends_of(cell, a);
       }
       cells.mirrors = recovery_mirrors<Element>(mesh, part, cells.nodes);
-      std::sort(vertices.begin(), vertices.end());
-      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-      if (here)
-        vertices.erase(
-            std::remove_if(vertices.begin(), vertices.end(), [&](int node) { return !here->owns_whole(node); }),
-            vertices.end());
-      StressLayer stress{element_law(layer.material),
-                         bulk_modulus(layer.material, scene.wall->constants().bulk_modulus),
-                         GradientRecovery(cells, std::move(vertices)),
-                         fsi::has_fibres(layer.material),
-                         {}};
+      std::vector<int> at;
+      for (const auto& [node, of_node] : ends)
+        if (!here || here->owns_whole(node)) at.push_back(node);
+      StressLayer stress{
+          element_law(layer.material),     bulk_modulus(layer.material, scene.wall->constants().bulk_modulus),
+          GradientRecovery(cells, at),     {},
+          fsi::has_fibres(layer.material), {}};
       if (here) stress.gradients.restrict_to(*here);
-      for (const int node : stress.gradients.nodes()) {
-        ++share_[node];
-        if (stress.has_fibres) ++fibre_share_[node];
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        auto of_node = ends.at(at[i]);
+        if (here)
+          for (int& end : of_node) end = here->local(end);
+        const int place = take_place(stress.gradients.nodes()[i], of_node);
+        stress.nodes.push_back({of_node, place});
+        ++share_[place];
+        if (stress.has_fibres) ++fibre_share_[place];
       }
       if (stress.has_fibres) stress.fibres = nodal_fibres(layer, stress.gradients.nodes(), node_count_);
       if (layer.varies()) {
@@ -177,12 +212,18 @@ class WallStressOf : public WallStress<Element::components> {
     return std::any_of(layers_.begin(), layers_.end(), [](const auto& layer) { return layer.has_fibres; });
   }
 
+  int place_of_middle(int node, std::array<int, 2> ends) const override {
+    std::sort(ends.begin(), ends.end());
+    const auto found = of_middles_.find({node, ends});
+    return found == of_middles_.end() ? node : found->second;
+  }
+
   WallStresses of(const std::vector<double>& now) const override {
     const std::vector<double> wall = wall_.from_unloaded(now);  // of a wall under prestress not the mesh's shape
     WallStresses all;
-    all.cauchy.assign(static_cast<std::size_t>(node_count_), Mat3<double>{});
+    all.cauchy.assign(share_.size(), Mat3<double>{});
     if (has_fibres())
-      for (auto& family : all.of_fibres) family.assign(static_cast<std::size_t>(node_count_), 0.0);
+      for (auto& family : all.of_fibres) family.assign(share_.size(), 0.0);
     std::vector<double> buffer;
     for (const auto& layer : layers_) {
       const auto& reached = layer.gradients.template reach<Mixed>(wall, buffer);
@@ -196,6 +237,27 @@ class WallStressOf : public WallStress<Element::components> {
   }
 
  private:
+  /// The edge's vertices of a mid-edge node, ascending; a vertex itself.
+  template <class Cell>
+  static std::array<int, 2> ends_of(const Cell& cell, int a) {
+    if (a <= Element::dim) return {cell[a], cell[a]};
+    const auto& edge = SimplexEdges<Element::dim>::vertices[a - Element::dim - 1];
+    const auto [first, second] = std::minmax(cell[edge[0]], cell[edge[1]]);
+    return {first, second};
+  }
+
+  /// The place of a node's stress: the node, unless another layer has that with other ends.
+  int take_place(int node, std::array<int, 2> ends) {
+    std::sort(ends.begin(), ends.end());
+    const auto [known, is_new] = of_middles_.try_emplace({node, ends}, node);
+    if (is_new && share_[node] > 0) {
+      known->second = static_cast<int>(share_.size());
+      share_.push_back(0);
+      fibre_share_.push_back(0);
+    }
+    return known->second;
+  }
+
   /// Where the nodes of the whole wall are without load.
   static std::vector<Point> unloaded_nodes(const Scene<n>& scene, const PartOf<Element>& whole) {
     const auto& share = scene.wall->nodes().share;
@@ -213,11 +275,20 @@ class WallStressOf : public WallStress<Element::components> {
     numbers.reserve(9 * all.cauchy.size());
     for (const auto& stress : all.cauchy)
       for (int i = 0; i < 9; ++i) numbers.push_back(stress(i / 3, i % 3));
-    exchange.update(numbers, 9);
+    exchange.update(numbers, 9);  // of nodes; places behind them are no other process's
     for (std::size_t i = 0; i < numbers.size(); ++i)
       all.cauchy[i / 9](static_cast<int>(i % 9) / 3, static_cast<int>(i % 9) % 3) = numbers[i];
     for (auto& family : all.of_fibres)
       if (has_fibres()) exchange.update(family);
+  }
+
+  /// kappa / mu at entry i of the nodes.
+  template <class Law>
+  static double volume_to_shear(const Law& law, const StressLayer& layer, std::size_t i) {
+    if constexpr (std::is_same_v<Law, VaryingLaw>)
+      return layer.constants[i].bulk_modulus / layer.constants[i].shear_modulus();
+    else
+      return layer.bulk_modulus / law.shear_modulus();
   }
 
   /// Of the nodes from the first on, so many.
@@ -235,43 +306,51 @@ class WallStressOf : public WallStress<Element::components> {
     const auto& nodes = layer.gradients.nodes();
     for (std::size_t first = 0; first < nodes.size(); first += pack_width) {
       const std::size_t filled = std::min<std::size_t>(pack_width, nodes.size() - first);
-      Mat3<Pack> grad_d;
-      Pack pressure(0.0);
+      Mat3<Pack> grad_d, error_directions;
+      Pack pressure(0.0), stiffness_ratio(0.0);
       Fibres fibres;
       for (std::size_t lane = 0; lane < pack_width; ++lane) {
         const std::size_t i = first + std::min(lane, filled - 1);
         const auto l = static_cast<int>(lane);
         const auto h = layer.gradients.gradient<Mixed>(i, wall);
         for (int r = 0; r < 3; ++r)
-          for (int c = 0; c < 3; ++c) grad_d(r, c).set(l, h(r, c));
-        pressure.set(l, wall[Mixed::scalar(nodes[i])]);
+          for (int c = 0; c < 3; ++c) {
+            grad_d(r, c).set(l, h(r, c));
+            error_directions(r, c).set(l, layer.gradients.error_directions(i)(r, c));
+          }
+        const auto& ends = layer.nodes[i].ends;
+        pressure.set(l, 0.5 * (wall[Mixed::scalar(ends[0])] + wall[Mixed::scalar(ends[1])]));
+        stiffness_ratio.set(l, volume_to_shear(law, layer, i));
         for (int family = 0; family < 2; ++family)
           for (int k = 0; k < 3; ++k)
             fibres.direction[family][k].set(l, layer.fibres.empty() ? 0.0 : layer.fibres[i][family][k]);
       }
-      const Mat3<Pack> piola = [&] {
+      const auto at_point = [&](const Mat3<Pack>& gradient) {
         if constexpr (std::is_same_v<Law, VaryingLaw>)
-          return piola_stress(law, layer.bulk_modulus, grad_d, pressure, constants_at(layer, first, filled, fibres));
+          return at_point_of(law, layer.bulk_modulus, gradient, pressure, constants_at(layer, first, filled, fibres));
         else
-          return piola_stress(law, layer.bulk_modulus, grad_d, pressure, fibres);
-      }();
+          return at_point_of(law, layer.bulk_modulus, gradient, pressure, fibres);
+      };
+      keep_volume([&](const Mat3<Pack>& gradient) { return at_point(gradient).scalar_source; }, error_directions,
+                  stiffness_ratio > Pack(nearly_incompressible), grad_d);
+      const Mat3<Pack> piola = at_point(grad_d).flux;
       const Deformation<Pack> f = deformation(grad_d);
       Mat3<Pack> cauchy = (Pack(1.0) / f.volume_ratio) * times_transposed(piola, f.gradient);
       if constexpr (Hyperelastic<Law>::is_compressible)
         if (law.on_reference()) cauchy = piola;  // small strains: one stress for both configurations
       for (std::size_t lane = 0; lane < filled; ++lane) {
         const auto l = static_cast<int>(lane);
-        const int node = nodes[first + lane];
+        const int place = layer.nodes[first + lane].place;
         Mat3<double> sigma;
         for (int r = 0; r < 3; ++r)  // symmetric but for rounding
           for (int c = 0; c < 3; ++c) sigma(r, c) = 0.5 * (cauchy(r, c)[l] + cauchy(c, r)[l]);
-        all.cauchy[node] = all.cauchy[node] + share_[node] * sigma;
+        all.cauchy[place] = all.cauchy[place] + share_[place] * sigma;
         if (layer.fibres.empty()) continue;
         for (std::size_t family = 0; family < 2; ++family) {
           Vec3<double> a{};
           for (int r = 0; r < 3; ++r)
             for (int c = 0; c < 3; ++c) a[r] += f.gradient(r, c)[l] * layer.fibres[first + lane][family][c];
-          all.of_fibres[family][node] += fibre_share_[node] * dot(a, sigma * a) / dot(a, a);
+          all.of_fibres[family][place] += fibre_share_[place] * dot(a, sigma * a) / dot(a, a);
         }
       }
     }
@@ -280,8 +359,9 @@ class WallStressOf : public WallStress<Element::components> {
   const Wall<n>& wall_;
   int node_count_;
   std::vector<StressLayer> layers_;
-  std::vector<double> share_;        ///< per node: one over the layers that have it
-  std::vector<double> fibre_share_;  ///< likewise over those with fibres
+  std::map<std::pair<int, std::array<int, 2>>, int> of_middles_;  ///< places by node and ends, ascending
+  std::vector<double> share_;                                     ///< per place: one over the layers that have it
+  std::vector<double> fibre_share_;                               ///< likewise over those with fibres
 };
 
 }  // namespace

@@ -108,8 +108,8 @@ struct GridFacts {
   const std::map<std::string, std::vector<double>>& constants;  ///< of the wall that vary
 };
 
-/// At vertices: linear between them.
-enum class Place { nodes, vertices, cells };
+/// At vertices: linear between them. In layers: at nodes, and at mid-edge nodes between layers once for each.
+enum class Place { nodes, vertices, layers, cells };
 
 /// A field of fields.h5: the name in output.fields that asks for it, which grids have it, and its values.
 template <int n>
@@ -188,27 +188,27 @@ constexpr std::array<OutputField<n>, 19 + constants_of_walls.size()> output_fiel
       }},
      {"wall_shear_stress", "wall_shear_stress", 3, "kPa", Place::nodes, in_fluid,
       [](const Level<n>& level, bool) { return level.shear(); }},
-     {"cauchy_stress", "cauchy_stress", 6, "kPa", Place::vertices, in_wall,
+     {"cauchy_stress", "cauchy_stress", 6, "kPa", Place::layers, in_wall,
       [](const Level<n>& level, bool) {
         return level.of_stresses([](const Mat3<double>& s, std::vector<double>& field) {
           for (int i = 0; i < 3; ++i)
             for (int j = i; j < 3; ++j) field.push_back(s(i, j));
         });
       }},
-     {"principal_stress", "principal_stress", 3, "kPa", Place::vertices, in_wall,
+     {"principal_stress", "principal_stress", 3, "kPa", Place::layers, in_wall,
       [](const Level<n>& level, bool) {
         return level.of_stresses([](const Mat3<double>& s, std::vector<double>& field) {
           for (const double value : principal_stresses(s)) field.push_back(value);
         });
       }},
-     {"von_mises_stress", "von_mises_stress", 1, "kPa", Place::vertices, in_wall,
+     {"von_mises_stress", "von_mises_stress", 1, "kPa", Place::layers, in_wall,
       [](const Level<n>& level, bool) {
         return level.of_stresses(
             [](const Mat3<double>& s, std::vector<double>& field) { field.push_back(von_mises_stress(s)); });
       }},
-     {"fibre_stress_1", "fibre_stress", 1, "kPa", Place::vertices, in_fibres,
+     {"fibre_stress_1", "fibre_stress", 1, "kPa", Place::layers, in_fibres,
       [](const Level<n>& level, bool) { return level.stresses().of_fibres[0]; }},
-     {"fibre_stress_2", "fibre_stress", 1, "kPa", Place::vertices, in_fibres,
+     {"fibre_stress_2", "fibre_stress", 1, "kPa", Place::layers, in_fibres,
       [](const Level<n>& level, bool) { return level.stresses().of_fibres[1]; }},
      {"thickness", "thickness", 1, "mm", Place::nodes,
       [](const GridFacts& grid) { return !grid.fluid && grid.thickness; },
@@ -355,13 +355,17 @@ bool FieldOutput<n>::write(const State& state) {
         const Grid& made = made_[g];
         const bool has_middles = grids_[g].nodes_per_cell > n + 1;  // of the whole grid: all processes agree
         if (made.share && has_middles) made.share->exchange.update(numbers, field.components);
+        const std::vector<double> found = numbers;
         numbers.resize((made.order ? made.order->items() : grids_[g].points.size()) * components);
-        for (const Middle& middle : made.middles)
+        for (const Middle& middle : made.middles) {
+          const int place =
+              known.at == Place::layers ? derived_.stress->place_of_middle(middle.node, middle.ends) : middle.node;
           for (std::size_t k = 0; k < components; ++k) {
-            const auto at = [&](int point) { return numbers[static_cast<std::size_t>(point) * components + k]; };
+            const auto at = [&](int point) { return found[static_cast<std::size_t>(point) * components + k]; };
             numbers[static_cast<std::size_t>(middle.point) * components + k] =
-                known.at == Place::vertices ? 0.5 * (at(middle.ends[0]) + at(middle.ends[1])) : at(middle.node);
+                known.at == Place::vertices ? 0.5 * (at(middle.ends[0]) + at(middle.ends[1])) : at(place);
           }
+        }
         if (made.order) numbers = made.order->to_stretches(numbers.data(), field.components);
         values[{grids_[g].name, field.name}] = std::move(numbers);
       }

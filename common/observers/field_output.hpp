@@ -22,8 +22,7 @@ inline bool writes_fields(const Case& setup) {
 }
 
 /// fields.h5 and fields.xdmf of a run: the fields that the case asks for and the scene has, one grid per medium. Cells
-/// keep their mid-edge nodes; there pressures and stresses are the mean of the edge's ends, as the pressure's shape
-/// functions have it. Where layers have vertices of their own, the nodes between these are written once for each.
+/// keep their mid-edge nodes; there pressures are the mean of the edge's ends, as their shape functions have it. Where layers have vertices of their own, the nodes between these are written once for each.
 template <int n>
 class FieldOutput {
  public:

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "derived/gradient_recovery.hpp"
+#include "derived/surface_shape.hpp"
 #include "fem/elements.hpp"
 #include "fem/nodal_layout.hpp"
 #include "mesh/point_math.hpp"
@@ -131,6 +132,39 @@ TEST(RecoveredGradientsOfThinLayers, KeepTheElementsOrder) {
     std::printf("thin layer: largest error %.2e, %.2e\n", errors[0], errors[1]);
     EXPECT_LT(errors[0], 0.11);
     EXPECT_LT(errors[1], 0.055);
+  }
+}
+
+// A ring of one linear cell through its thickness and 30 degrees along has the curvatures of its circles, at open ends and at a
+// mirror; seen along them its faces are straight. A flat layer has no shape.
+TEST(ShapesOfBoundaries, AreCirclesOfARingAndNothingOfAPlate) {
+  const double inner = 1.4, outer = 1.7, pi = std::acos(-1.0);
+  for (const bool curved : {true, false}) {
+    const auto mesh = triangle_grid(
+        {1, 3}, {"wall"},
+        [&](int i, int j) {
+          const double radius = i == 0 ? inner : outer, angle = j * pi / 6;
+          return curved ? Point{radius * std::cos(angle), 0, radius * std::sin(angle)} : Point{radius, 0, angle};
+        },
+        [](int, int) { return 0; });
+    RecoveryCells cells{mesh.nodes, {}, 3, 1, {0, 2}};
+    for (const auto& cell : mesh.cells) cells.nodes.insert(cells.nodes.end(), cell.begin(), cell.end());
+    cells.mirrors.push_back({{0, 0, 1}, {0, 1}});
+    const SurfaceShapes shapes(cells);
+    for (int a = 0; a < static_cast<int>(mesh.nodes.size()); ++a) {
+      const SurfaceShape* shape = shapes.at(a);
+      ASSERT_EQ(shape != nullptr, curved);
+      if (!shape) continue;
+      const Point& x = mesh.nodes[static_cast<std::size_t>(a)];
+      const double radius = norm(x), outward = dot(shape->normal, x) / radius;
+      EXPECT_NEAR(std::abs(outward), 1, 1e-9);
+      EXPECT_NEAR(shape->curvatures[0], outward / radius, 1e-9);
+      for (const auto& y : mesh.nodes) {
+        const auto straight = shape->straightened(y - x);
+        ASSERT_TRUE(straight);
+        EXPECT_NEAR(dot(*straight, shape->normal), outward * (norm(y) - radius), 1e-9);
+      }
+    }
   }
 }
 
