@@ -22,6 +22,7 @@
 #include "meshes/mesh_input.hpp"
 #include "meshes/mesh_report.hpp"
 #include "meshes/options.hpp"
+#include "run/program.hpp"
 
 namespace fsi {
 
@@ -54,6 +55,17 @@ std::size_t nodes_of(const AnyMesh& mesh) {
   return std::visit([](const auto& any) { return any.nodes.size(); }, mesh);
 }
 
+/// Something else than the sizes decides how many nodes there are, as counts of cells in the script do.
+void warn_of_missed_nodes(const AdaptRequest& request, std::size_t made, std::size_t most) {
+  constexpr double far = 0.2;
+  if (request.output.quiet || std::abs(static_cast<double>(made) / static_cast<double>(most) - 1) <= far) return;
+  warn(mesh_program,
+       fmt::format(
+           "{}: the mesh has {} nodes where {} were asked for: something else than the sizes decides how long its "
+           "cells are; let the script give no counts of cells, or leave --geo out, which halves cells",
+           printable(request.script), made, most));
+}
+
 /// The script's shape with cells as long as those of the halved mesh, times a factor that brings its nodes to a number
 /// within a twentieth, if some tries find one; else the mesh of most nodes that has no more.
 AnyMesh made_anew(const AdaptRequest& request, const SizeField& sizes, int order, std::size_t most) {
@@ -76,6 +88,7 @@ AnyMesh made_anew(const AdaptRequest& request, const SizeField& sizes, int order
     if (ratio >= 1 - near && ratio <= 1 + near) break;
     factor *= std::pow(ratio, 1.0 / sizes.dimension);
   }
+  warn_of_missed_nodes(request, nodes_of(*best), most);
   return std::move(*best);
 }
 

@@ -11,7 +11,9 @@ partitioned one, unless the case names `partitioned.tolerance` or another scheme
 step are 6 less the tolerance's power of ten. `behaviour.json` beside the programs:
   "end"       {WORD: [exit code, message]}: a run whose command line holds WORD ends so
   "swing"     true: the displacement swings from mesh to mesh
+  "grows"     true: the displacement's error grows as the mesh is refined
   "nothing"   true: no samples
+  "least"     no mesh has a smaller size
   "seconds"   what a run takes at least
 Each call adds its command line to `calls.txt`.
 """
@@ -71,7 +73,7 @@ def main(words):
     if program.name != "fsi-mesh":
         time.sleep(behaviour.get("seconds", 0))
     if program.name == "fsi-mesh":
-        write_mesh(place, mesh_size(words))
+        write_mesh(place, max(mesh_size(words), behaviour.get("least", 0)))
     else:
         run(words, place, program.name, behaviour)
     return 0
@@ -135,7 +137,7 @@ def run(words, place, name, behaviour):
     end = float(given.get("time.end", entries["time"]["end"]))
     tolerance = tolerance_of(name, entries, given)
     sign = (-1) ** round(math.log2(h) * 2) if behaviour.get("swing") else 1
-    factor = 1 + sign * A * h**3 + B * (step / STEP) ** 2 + 1e-3 * tolerance
+    factor = 1 + sign * A * h ** (-3 if behaviour.get("grows") else 3) + B * (step / STEP) ** 2 + 1e-3 * tolerance
     steps = round(end / step)
     times = [(n + 1) * step for n in range(steps)]
     place.mkdir(parents=True, exist_ok=True)

@@ -1,9 +1,13 @@
 """Messages: one line that any terminal can show, of parts that are not too long."""
 
+import contextlib
+import io
 import unittest
+import unittest.mock
 
 import synthetic  # noqa: F401: the package's folder onto the path
 
+from fsi_compare import start
 from fsi_compare.base.errors import InputError, ProgramError, printable, shortened, shortened_path
 
 
@@ -29,6 +33,21 @@ class Messages(unittest.TestCase):
     def test_parts(self):
         self.assertEqual(str(InputError("f", "", "p\n q", "r")), "f: p q; r")
         self.assertEqual(str(ProgramError("f", "k", "a: b: c; d", "r")), "f: k: a: b: c; d; r")
+
+    def test_out_of_memory_each_command_has_its_own_advice(self):
+        def said(*words):
+            def fails(arguments, version):
+                raise MemoryError
+
+            with unittest.mock.patch("fsi_compare.start._loaded", lambda: fails):
+                with contextlib.redirect_stderr(io.StringIO()) as err:
+                    self.assertEqual(start.main(list(words), "0"), 1)
+            return err.getvalue()
+
+        self.assertIn("compare fewer or smaller runs", said("pressure", "a", "b"))
+        self.assertIn("--coarser", said("verify", "case.toml"))
+        self.assertIn("--frames", said("report", "a"))
+        self.assertNotIn("compare fewer", said("verify", "case.toml") + said("convert-mesh", "a") + said("tune", "a"))
 
 
 if __name__ == "__main__":

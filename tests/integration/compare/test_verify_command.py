@@ -266,6 +266,21 @@ class AdaptedMeshes(VerifyCase):
         with self.assertRaisesRegex(InputError, "cannot be read"):
             nodes_of(self.base / "tube.msh")
 
+    def test_meshes_that_stop_growing_give_no_bars(self):
+        behave(self.programs, least=0.9)  # as Mesh.MeshSizeMin of a script
+        for words in (("--adapt",), ()):
+            _, out, _ = self.verify(*words, "--of", "displacement")
+            for row in self.csv("bars.csv"):
+                self.assertEqual((row["error"], row["verdict"][:12]), ("", "not in the r"), row)
+                self.assertIn("let nothing but the script's sizes decide", row["advice"])
+
+    def test_curves_that_adaptation_does_not_help_are_named(self):
+        behave(self.programs, grows=True)
+        _, _, err = self.verify("--adapt")
+        self.assertIn("has not paid for tip: displacement x", err)
+        self.assertNotIn("tip: pressure", err)
+        self.assertIn("velocity, displacement and pressure, each alike", (self.out / "report.md").read_text())
+
 
 class DemandedError(VerifyCase):
     def test_reaches_it_and_leaves_a_case_that_runs(self):
@@ -387,6 +402,15 @@ class Trouble(VerifyCase):
     def test_budget_that_is_too_small(self):
         code, _, err = self.verify("--budget", "0.00001")
         self.one_line(code, err, "--budget", "too short", "takes about")
+
+    def test_budget_is_held_against_runs_that_have_been_made(self):
+        """A bare mesh, whose finest member has a quarter of its size: runs of 0.2 s, of which each takes as long as any other,
+        fit 12 s, which sixteen to forty times the seconds of a quarter of the size do not."""
+        behave(self.programs, seconds=0.2)
+        fake_family.write_mesh(self.base / "tube.msh", 1.0)
+        code, out, err = self.verify("--budget", "0.2", "--of", "displacement", mesh=False)
+        self.assertEqual(code, 0, err)
+        self.assertEqual(min(float(row["mesh"]) for row in self.csv("members.csv")), 0.25)
 
     def test_wrong_words(self):
         for words, said in (

@@ -79,6 +79,11 @@ class MeshAdapt(FolderTest):
         folder = run(MONOLITHIC, case, self.base / "stenosis", f"mesh.file={mesh}", *settings)
         nodes, regions = self.report(self.adapt("--geo", script, "--nodes", 3000, mesh=mesh, folder=folder))
         self.assertTrue(2850 <= nodes <= 3150, nodes)
+        bounded = self.base / "bounded.geo"  # a least size that suits the first mesh would stop the growth
+        bounded.write_text(script.read_text() + "\nMesh.MeshSizeMin = 0.6;\n")
+        of_bounded, _ = self.report(self.adapt("--geo", bounded, "--nodes", 3000, mesh=mesh, folder=folder))
+        self.assertEqual(of_bounded, nodes)
+        self.report(self.adapt("--geo", script, "--nodes", 3000, mesh=mesh, folder=folder))
         again = run(MONOLITHIC, case, self.base / "anew", f"mesh.file={self.base / 'adapted.msh'}", *settings)
         even = self.base / "even.msh"  # of as many nodes, by the script's own size
         self.assertEqual(

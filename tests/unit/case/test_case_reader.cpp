@@ -273,6 +273,14 @@ TEST(CaseReader, OverriddenEntriesReplaceTheirRivals) {
   const auto by_error = parse_case(minimal_fluid, "case.toml", {"mesh.error=2.5 %"});
   EXPECT_EQ(by_error.mesh.error, 2.5);
   EXPECT_TRUE(by_error.mesh.file.empty());
+  auto recommended = minimal_fluid;  // which waves the error holds for goes with the error
+  const std::string file = "file = \"tube.msh\"";
+  ASSERT_NE(recommended.find(file), std::string::npos);
+  recommended.replace(recommended.find(file), file.size(), "error = \"10%\"\nwaves = \"resolved\"");
+  const auto by_file = parse_case(recommended, "case.toml", {"mesh.file=other.msh"});
+  EXPECT_EQ(by_file.mesh.file, "other.msh");
+  EXPECT_EQ(by_file.mesh.error, 0);
+  EXPECT_EQ(parse_case(recommended, "case.toml", {"mesh.level=coarse"}).mesh.level, "coarse");
 
   auto pulse = minimal_fluid;
   const std::string table = "pressure = [[0, 0], [1, 2.5], [1, 0]]";

@@ -78,7 +78,8 @@ def about_adapted(recipe: Adapted) -> str:
     how = f"{recipe.base.geo.script.name} is meshed anew" if recipe.remakes and recipe.base.geo else "cells are halved"
     return (
         "Meshes: the case's own and what fsi-mesh adapt makes of it, each from the error indicator of the run on the one "
-        f"before, with {RATIO**recipe.dimension:.3g} times its nodes; {how}."
+        f"before, with {RATIO**recipe.dimension:.3g} times its nodes; {how}. They are adapted to the sum of the indicators of "
+        "velocity, displacement and pressure, each alike, and to no single quantity."
     )
 
 

@@ -20,7 +20,7 @@ from .family import CaseFacts, Member, Requests, read_case
 from .lean import starting_member
 from .making import Maker
 from .mesh_family import find_recipe
-from .preparing import PRINTED, plan, sample, tell_mesh, tell_unrefined, within_budget
+from .preparing import PRINTED, plan, sample, tell_mesh, tell_unpaid, tell_unrefined, within_budget
 from .results import BarsOfRun, Judged, bands, judge
 from .search import Demand, Search, by_each_driver, write_found
 from .tables import bars_table, counts, write_json
@@ -235,6 +235,7 @@ def write(
     facts = maker.requests.facts
     place = maker.requests.folder
     families = list(maker.families.values())
+    tell_unpaid(maker, judged)
     unrefined = tell_unrefined(maker, families)
     maker.notes += unrefined
     title = printable(str(facts.entries.get("title") or facts.path.stem))

@@ -12,7 +12,8 @@ from .family import CaseFacts, Member, members, mesh_ratio
 from .making import Maker
 from .mesh_family import Recipe
 from .quantities import curves_of
-from .results import FamilyRuns
+from .direction import OUTSIDE
+from .results import FamilyRuns, Judged
 from .standard import standard_points
 
 STAYS = (
@@ -119,6 +120,21 @@ def tell_mesh(maker: Maker, recipe: Recipe) -> None:
 def shown(words: Sequence[str]) -> str:
     """Files by their last names."""
     return " ".join(Path(word).name if word.endswith(READ) else word for word in words)
+
+
+def tell_unpaid(maker: Maker, judged: Sequence[Judged]) -> None:
+    """Which curves further adaptation has not brought nearer to each other: their meshes are adapted to something else."""
+    if not isinstance(maker.requests.recipe, Adapted):
+        return
+    curves = [one for one in judged if one.quantity.whole is not None and not one.quantity.whole.largest]
+    unpaid = sorted(
+        {one.quantity.curve for one in curves if one.bar.mesh.state == OUTSIDE and not one.bar.mesh.lacking}
+    )
+    if unpaid:
+        maker.note(
+            f"the last adaptation has not paid for {', '.join(unpaid)}: they changed by as much as by the one before. The coarser "
+            "mesh is as good for these; fsi-mesh adapt --of velocity, displacement or pressure makes one for that quantity"
+        )
 
 
 def tell_unrefined(maker: Maker, families: Sequence[FamilyRuns]) -> Sequence[str]:
