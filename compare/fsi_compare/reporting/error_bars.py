@@ -47,7 +47,8 @@ def add_error_bars(
     if rows:
         table = Table("error_bars", "How far values may be from the exact ones", COLUMNS, rows)
         table.notes.append(
-            "By fsi-compare verify. Percent are of the largest value of the curve that the quantity is of."
+            "By fsi-compare verify. Percent are of the largest value of the curve that the quantity is of; those of curve, line, "
+            "at any time and anywhere are errors of the curve itself."
         )
         if len(rows) > MOST_ROWS:
             page.folded(table.title, [table])

@@ -52,6 +52,7 @@ BARS: Sequence[Column[Judged]] = (
     Column(csv="advice", value=lambda j: j.bar.advice),
     Column(csv="scale", value=lambda j: j.quantity.scale),
     Column(csv="estimate_of_exact", value=lambda j: j.bar.best if j.bar.given else None),
+    Column(csv="estimated_error", value=lambda j: j.bar.off if j.bar.given else None),
 )
 
 Row = Tuple[str, Member, Any]
@@ -77,6 +78,8 @@ def bars_table(judged: Sequence[Judged]) -> Table:
     notes = [
         "±: the run's value and the exact one differ by no more than this. Percent are of the largest value of the curve that "
         "the quantity is of.",
+        "curve, line, at any time, anywhere: the error of the curve itself, as root mean square and where it is largest. The value "
+        "is the curve's own, which percent are of.",
         "An order is that of the differences between members; a dash: too few, too small or swinging differences.",
     ]
     return Table("bars", "How wrong the results are", BARS, judged, notes=notes)
