@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -41,10 +42,8 @@ std::string convert(const ImportRequest& request, const std::vector<std::string>
 }
 
 template <int Dim, int Order>
-AnyMesh read_mesh(const std::filesystem::path& file, const std::vector<FlatPart>& openings) {
-  auto mesh = read_gmsh<Dim, Order>(file, gmsh_regions(file, Dim), TriangleGeometry::plane);
-  if constexpr (Dim == 3) name_flat_parts(mesh, openings);
-  return mesh;
+AnyMesh read_mesh(const std::filesystem::path& file) {
+  return read_gmsh<Dim, Order>(file, gmsh_regions(file, Dim), TriangleGeometry::plane);
 }
 
 AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file) {
@@ -54,12 +53,21 @@ AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file
     throw InputError(request.file, "--opening", "is for meshes of volumes", "name curves by --group");
   // Second-order cells keep their order unless another is asked for.
   const int order = request.order > 0 ? request.order : gmsh_order(parse_gmsh(file), dimension);
+  AnyMesh mesh;
   try {
-    if (dimension == 3) return order == 1 ? read_mesh<3, 1>(file, openings) : read_mesh<3, 2>(file, openings);
-    return order == 1 ? read_mesh<2, 1>(file, openings) : read_mesh<2, 2>(file, openings);
+    if (dimension == 3)
+      mesh = order == 1 ? read_mesh<3, 1>(file) : read_mesh<3, 2>(file);
+    else
+      mesh = order == 1 ? read_mesh<2, 1>(file) : read_mesh<2, 2>(file);
   } catch (const InputError& error) {
     refuse_file(request.file, file.string(), error.what());
   }
+  std::visit(
+      [&](auto& read) {
+        if constexpr (std::decay_t<decltype(read)>::dim == 3) name_flat_parts(read, openings);
+      },
+      mesh);
+  return mesh;
 }
 
 void make(const ImportRequest& request) {

@@ -24,6 +24,19 @@ namespace {
 
 constexpr const char* program = "fsi-mesh";
 
+/// The region of the fluid, whose boundary is looked at. \throws InputError \param option  for the message
+template <int Order>
+int fluid_of(const SimplexMesh<3, Order>& mesh, const std::string& option) {
+  const int fluid = mesh.region_index(group::fluid);
+  if (fluid < 0)
+    throw InputError(program, option,
+                     fmt::format("names a part of the fluid's surface, and the mesh has no volume fluid{}",
+                                 mesh.regions.empty() ? "" : fmt::format(", but {}", fmt::join(mesh.regions, ", "))),
+                     "call the lumen's volume fluid: of fsi-mesh import --group fluid=PART; of a wall alone name its "
+                     "surfaces by --group");
+  return fluid;
+}
+
 /// The fluid's boundary and its flat parts.
 template <int Order>
 struct FlatParts {
@@ -31,8 +44,8 @@ struct FlatParts {
   std::vector<SurfaceTriangle> triangles;
   std::vector<FlatRegion> parts;
 
-  explicit FlatParts(const SimplexMesh<3, Order>& mesh)
-      : facets(boundary_facets(mesh, {mesh.region_index(group::fluid)})) {
+  FlatParts(const SimplexMesh<3, Order>& mesh, const std::string& option)
+      : facets(boundary_facets(mesh, {fluid_of(mesh, option)})) {
     for (const auto& facet : facets) triangles.push_back({facet.nodes[0], facet.nodes[1], facet.nodes[2]});
     parts = flat_regions(mesh.nodes, triangles);
   }
@@ -94,13 +107,13 @@ std::string place_of(Point x) {
 
 template <int Order>
 std::string places_of_flat_parts(const SimplexMesh<3, Order>& mesh) {
-  return all_places(FlatParts<Order>(mesh).parts);
+  return all_places(FlatParts<Order>(mesh, "--opening").parts);
 }
 
 template <int Order>
 void name_flat_parts(SimplexMesh<3, Order>& mesh, const std::vector<FlatPart>& wanted) {
   if (wanted.empty()) return;
-  const FlatParts<Order> flat(mesh);
+  const FlatParts<Order> flat(mesh, "--opening " + wanted.front().name);
   std::map<std::size_t, std::string> taken;
   for (const auto& part : wanted) {
     const std::string option = "--opening " + part.name;
@@ -118,7 +131,7 @@ void name_flat_parts(SimplexMesh<3, Order>& mesh, const std::vector<FlatPart>& w
 
 template <int Order>
 void require_flat_parts_named(const SimplexMesh<3, Order>& mesh, const std::vector<Point>& closed) {
-  const FlatParts<Order> flat(mesh);
+  const FlatParts<Order> flat(mesh, "--closed");
   std::set<std::size_t> known;
   for (const Point& at : closed) known.insert(part_at(mesh, flat, at, "--closed"));
   std::set<FacetKey<3>> named;

@@ -18,8 +18,8 @@ struct FlatPart {
 
 /// Adds a facet group for each of `wanted`: the flat part of the fluid's boundary (mesh/flat_regions.hpp) on which its
 /// point lies, within the mean length of the part's edges.
-/// \throws InputError for a point on no flat part, with the nearest one, for two on one part, and for a name that a
-/// surface has
+/// \throws InputError for a mesh without a volume `fluid`, for a point on no flat part, with the nearest one, for two on one
+/// part, and for a name that a surface has
 template <int Order>
 void name_flat_parts(SimplexMesh<3, Order>& mesh, const std::vector<FlatPart>& wanted);
 

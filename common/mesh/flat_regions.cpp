@@ -16,7 +16,7 @@ namespace fsi {
 
 namespace {
 
-constexpr double off_plane = 0.25;  // of a triangle's mean edge: nodes that are off by a tenth, twice over
+constexpr double off_plane = 0.25;  // of a triangle's size(): nodes that are off by a tenth, twice over
 constexpr double facing = 0.64;     // cosine of 50 degrees: triangles of such nodes lean by 20 at most
 constexpr double sharp = pi / 6, sharp_on_average = pi / 3;
 constexpr double sharp_part = 0.9;       // of the rim's length
@@ -48,6 +48,7 @@ class FlatRegions {
         neighbours_[known->second.first][known->second.second] = static_cast<int>(t);
       }
       edge_.push_back(length);
+      size_.push_back(size(triangles[t], length));
     }
   }
 
@@ -67,6 +68,13 @@ class FlatRegions {
   }
 
  private:
+  /// The mean edge; of long triangles 1.5 times the shortest, else strips of a tube's side would pass for flat.
+  double size(const SurfaceTriangle& t, double mean_edge) const {
+    double shortest = mean_edge;
+    for (int k = 0; k < 3; ++k) shortest = std::min(shortest, distance(nodes_[t[k]], nodes_[t[(k + 1) % 3]]));
+    return std::min(mean_edge, 1.5 * shortest);
+  }
+
   Point normal_around(int node) const {
     Point sum{0, 0, 0};
     for (const int t : around_.at(node)) sum = sum + area_[t];
@@ -93,7 +101,7 @@ class FlatRegions {
   bool lies_in(int t, const Plane& plane) const {
     if (dot(area_[t], plane.normal) < facing * norm(area_[t])) return false;
     return std::all_of(triangles_[t].begin(), triangles_[t].end(),
-                       [&](int node) { return std::abs(plane.height(nodes_[node])) <= off_plane * edge_[t]; });
+                       [&](int node) { return std::abs(plane.height(nodes_[node])) <= off_plane * size_[t]; });
   }
 
   /// Triangles connected with the seed that lie in a plane which is fitted to them; empty when there is no such plane.
@@ -212,17 +220,21 @@ class FlatRegions {
   }
 
   /// By how much the surface turns away to the inner side of the plane at an edge of the rim, radians; 0 when it does not.
-  /// Normals are the mean of the triangles outside that meet the edge.
+  /// Normals are the means of the triangles inside and outside that meet the edge: a strip of a tube's side is bent itself,
+  /// and does not end in a crease.
   double angle_behind(int a, int b, const std::set<int>& in, const Plane& plane) const {
-    Point outside{0, 0, 0};
+    Point inside{0, 0, 0}, outside{0, 0, 0};
     double height = 0;
     for (const int node : {a, b})
       for (const int t : around_.at(node)) {
-        if (in.count(t) > 0) continue;
+        if (in.count(t) > 0) {
+          inside = inside + area_[t];
+          continue;
+        }
         outside = outside + area_[t];
         for (const int other : triangles_[t]) height += plane.height(nodes_[other]);
       }
-    return height < 0 ? std::atan2(norm(cross(plane.normal, outside)), dot(plane.normal, outside)) : 0;
+    return height < 0 ? std::atan2(norm(cross(inside, outside)), dot(inside, outside)) : 0;
   }
 
   FlatRegion described(const std::vector<int>& region) const {
@@ -241,7 +253,7 @@ class FlatRegions {
   const std::vector<SurfaceTriangle>& triangles_;
   std::vector<std::array<int, 3>> neighbours_;        ///< across the side from a node to the next
   std::vector<Point> area_;                           ///< vectors, mm^2
-  std::vector<double> edge_;                          ///< mean lengths, mm
+  std::vector<double> edge_, size_;                   ///< mean lengths, and size(), mm
   std::unordered_map<int, std::vector<int>> around_;  ///< the triangles at a node
   std::vector<char> seen_;
 };

@@ -127,6 +127,11 @@ class MeshImport(FolderTest):
             ("tube.vtu", ("--group", "fluid"), ("'fluid' is no NAME=PART",)),
             ("tube.vtu", ("--scale", 0, "--group", "fluid=part:1"), ("--scale: 0 is no factor",)),
             ("tube.vtu", ("--group", "fluid=part:1", "--opening", "inlet=0"), ("is no NAME=X,Y,Z",)),
+            (
+                "tube.vtu",
+                ("--group", "media=part:1", "--opening", "inlet=0,0,0"),
+                ("--opening inlet: ", "the mesh has no volume fluid, but media", "--group fluid=PART"),
+            ),
         ):
             with self.subTest(file=file, options=options):
                 process = self.imported(self.base / file, *options)

@@ -114,6 +114,49 @@ TEST(FlatRegions, AreTheCapsOfATube) {
     }
 }
 
+/// A closed cylinder whose side is one row of long triangles, with caps of a fan or of a zigzag strip from rim to rim. Any strip
+/// of the side is as long as the tube and would be round enough up to three times its width.
+Surface drum(int around, double length, bool fan) {
+  Surface surface;
+  for (const double z : {0.0, length})
+    for (int i = 0; i < around; ++i)
+      surface.nodes.push_back({2 * std::cos(2 * pi * i / around), 2 * std::sin(2 * pi * i / around), z});
+  for (int i = 0; i < around; ++i) {
+    const int j = (i + 1) % around;
+    surface.triangles.push_back({i, j, around + j});
+    surface.triangles.push_back({i, around + j, around + i});
+  }
+  const auto cap = [&](int a, int b, int c) {  // counter-clockwise from above
+    surface.triangles.push_back({a, c, b});
+    surface.triangles.push_back({around + a, around + b, around + c});
+  };
+  if (fan)
+    for (int i = 1; i + 1 < around; ++i) cap(0, i, i + 1);
+  else
+    for (int low = 0, high = around - 1; low + 1 < high;) {
+      cap(low, low + 1, high);
+      if (++low + 1 < high) {
+        cap(low, high - 1, high);
+        --high;
+      }
+    }
+  return surface;
+}
+
+TEST(FlatRegions, AreTheCapsOfACylinderOfLongTriangles) {
+  for (const int around : {8, 10, 16, 32, 64})
+    for (const double length : {3.0, 5.0, 7.0, 10.0, 14.0, 20.0})
+      for (const bool fan : {true, false}) {
+        const Surface surface = drum(around, length, fan);
+        const auto found = flat_regions(surface.nodes, surface.triangles);
+        ASSERT_EQ(found.size(), 2u) << around << " around, length " << length << (fan ? ", fans" : ", strips");
+        for (const auto& part : found) {
+          EXPECT_NEAR(part.area, 0.5 * 4 * around * std::sin(2 * pi / around), 1e-9);
+          EXPECT_NEAR(std::abs(part.normal[2]), 1, 1e-9);
+        }
+      }
+}
+
 TEST(FlatRegions, AreTheSidesOfACube) {
   const Surface clean = cube(4);
   for (unsigned seed = 0; seed < 6; ++seed) {
