@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -10,7 +11,10 @@
 #include "base/error.hpp"
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
+#include "mesh/cell_words.hpp"
 #include "mesh/cells_across.hpp"
+#include "mesh/corner_cells.hpp"
+#include "mesh/flat_parts.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/wall_faces.hpp"
@@ -50,6 +54,30 @@ std::string advice_on(const SimplexMesh<Dim, Order>& mesh) {
   return {};
 }
 
+/// What the Taylor-Hood element cannot have of a mesh, and a mesh without it; empty: there is nothing of the kind.
+struct Mended {
+  std::optional<AnyMesh> mesh;
+  std::string said;
+};
+
+template <int Dim, int Order>
+Mended mended(const SimplexMesh<Dim, Order>& mesh) {
+  constexpr std::size_t most = 4;
+  const auto corners = corner_cells(mesh);
+  if (corners.empty()) return {};
+  std::string places;
+  for (std::size_t i = 0; i < std::min(most, corners.size()); ++i)
+    places += (i > 0 ? ", " : "") + place_of(centre_of_vertices(mesh, corners[i]));
+  if (corners.size() > most) places += fmt::format(" and {} more", corners.size() - most);
+  using Words = CellWords<Dim>;
+  return {divided_at_centres(mesh, corners),
+          fmt::format("{} of the fluid in corners, at {}: divided in {}, since a pressure there would have no equation "
+                      "with the element p2p1 where the velocity is given all round.\n",
+                      corners.size() == 1 ? fmt::format("1 {}", Words::cell)
+                                          : fmt::format("{} {}", corners.size(), Words::cells),
+                      places, Dim + 1)};
+}
+
 }  // namespace
 
 void add_output_options(CLI::App& command, MeshOutput& output, bool file_required) {
@@ -69,8 +97,10 @@ void require_known_extension(const std::string& file) {
                    "the one that is known is .msh, gmsh 4.1 or 2.2 (--format), text or --binary");
 }
 
-void write_and_report(const AnyMesh& mesh, const MeshOutput& output, TriangleGeometry plane,
+void write_and_report(const AnyMesh& given, const MeshOutput& output, TriangleGeometry plane,
                       const std::string& foreword, bool warn) {
+  const Mended corners = std::visit([](const auto& made) { return mended(made); }, given);
+  const AnyMesh& mesh = corners.mesh ? *corners.mesh : given;
   std::string thickness;
   const auto quality = std::visit(
       [&](const auto& made) -> std::optional<MeshQuality> {
@@ -84,8 +114,9 @@ void write_and_report(const AnyMesh& mesh, const MeshOutput& output, TriangleGeo
   if (!quality) return;
   const std::string advice =
       output.advise ? std::visit([](const auto& made) { return advice_on(made); }, mesh) : std::string();
-  print_report(foreword + fmt::format("{}: {}", printable(output.file), to_text(*quality)) + thickness + advice,
-               output.file);
+  print_report(
+      foreword + corners.said + fmt::format("{}: {}", printable(output.file), to_text(*quality)) + thickness + advice,
+      output.file);
   if (!warn) return;
   for (const auto& warning : warnings_of(*quality)) fsi::warn(mesh_program, warning);
 }

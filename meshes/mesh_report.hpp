@@ -26,11 +26,12 @@ void add_output_options(CLI::App& command, MeshOutput& output, bool file_require
 /// \throws InputError
 void require_known_extension(const std::string& file);
 
-/// Writes the mesh and reports its quality as the solvers will see it; warnings of bad elements go to stderr.
+/// Writes the mesh and reports its quality as the solvers will see it; warnings of bad elements go to stderr. Cells of the
+/// fluid in corners (mesh/corner_cells.hpp) are divided first, which the report says.
 /// \param plane     where a mesh of triangles lies
 /// \param foreword  printed before the report; a sentence with its newline, or empty
 /// \param warn      false: its stretched elements are meant
-void write_and_report(const AnyMesh& mesh, const MeshOutput& output, TriangleGeometry plane,
+void write_and_report(const AnyMesh& given, const MeshOutput& output, TriangleGeometry plane,
                       const std::string& foreword = "", bool warn = true);
 
 }  // namespace fsi

@@ -74,11 +74,11 @@ void make(const RefineRequest& request) {
   output.format.tags = read_mesh.tags;
   std::visit(
       [&](const auto& mesh) {
-        const auto refined = refine_uniformly(mesh, request.times, request.file);
+        const auto refined = request.times > 0 ? refine_uniformly(mesh, request.times, request.file) : mesh;
         std::string foreword;
         if (!output.quiet) {
           const auto before = measure_quality(mesh), after = measure_quality(refined);
-          foreword = before_and_after(request, before, after);
+          if (request.times > 0) foreword = before_and_after(request, before, after);
           warn_of_lost_quality(request.file, before, after);
           warn_of_left_out(request.file, read_mesh);
         }
@@ -102,9 +102,13 @@ MeshCommand refine_command(CLI::App& app) {
       other_sizes + ".");
   const auto request = std::make_shared<RefineRequest>();
   options->add_option("mesh", request->file, "The mesh, .msh, of first or second order")->required();
-  options->add_option("--times", request->times, "Number of halvings, one after the other")
+  options
+      ->add_option(
+          "--times", request->times,
+          "Number of halvings, one after the other; 0: the mesh as it is, but for the fluid's cells in corners, which "
+          "every command divides")
       ->capture_default_str()
-      ->check(CLI::Range(1, 10));
+      ->check(CLI::Range(0, 10));
   add_output_options(*options, request->output);
   return {options, [request] { make(*request); }};
 }

@@ -13,6 +13,8 @@
 #include "mesh/surface/local_radius.hpp"
 #include "mesh/surface/wall_thickness.hpp"
 #include "meshes/converted.hpp"
+#include "meshes/mesh_report.hpp"
+#include "run/program.hpp"
 
 namespace fsi {
 
@@ -45,9 +47,15 @@ void add_thickness_options(CLI::App& command, ThicknessOptions& options) {
       .add_option(
           "--thickness-from", options.file,
           "The wall's thickness, mm, at points on the surface or along the centre line: .csv with columns x, y, z, "
-          "thickness; .vtp with a field of its points")
+          "thickness, or x_cm and so on; .vtp with a field of its points")
       ->excludes(ratio);
   command.add_option("--thickness-field", options.field, "Its name in that file")->capture_default_str();
+  command
+      .add_option("--thickness-unit", options.unit,
+                  "Unit of that file's lengths, of points and thickness: mm unless given, or as the header says")
+      ->check(CLI::IsMember({"mm", "cm", "m", "um", "in"}));
+  command.add_option("--thickness-points-unit", options.points_unit, "Of its points, where it is another one")
+      ->check(CLI::IsMember({"mm", "cm", "m", "um", "in"}));
   command
       .add_option("--thickness-smoothing", options.smoothing,
                   "Times that a varying thickness is averaged with neighbours'")
@@ -79,7 +87,11 @@ std::map<int, double> total_thickness(const TetrahedralMesh& lumen, const WallGr
     thickness = local_radius(surface, options.smoothing);
     for (double& t : thickness) t *= options.ratio;
   } else {
-    thickness = thickness_at(surface, read_table(options), options.smoothing);
+    auto table = read_table(options);
+    bring_to_mm(table, {options.unit, options.points_unit});
+    thickness = thickness_at(surface, table, options.smoothing);
+    if (const auto slip = thickness_slip(surface, thickness); !slip.empty())
+      warn(mesh_program, options.file + ": " + slip);
   }
   for (const auto& [node, at] : number) total[node] = thickness[at];
   return total;

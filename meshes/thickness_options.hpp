@@ -15,11 +15,13 @@ struct ThicknessOptions {
   double ratio = 0;  ///< thickness over local radius
   std::string file;  ///< .csv or .vtp
   std::string field = "thickness";
+  std::string unit, points_unit;  ///< of lengths in the file; empty: mm, of points that of the thickness
   int smoothing = 5;
   bool varies() const { return ratio > 0 || !file.empty(); }
 };
 
-/// --thickness-ratio, --thickness-from, --thickness-field and --thickness-smoothing.
+/// --thickness-ratio, --thickness-from, --thickness-field, --thickness-unit, --thickness-points-unit and
+/// --thickness-smoothing.
 void add_thickness_options(CLI::App& command, ThicknessOptions& options);
 
 /// The whole wall's thickness at each node that it grows on, mm; empty where it does not vary.

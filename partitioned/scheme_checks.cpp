@@ -7,6 +7,7 @@
 #include "fem/dimensions.hpp"
 #include "partitioned/interface/wetted_sides.hpp"
 #include "partitioned/scheme_choice.hpp"
+#include "scene/pressure_equations.hpp"
 #include "scene/time_scheme.hpp"
 #include "time/time_schemes.hpp"
 
@@ -101,6 +102,10 @@ void check_scheme(const CouplingScheme& scheme, const Case& setup, int order, Sc
                                  scheme.name),
                      "use a scheme that begins with robin-neumann, or give one opening a pressure, a resistance or a "
                      "windkessel");
+  for (const auto& remark : scene.remarks)
+    if (given_velocity && remark.rfind(interface_takes_equations, 0) == 0)
+      throw InputError(setup.path.string(), "partitioned.scheme", fmt::format("\"{}\": {}", scheme.name, remark),
+                       "a scheme that begins with robin-neumann, and fsi-monolithic, leave it free");
   if (scheme.robin && wetted_sides_of(scene).stands_in_the_fluid())
     scene.notices.push_back(fmt::format(
         "{}: partitioned.scheme: \"{}\" takes the wall for a tube around the fluid, and this one stands in the fluid, "

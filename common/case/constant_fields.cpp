@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -12,8 +15,10 @@
 #include "base/error.hpp"
 #include "base/hash.hpp"
 #include "case/key_values.hpp"
+#include "case/table_units.hpp"
 #include "materials/material.hpp"
-#include "mesh/fields/field_samples.hpp"
+#include "mesh/fields/field_units.hpp"
+#include "mesh/point_math.hpp"
 
 namespace fsi {
 
@@ -39,10 +44,96 @@ std::string hash_of(const FieldSamples& samples) {
   return hash.hex();
 }
 
+/// A constant's unit times this is the unit of the word; empty: it is none of this constant.
+std::optional<double> value_unit(const std::string& right, const std::string& word) {
+  static const std::map<std::string, std::vector<std::pair<const char*, double>>> units{
+      {"kPa ms",
+       {{"kPa ms", 1}, {"Pa s", 1}, {"mPa s", 1e-3}, {"kPa s", 1e3}, {"poise", 0.1}, {"P", 0.1}, {"cP", 1e-3}}},
+      {"degrees", {{"degrees", 1}, {"deg", 1}, {"radians", 57.29577951308232}, {"rad", 57.29577951308232}}}};
+  if (right == "kPa") {
+    if (word == "dyne/cm2" || word == "dyne/cm^2") return 1e-4;
+    if (word == "N/mm2" || word == "N/mm^2") return 1e3;
+    if (word == "GPa") return 1e6;
+    try {
+      const auto unit = column_unit("[" + word + "]", ColumnKind::pressure);
+      return unit ? std::optional<double>(unit->factor) : std::nullopt;
+    } catch (const std::invalid_argument&) {
+      return std::nullopt;
+    }
+  }
+  if (word == right) return 1;
+  const auto known = units.find(right);
+  if (known == units.end()) return std::nullopt;
+  for (const auto& [name, factor] : known->second)
+    if (word == name) return factor;
+  return std::nullopt;
+}
+
+std::string known_value_units(const std::string& right) {
+  if (right == "kPa") return known_units(ColumnKind::pressure);
+  if (right == "degrees") return "degrees or radians";
+  if (right == "kPa ms") return "kPa ms, Pa s, mPa s or poise";
+  return right.empty() ? "none: it is a pure number" : right;
+}
+
+/// A unit that the case gives by a key, or the file itself; the case's must not contradict the file's.
+std::string unit_word(const CaseEntry& entry, const char* key, const std::string& of_file) {
+  if (!entry.has(key)) return of_file;
+  const CaseEntry given = entry.child(key, "a unit");
+  if (!of_file.empty() && given.line() != of_file)
+    given.refuse_value("is not what the header of the file says, " + of_file, "remove it, or correct the header");
+  return given.line();
+}
+
+/// Brings places and values to mm and the unit of the constant. \return the unit that places were in
+std::string apply_units(const CaseEntry& entry, const Parameter& parameter, const UnitsOfFile& own, bool& unit_given,
+                        FieldSamples& samples) {
+  const std::string lengths = unit_word(entry, "length_unit", own.places);
+  if (own.places.empty() && !lengths.empty()) {
+    const auto factor = length_unit(lengths);
+    if (!factor) entry.child("length_unit").refuse_value("is no known unit of length", "give " + known_length_units());
+    for (auto* points : {&samples.places, &samples.nodes})
+      for (Point& x : *points) x = *factor * x;
+  }
+  const std::string unit = unit_word(entry, "unit", own.values), right = parameter.quantity->unit;
+  unit_given = !unit.empty();
+  if (!unit_given) return lengths;
+  const auto factor = value_unit(right, unit);
+  if (!factor)
+    (entry.has("unit") ? entry.child("unit") : entry)
+        .refuse("\"" + unit + "\" is no known unit of " + parameter.name, "give " + known_value_units(right));
+  for (double& value : samples.values) value *= *factor;
+  return lengths;
+}
+
+/// Values that look like those of another unit. 1e5 may be Pa or dyn/cm^2: the places' unit tells the system, cgs or SI.
+void warn_of_values(const CaseEntry& entry, const Quantity& quantity, double middle, const std::string& lengths) {
+  constexpr double most_dynes = 1e8;  // 10 MPa, of calcified walls
+  const auto slip = unit_slip(quantity, middle);
+  const bool stress = std::string(quantity.unit) == "kPa";
+  const bool by_size = stress && !slip && middle > 1e7 && middle <= most_dynes;
+  if (!slip && !by_size) return;
+  const std::string pascal = "Pa", dyne = "dyn/cm^2";
+  if (!stress || (slip->unit != pascal && slip->unit != dyne && !by_size)) {
+    entry.warn_of_unit(quantity, middle);
+    return;
+  }
+  const double in_pascal = 1e-3 * middle, in_dyne = 1e-4 * middle;
+  if (by_size || lengths == "cm")
+    return entry.warn(fmt::format("{:g} looks like a value in {}", middle, dyne),
+                      fmt::format("did you mean {:.4g} kPa? Give unit = \"{}\" beside file", in_dyne, dyne));
+  if (lengths == "m")
+    return entry.warn(fmt::format("{:g} looks like a value in {}", middle, pascal),
+                      fmt::format("did you mean {:.4g} kPa? Give unit = \"{}\" beside file", in_pascal, pascal));
+  entry.warn(fmt::format("{:g} looks like a value in {} or {}", middle, dyne, pascal),
+             fmt::format("give unit = \"{}\" beside file for {:.4g} kPa, unit = \"{}\" for {:.4g} kPa", dyne, in_dyne,
+                         pascal, in_pascal));
+}
+
 }  // namespace
 
 ConstantField read_constant_field(const CaseEntry& entry, const Parameter& parameter) {
-  refuse_unknown_keys(entry, {"file", "field", "within"});
+  refuse_unknown_keys(entry, {"file", "field", "within", "unit", "length_unit"});
   if (!entry.has("file")) entry.refuse_missing("file", fmt::format("add it ({})", about_file));
   if (!entry.has("field"))
     entry.refuse_missing("field", "add it (name of the array, or of the column of a .csv, that holds the constant)");
@@ -57,11 +148,14 @@ ConstantField read_constant_field(const CaseEntry& entry, const Parameter& param
     if (!(field.within > 0)) within.refuse_value("is not positive", "give a distance > 0");
   }
   FieldSamples samples;
+  UnitsOfFile units;
   try {
-    samples = read_field_samples(field.file, field.field);
+    samples = read_field_samples(field.file, field.field, units);
   } catch (const InputError& problem) {
     refuse_file_of(entry, problem);
   }
+  bool unit_given = false;
+  const std::string lengths = apply_units(entry, parameter, units, unit_given, samples);
   for (std::size_t i = 0; i < samples.values.size(); ++i) {
     const double value = samples.values[i];
     const Point& x = samples.places[i];
@@ -77,7 +171,7 @@ ConstantField read_constant_field(const CaseEntry& entry, const Parameter& param
       throw InputError(field.file.string(), key, field.field + " = " + at() + " " + parameter.bounds.problem(),
                        parameter.bounds.remedy() + " (" + parameter.about + ")");
   }
-  entry.warn_of_unit(*parameter.quantity, middle_of(samples.values));
+  if (!unit_given) warn_of_values(entry, *parameter.quantity, middle_of(samples.values), lengths);
   field.hash = hash_of(samples);
   field.samples = std::make_shared<const FieldSamples>(std::move(samples));
   return field;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/error.hpp"
@@ -14,7 +15,9 @@
 #include "case/key_values.hpp"
 #include "case/layer_keys.hpp"
 #include "materials/material.hpp"
+#include "mesh/fields/field_units.hpp"
 #include "mesh/fields/point_table.hpp"
+#include "mesh/point_math.hpp"
 
 namespace fsi {
 
@@ -27,6 +30,7 @@ using Kind = RegionShape::Kind;
 struct RegionInput {
   RegionData region;
   std::string file;
+  std::string length_unit{};
   int order = 0;
 };
 
@@ -70,6 +74,10 @@ std::vector<CaseKey<RegionInput>> region_keys() {
           "of a line: a .csv with columns x, y, z in mm; of a surface: a .vtp or .stl, as painted in another program",
           {[](const CaseEntry& entry, Key& input) { input.file = entry.line(); },
            [](const Key& input) { return input.region.hash; }}),
+      leaf<Key>("length_unit", optional,
+                "of a line or surface: the unit of its file's coordinates, default mm (cm, m, um, in)",
+                {[](const CaseEntry& entry, Key& input) { input.length_unit = entry.line(); },
+                 [](const Key&) { return std::string("mm"); }}),
       leaf("within", optional, "of a line or surface: how near is near, in {unit}",
            length(of_shape(&RegionShape::within), positive)),
       leaf("from", optional, "of a line: where the stretch begins that counts, {unit} from its first point, default {}",
@@ -95,18 +103,18 @@ std::vector<std::string> keys_of_shape(Kind kind) {
     case Kind::sphere:
       return {"centre", "radius"};
     case Kind::line:
-      return {"file", "within", "from", "to"};
+      return {"file", "within", "from", "to", "length_unit"};
     case Kind::surface:
       break;
   }
-  return {"file", "within"};
+  return {"file", "within", "length_unit"};
 }
 
 void check_shape(const CaseEntry& entry, const RegionShape& shape) {
   const std::string name = shapes().name_of(shape.kind);
   const auto own = keys_of_shape(shape.kind);
-  for (const char* key : {"low", "high", "centre", "radius", "file", "within", "from", "to"}) {
-    const bool belongs = contains(own, key), may_lack = std::string(key) == "from" || std::string(key) == "to";
+  for (const char* key : {"low", "high", "centre", "radius", "file", "within", "from", "to", "length_unit"}) {
+    const bool belongs = contains(own, key), may_lack = contains({"from", "to", "length_unit"}, key);
     if (belongs && !may_lack && !entry.has(key))
       entry.refuse_missing(key, fmt::format("add it (a {} takes {})", name, fmt::join(own, ", ")));
     if (!belongs && entry.has(key))
@@ -120,7 +128,10 @@ void check_shape(const CaseEntry& entry, const RegionShape& shape) {
   if (shape.to > 0 && shape.to <= shape.from) entry.child("to").refuse_value("is not behind from", "give a larger one");
 }
 
-void read_file(const CaseEntry& entry, RegionInput& input) {
+void read_file(const CaseEntry& region, RegionInput& input) {
+  const CaseEntry entry = region.child("file");
+  const std::optional<double> length = input.length_unit.empty() ? 1.0 : length_unit(input.length_unit);
+  if (!length) region.child("length_unit").refuse_value("is no known unit of length", "give " + known_length_units());
   RegionShape& shape = input.region.shape;
   Fnv1a hash;
   const auto add = [&](const auto& numbers) { hash.add(numbers.data(), numbers.size() * sizeof(numbers[0])); };
@@ -129,10 +140,18 @@ void read_file(const CaseEntry& entry, RegionInput& input) {
     if (shape.kind == Kind::line) {
       constexpr const char* kinds = "give a .csv with columns x, y, z in mm";
       if (path.extension() != ".csv") throw InputError(path.string(), "", "is no .csv", kinds);
-      shape.line = std::make_shared<const std::vector<Point>>(polyline_of(text_of_file(path, kinds), path.string()));
+      std::string said;
+      auto line = polyline_of(text_of_file(path, kinds), path.string(), said);
+      if (!said.empty() && !input.length_unit.empty() && said != input.length_unit)
+        throw InputError(path.string(), "", "says itself that it is in " + said, "remove length_unit");
+      if (said.empty())
+        for (Point& x : line) x = *length * x;
+      shape.line = std::make_shared<const std::vector<Point>>(std::move(line));
       add(*shape.line);
     } else {
-      shape.surface = std::make_shared<const PaintedSurface>(read_painted_surface(path));
+      auto surface = read_painted_surface(path);
+      for (Point& x : surface.nodes) x = *length * x;
+      shape.surface = std::make_shared<const PaintedSurface>(std::move(surface));
       add(shape.surface->nodes);
       add(shape.surface->triangles);
     }
@@ -237,7 +256,7 @@ void read_region(const CaseEntry& entry, StructureData& structure, RegionInput& 
     if (!contains(all, name)) entry.child("layers").refuse("\"" + name + "\" is no layer", name_remedy(name, all));
   if (region.layers.empty()) region.layers = all;
   check_shape(entry, region.shape);
-  if (entry.has("file")) read_file(entry.child("file"), input);
+  if (entry.has("file")) read_file(entry, input);
   if (!entry.has("material")) {
     read_constants(entry, known, structure, region);
     return apply(entry, region, nullptr, structure);
@@ -292,11 +311,11 @@ CaseKey<StructureData> regions_key() {
     for (std::size_t i = 0; i < structure.regions.size(); ++i) {
       const RegionData& region = structure.regions[i];
       const std::string here = path + "." + region.name + ".";
-      const RegionInput input{region, "", static_cast<int>(i)};
+      const RegionInput input{region, "", "", static_cast<int>(i)};
       const auto own = keys_of_shape(region.shape.kind);
       for (const auto& child : region_keys())
-        if (contains(own, child.name) || child.name == "layers" || child.name == "shape" ||
-            child.name == "transition" || child.name == "order")
+        if ((contains(own, child.name) && child.name != "length_unit") || child.name == "layers" ||
+            child.name == "shape" || child.name == "transition" || child.name == "order")
           child.list(input, here + child.name, values);
       if (!region.material.empty()) values.push_back({here + "material", region.material, KeyRole::physics});
       for (const auto& [name, value] : region.values)

@@ -6,6 +6,7 @@
 
 #include "fem/facet_load.hpp"
 #include "fluid/inflow_profile.hpp"
+#include "mesh/surface_pieces.hpp"
 
 namespace fsi {
 
@@ -33,7 +34,11 @@ std::string says_own_shape(const InflowOpening<Element>& opening) {
   const char* ideal = Element::dim == 3       ? "no flat circle"
                       : Element::axisymmetric ? "no flat circle about the axis"
                                               : "not straight between walls";
-  return "the surface " + opening.name + " is " + ideal +
+  const SurfacePieces pieces = pieces_of<Element::dim>(opening.nodes, opening.facets);
+  const std::string why = pieces.pieces.size() > 1 ? " but in pieces"
+                          : pieces.leaning.empty() ? ""
+                                                   : " since some of its facets lean away from its plane";
+  return "the surface " + opening.name + " is " + ideal + why +
          ": the flow that is fully developed on its own facets is let in, the discrete solution of -Laplace w = 1";
 }
 

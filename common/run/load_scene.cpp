@@ -35,6 +35,7 @@
 #include "scene/boundary_conditions.hpp"
 #include "scene/build_scene.hpp"
 #include "scene/closed_surfaces.hpp"
+#include "scene/opening_pieces.hpp"
 #include "scene/required_openings.hpp"
 #include "scene/support_needs.hpp"
 #include "scene/wall_regions.hpp"
@@ -164,6 +165,7 @@ MeshOf<Element> load_mesh(const Case& setup, std::vector<std::string>& remarks, 
   need_supports(setup, mesh, mesh_name(setup), needs);
   check_scene_mesh(mesh, needs, mesh_source(setup));
   for (auto& line : open_and_closed_surfaces(setup, mesh, needs, mesh_name(setup))) remarks.push_back(std::move(line));
+  note_opening_pieces(setup, mesh, notices, remarks);
   if (!needs.left_out.empty())
     notices.push_back(
         fmt::format("{}: {}: left out, since no section of [structure.layers] has {}", mesh_source(setup),

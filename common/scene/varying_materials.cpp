@@ -14,6 +14,7 @@
 #include "case/constant_fields.hpp"
 #include "fem/elements.hpp"
 #include "materials/material.hpp"
+#include "mesh/fields/field_units.hpp"
 #include "mesh/fields/point_field.hpp"
 
 namespace fsi {
@@ -55,8 +56,9 @@ struct Range {
 /// The constants of one layer.
 class LayerConstants {
  public:
-  LayerConstants(const Case& setup, const std::string& name, const MaterialData& data)
-      : setup_(setup), name_(name), data_(data), base_(data.values) {
+  /// \param nodes  of the wall here, mm
+  LayerConstants(const Case& setup, const std::string& name, const MaterialData& data, const std::vector<Point>& nodes)
+      : setup_(setup), name_(name), data_(data), nodes_(nodes), base_(data.values) {
     base_[viscosity_name] = data.viscosity;
     for (const auto& parameter : materials().at(data.material).parameters)
       if (!parameter.of_a_set) base_.emplace(parameter.name, parameter.standard);
@@ -145,7 +147,24 @@ class LayerConstants {
     throw InputError(data.file.string(), data.key.empty() ? "structure.layers." + name_ + "." + key : data.key,
                      fmt::format("has a hole at {}: the nearest value is {:.3g} mm away, {:.3g} mm are allowed",
                                  place_in_mm(x), field.distance_to(x), field.within()),
-                     "give values there, too, or a larger within = ... beside file");
+                     slip_of(key, data, field) + "give values there, too, or a larger within = ... beside file");
+  }
+  /// What would explain it if the file were in another unit of length; a file in cm has its stresses in dyn/cm^2, mostly.
+  std::string slip_of(const std::string& key, const ConstantField& data, const PointField& field) const {
+    const auto distance = [&](const Point& x) { return field.distance_to(x); };
+    const auto slip = length_slip(nodes_, distance, data.within, field.within());
+    if (!slip) return "";
+    std::string values;
+    const Parameter* parameter = constant_of_layer(data_, key);
+    if (parameter != nullptr && std::string(parameter->quantity->unit) == "kPa" && slip->unit == "cm") {
+      auto sorted = data.samples->values;
+      std::sort(sorted.begin(), sorted.end());
+      const double middle = sorted[sorted.size() / 2];
+      if (middle >= 1e4)
+        values = fmt::format(" and unit = \"dyn/cm^2\", if {:.4g} there is to be {:.4g} kPa", middle, 1e-4 * middle);
+    }
+    return fmt::format("times {:g} its places would fit: give length_unit = \"{}\" beside file{}; else ", slip->factor,
+                       slip->unit, values);
   }
   Material material_of(const ParameterValues& values, const Point& x) const {
     const Material material = materials().at(data_.material).make(values);
@@ -159,6 +178,7 @@ class LayerConstants {
   const Case& setup_;
   const std::string& name_;
   const MaterialData& data_;
+  const std::vector<Point>& nodes_;
   ParameterValues base_;    ///< of the layer, its viscosity among them
   ParameterValues values_;  ///< at the last point
   std::vector<std::pair<std::string, PointField>> fields_;
@@ -258,7 +278,7 @@ void vary_materials(const Case& setup, WallProblem<Element>& wall, Scene<Element
       for (const int c : wall.cells_of_layer(layer)) of_cells[static_cast<std::size_t>(c)] = value;
     }
     if (!data.varies()) continue;
-    LayerConstants constants(setup, name, data);
+    LayerConstants constants(setup, name, data, part.nodes);
     std::string problem;
     int points = 0;
     double weights = 0;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "mesh/fields/field_units.hpp"
 #include "mesh/fields/region_shape.hpp"
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/point_math.hpp"
@@ -23,6 +24,18 @@ Point centre_of(const SimplexMesh<Dim, Order>& mesh, std::size_t cell) {
 
 std::string key_of(const RegionData& region) {
   return "structure.region." + region.name;
+}
+
+/// Points of the region's file, and the nodes of the mesh, that would meet if the file were in another unit; else empty.
+template <int Dim, int Order>
+std::string slip_of(const RegionShape& shape, const SimplexMesh<Dim, Order>& mesh) {
+  std::vector<Point> points;
+  if (shape.line) points = *shape.line;
+  if (shape.surface) points = shape.surface->nodes;
+  const auto slip = length_slip(points, mesh.nodes);
+  return slip ? fmt::format("its file may be in {}: give length_unit = \"{}\" beside file; else ", slip->unit,
+                            slip->unit)
+              : "";
 }
 
 }  // namespace
@@ -52,7 +65,8 @@ void cut_out_regions(const Case& setup, SimplexMesh<Dim, Order>& mesh, std::vect
       if (count == 0)
         throw InputError(setup.path.string(), key_of(region),
                          fmt::format("no element of {} has its centre in it", layer),
-                         "check its place and size in mm, or give layers = [...], those that it is in");
+                         slip_of(region.shape, mesh) +
+                             "check its place and size in mm, or give layers = [...], those that it is in");
       std::string said = fmt::format("{}: {} elements of {} are {}", key_of(region), count, layer, name);
       for (const auto& [other, number] : taken) said += fmt::format(", {} of them taken from {}", number, other);
       remarks.push_back(std::move(said));

@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "base/input_file.hpp"
 #include "base/names.hpp"
+#include "mesh/fields/field_units.hpp"
 #include "mesh/fields/point_table.hpp"
 #include "mesh/fields/vtk_file.hpp"
 #include "mesh/point_math.hpp"
@@ -106,6 +107,11 @@ std::string text_of_file(const std::filesystem::path& file, const std::string& k
 }
 
 FieldSamples read_field_samples(const std::filesystem::path& file, const std::string& field) {
+  UnitsOfFile unused;
+  return read_field_samples(file, field, unused);
+}
+
+FieldSamples read_field_samples(const std::filesystem::path& file, const std::string& field, UnitsOfFile& units) {
   const std::string name = file.string(), kind = file.extension().string();
   if (kind != ".csv" && kind != ".vtu" && kind != ".vtp")
     throw InputError(name, "", kind.empty() ? "has no extension" : "the extension " + kind + " is unknown",
@@ -116,6 +122,7 @@ FieldSamples read_field_samples(const std::filesystem::path& file, const std::st
   auto table = point_table(text, field, name, "give a number");
   samples.places = std::move(table.places);
   samples.values = std::move(table.values);
+  units = {table.length_unit, table.unit};
   return samples;
 }
 

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/names.hpp"
+#include "mesh/fields/field_units.hpp"
 
 namespace fsi {
 
@@ -24,16 +27,57 @@ std::vector<std::string> columns_of(const std::string& line) {
   return columns;
 }
 
+/// What stands behind a column's name as its unit, "x_cm", "x [cm]", "x (cm)"; empty: nothing, nothing at all: another name.
+std::optional<std::string> unit_behind(const std::string& header, const std::string& name) {
+  if (header.rfind(name, 0) != 0) return std::nullopt;
+  std::string behind = header.substr(name.size());
+  if (behind.empty()) return behind;
+  if (std::string("_ [(").find(behind.front()) == std::string::npos) return std::nullopt;
+  const bool in_brackets = behind.find_first_of("[(") != std::string::npos;
+  for (const char nothing : {'_', ' ', '[', ']', '(', ')'})
+    behind.erase(std::remove(behind.begin(), behind.end(), nothing), behind.end());
+  // Without brackets it may be part of another name.
+  const std::vector<std::string> known{"kPa",      "Pa",    "MPa",  "mmHg", "dyn/cm2",
+                                       "dyn/cm^2", "N/mm2", "N/m2", "deg",  "rad"};
+  if (!in_brackets && !length_unit(behind) && !contains(known, behind)) return std::nullopt;
+  return behind;
+}
+
+/// Where a column is among those of the first line: the one of its name, else the first with a unit behind it.
+std::size_t place_of_column(const std::vector<std::string>& names, const std::string& wanted, std::string& unit) {
+  const auto exact = std::find(names.begin(), names.end(), wanted);
+  if (exact != names.end()) return static_cast<std::size_t>(exact - names.begin());
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (const auto found = unit_behind(names[i], wanted)) {
+      unit = *found;
+      return i;
+    }
+  return names.size();
+}
+
+/// Of the units of x, y and z in mm; empty ones are mm.
+double length_of(const std::string& unit, const std::string& column, const std::string& file) {
+  if (unit.empty()) return 1;
+  if (const auto length = length_unit(unit)) return *length;
+  throw InputError(file, "column " + column, unit + " is no known unit of length", "there are " + known_length_units());
+}
+
 /// Rows of the named columns; the fourth, if there is one, may have empty cells.
+/// \param units  of the columns, as the first line says them
 std::vector<std::vector<double>> rows_of(const std::string& text, const std::vector<std::string>& wanted,
-                                         const std::string& file, const std::string& remedy) {
+                                         const std::string& file, const std::string& remedy,
+                                         std::vector<std::string>& units) {
   std::istringstream in(text);
   std::string line;
   std::getline(in, line);
   const auto names = columns_of(line);
   std::vector<std::size_t> at;
+  std::vector<double> factors(wanted.size(), 1.0);
+  units.assign(wanted.size(), "");
   for (const auto& name : wanted) {
-    at.push_back(static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin()));
+    const std::size_t k = at.size();
+    at.push_back(place_of_column(names, name, units[k]));
+    if (k < 3) factors[k] = length_of(units[k], name, file);
     if (at.back() == names.size())
       throw InputError(file, "column " + name, "is missing",
                        fmt::format("its first line must name {}", fmt::join(wanted, ", ")));
@@ -52,6 +96,7 @@ std::vector<std::vector<double>> rows_of(const std::string& text, const std::vec
       if ((end == cell.c_str() || *end != '\0' || (k < 3 && !std::isfinite(row.back()))) && !is_hole)
         throw InputError(file, fmt::format("line {}, {}", number, wanted[k]), "'" + cell + "' is no number",
                          k < 3 ? "give it in mm" : remedy);
+      row.back() *= factors[k];
     }
   }
   if (rows.size() < 2) throw InputError(file, "", fmt::format("holds {} points", rows.size()), "give two or more");
@@ -63,16 +108,22 @@ std::vector<std::vector<double>> rows_of(const std::string& text, const std::vec
 PointTable point_table(const std::string& text, const std::string& column, const std::string& file,
                        const std::string& remedy) {
   PointTable table;
-  for (const auto& row : rows_of(text, {"x", "y", "z", column}, file, remedy)) {
+  std::vector<std::string> units;
+  for (const auto& row : rows_of(text, {"x", "y", "z", column}, file, remedy, units)) {
     table.places.push_back({row[0], row[1], row[2]});
     table.values.push_back(row[3]);
   }
+  table.unit = units[3];
+  for (int k = 0; k < 3 && table.length_unit.empty(); ++k) table.length_unit = units[k];
   return table;
 }
 
-std::vector<Point> polyline_of(const std::string& text, const std::string& file) {
+std::vector<Point> polyline_of(const std::string& text, const std::string& file, std::string& length_unit) {
   std::vector<Point> line;
-  for (const auto& row : rows_of(text, {"x", "y", "z"}, file, "")) line.push_back({row[0], row[1], row[2]});
+  std::vector<std::string> units;
+  for (const auto& row : rows_of(text, {"x", "y", "z"}, file, "", units)) line.push_back({row[0], row[1], row[2]});
+  length_unit.clear();
+  for (int k = 0; k < 3 && length_unit.empty(); ++k) length_unit = units[k];
   return line;
 }
 

@@ -11,9 +11,12 @@ namespace fsi {
 struct PointTable {
   std::vector<Point> places;   ///< mm
   std::vector<double> values;  ///< per place; NaN: an empty cell
+  std::string unit{};          ///< of the values, as the header says it; empty: it does not
+  std::string length_unit{};   ///< that the coordinates were in, likewise
 };
 
-/// Of a text of comma-separated columns with a line of names: x, y, z in mm and `column`. Further columns are passed over.
+/// Of a text of comma-separated columns with a line of names: x, y, z in mm and `column`. Further columns are passed over. A unit
+/// may stand behind a name, `x_cm` or `x [cm]`: coordinates are brought to mm, values stay as they are.
 /// \param file    for messages
 /// \param remedy  for a value that is no number, "give it in mm"
 /// \throws InputError saying of `file`, with the line: a column that is missing, what is no number, and fewer than two points
@@ -21,6 +24,7 @@ PointTable point_table(const std::string& text, const std::string& column, const
                        const std::string& remedy);
 
 /// Points of a line as such a table has them in x, y and z, in its order. \throws InputError likewise
-std::vector<Point> polyline_of(const std::string& text, const std::string& file);
+/// \param length_unit  set to what the header says the coordinates were in; empty: it does not
+std::vector<Point> polyline_of(const std::string& text, const std::string& file, std::string& length_unit);
 
 }  // namespace fsi

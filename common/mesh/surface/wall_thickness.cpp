@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "mesh/fields/field_units.hpp"
 #include "mesh/fields/point_table.hpp"
 #include "mesh/flat_parts.hpp"
 #include "mesh/point_math.hpp"
@@ -56,11 +57,58 @@ std::vector<double> reach_of(const TriangleSurface& surface, const ThicknessTabl
   return reach;
 }
 
+/// What would explain a hole if the file were in another unit of length, with the remedy; else empty.
+std::string slip_of(const TriangleSurface& surface, const ThicknessTable& table) {
+  const auto slip = length_slip(table.places, surface.nodes);
+  return slip ? fmt::format("times {:g} its points would fit: give --thickness-unit {}, if it is in {}; else ",
+                            slip->factor, slip->unit, slip->unit)
+              : "";
+}
+
 }  // namespace
 
 ThicknessTable thickness_table(const std::string& text, const std::string& column, const std::string& file) {
-  auto [places, values] = point_table(text, column, file, "give it in mm");
-  return {file, std::move(places), std::move(values)};
+  auto table = point_table(text, column, file, "give it in mm");
+  if (!table.unit.empty()) {
+    const auto factor = length_unit(table.unit);
+    if (!factor)
+      throw InputError(file, "column " + column, table.unit + " is no known unit of length",
+                       "there are " + known_length_units());
+    for (double& value : table.values) value *= *factor;
+  }
+  return {file, std::move(table.places), std::move(table.values), table.length_unit, table.unit};
+}
+
+void bring_to_mm(ThicknessTable& table, const ThicknessUnits& units) {
+  const auto factor = [&](const std::string& unit, const std::string& of_file) {
+    if (unit.empty() || unit == of_file) return 1.0;
+    if (!of_file.empty())
+      throw InputError(table.file, "--thickness-unit", unit + " is not what the header of the file says, " + of_file,
+                       "leave it out, or correct the header");
+    return length_unit(unit).value_or(1.0);
+  };
+  const double of_places = factor(units.places.empty() ? units.values : units.places, table.length_unit);
+  const double of_values = factor(units.values, table.unit);
+  for (Point& x : table.places) x = of_places * x;
+  for (double& value : table.values) value *= of_values;
+}
+
+std::string thickness_slip(const TriangleSurface& surface, const std::vector<double>& thickness) {
+  constexpr double thinnest = 0.015, thickest = 3;  // of the radius: aneurysms, arterioles
+  constexpr double usual_least = 0.02, usual_most = 1;
+  auto shares = local_radius(surface, 5);
+  for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = thickness[i] / shares[i];
+  const double share = median(shares);
+  if (share >= thinnest && share <= thickest) return "";
+  std::string fitting;
+  for (const char* unit : {"cm", "m", "um"})
+    if (const double other = share * *length_unit(unit); other >= usual_least && other <= usual_most)
+      fitting = fmt::format(
+          ": did you mean {}? --thickness-unit {} would make it {:.3g}, with --thickness-points-unit mm "
+          "for points in mm",
+          unit, unit, other);
+  return fmt::format("half of the wall is thinner than {:.3g} of the lumen's radius, as no vessel's is{}", share,
+                     fitting);
 }
 
 std::vector<double> thickness_at(const TriangleSurface& surface, const ThicknessTable& table, int passes) {
@@ -73,7 +121,7 @@ std::vector<double> thickness_at(const TriangleSurface& surface, const Thickness
       throw InputError(table.file, "thickness",
                        fmt::format("has a hole at {}: the nearest point is {:.3g} mm away, {:.3g} mm are allowed",
                                    place_of(surface.nodes[node]), away, reach[node]),
-                       "give thicknesses there, too");
+                       slip_of(surface, table) + "give thicknesses there, too");
     if (!(std::isfinite(value) && value > 0))
       throw InputError(table.file, "thickness",
                        fmt::format("has a hole at {}: the value there is {:.3g}", place_of(surface.nodes[node]), value),

@@ -12,9 +12,22 @@ struct ThicknessTable {
   std::string file;            ///< for messages
   std::vector<Point> places;   ///< mm
   std::vector<double> values;  ///< mm
+  std::string length_unit{};   ///< that the header of the file says its places were in; empty: it says none
+  std::string unit{};          ///< likewise of its values
 };
 
-/// Of a text of comma-separated columns with a line of names: x, y, z and `column`, in mm.
+/// Units of length of a table without any in its header. Empty: mm; of places that of the values.
+struct ThicknessUnits {
+  std::string values, places;
+};
+/// \throws InputError for a unit that is not the one in the header
+void bring_to_mm(ThicknessTable& table, const ThicknessUnits& units);
+
+/// A sentence about thicknesses that no vessel's wall has beside its radius, with the unit that would explain them; else empty.
+/// \param thickness  per node, mm
+std::string thickness_slip(const TriangleSurface& surface, const std::vector<double>& thickness);
+
+/// Of a text of comma-separated columns with a line of names: x, y, z and `column`, in mm or in the units behind these names.
 /// \throws InputError saying of `file`, with the line: a column that is missing, and what is no number. A value that is no finite
 ///         number above 0 is a hole in the table: thickness_at() refuses it where it is needed.
 ThicknessTable thickness_table(const std::string& text, const std::string& column, const std::string& file);

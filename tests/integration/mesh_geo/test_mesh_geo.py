@@ -27,6 +27,17 @@ Physical Surface("outlet") = {2};
 """
 
 
+# A square duct of prisms that gmsh cuts: in one corner of the inlet a tetrahedron has three faces on the outside.
+DUCT = """
+Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Transfinite Curve{1:4} = 3; Transfinite Surface{1};
+e[] = Extrude{0, 0, 2}{ Surface{1}; Layers{3}; };
+Physical Volume("fluid") = {e[1]}; Physical Surface("inlet") = {1}; Physical Surface("outlet") = {e[0]};
+"""
+
+
 class MeshGeo(FolderTest):
     def make(self, script, *options):
         file = self.base / "shape.geo"
@@ -54,6 +65,16 @@ class MeshGeo(FolderTest):
         text = (self.base / "shape.msh").read_text()
         for name in ('2 1 "inlet"', '2 2 "outlet"', '"fluid"'):
             self.assertIn(name, text)
+
+    def test_cells_in_corners_are_divided(self):
+        """Their pressure would have no equation with Taylor-Hood; each is cut in four, and the volume stays."""
+        for order, nodes in ((1, 3 * 3 * 4 + 1), (2, 5 * 5 * 7 + 5)):
+            process = self.make(DUCT, "--order", order)
+            self.assertEqual(self.rows(process)["fluid"][1], 2)
+            self.assertRegex(process.stdout, r"^1 tetrahedron of the fluid in corners, at \(.*\) mm: divided in 4")
+            # 24 prisms, each cut in three; then a vertex and three cells more, of second order four more middles of edges.
+            self.assertEqual(self.rows(process)["fluid"][0], 3 * 24 + 3)
+            self.assertIn(f"{nodes} nodes", process.stdout)
 
     def test_a_constant_gets_another_value(self):
         few, many = self.rows(self.make(SQUARE)), self.rows(self.make(SQUARE, "--set", "size=0.2"))

@@ -327,10 +327,28 @@ class MeshThicken(FolderTest):
             self.volumes(self.thicken(*layers, *given, "--thickness-smoothing", 1, "--format", "2.2"))
             for radius, z in self.outer():
                 self.assertAlmostEqual(radius, 1.1 + 0.04 * z, delta=0.025)
+        # The same in cm, as the option says, and as the header does.
+        in_cm = [tuple(x / 10 for x in row) for row in around]
+        write_vtp(self.base / "cm.vtp", points[:, :3] / 10, np.array([[0, 1, 2]]), "zlib", wall=points[:, 3] / 10)
+        header = self.table(in_cm, "header.csv")
+        text = (self.base / "header.csv").read_text().replace("x,y,z,thickness", "x_cm,y_cm,z [cm],thickness (cm)")
+        (self.base / "header.csv").write_text(text)
+        of_cm = ("--thickness-from", self.base / "cm.vtp", "--thickness-field", "wall", "--thickness-unit", "cm")
+        for given in (of_cm, header):
+            self.volumes(self.thicken(*layers, *given, "--thickness-smoothing", 1, "--format", "2.2"))
+            for radius, z in self.outer():
+                self.assertAlmostEqual(radius, 1.1 + 0.04 * z, delta=0.025)
+        thin = self.table([(*row[:3], row[3] / 20) for row in around], "thin.csv")  # 0.01 of the radius
+        self.assertIn("as no vessel's is: did you mean cm?", self.thicken(*layers, *thin).stderr)
         hole = [row for row in around if not 2 < row[2] < 4.2]
         unknown = [(*row[:3], "nan" if 2 < row[2] < 3 else row[3]) for row in around]
         for options, words in (
             (self.table(hole), ("wall.csv: thickness: has a hole at (", "the nearest point is")),
+            (
+                self.table(in_cm, "cm.csv"),
+                ("cm.csv: thickness: has a hole at (", "times 10 its points would fit: give --thickness-unit cm"),
+            ),
+            ((*header, "--thickness-unit", "m"), ("--thickness-unit: m is not what the header", "cm")),
             (self.table(line[:10], "short.csv"), ("short.csv: thickness: has a hole at (", "mm are allowed")),
             (self.table(unknown, "unknown.csv"), ("has a hole at (", "the value there is nan")),
             (self.table([(*row[:3], -0.1) for row in around], "minus.csv"), ("the value there is -0.1", "above 0")),

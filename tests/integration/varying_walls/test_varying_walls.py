@@ -377,6 +377,40 @@ class BadFields(VaryingTest):
         self.assertEqual(said.returncode, 0, said.stderr)
         self.assertIn("looks like a value in", said.stderr)
 
+    def test_a_field_in_cm_and_dynes(self):
+        """It is refused with the unit that explains it, told that 1e5 are 10 kPa then, and read with both units."""
+        settings = scene(self.base, "p1", "axisymmetric")
+        wall = self.field(lambda x, y, z: 1e5)
+        rows = (self.base / "stiffness.csv").read_text().splitlines()
+        in_cm = [rows[0]] + [
+            ",".join([*(str(float(x) / 10) for x in row.split(",")[:3]), row.split(",")[3]]) for row in rows[1:]
+        ]
+        (self.base / "stiffness.csv").write_text("\n".join(in_cm) + "\n")
+        wall = wall.replace("within = 1.0", "within = 0.5")
+        refused = attempt(MONOLITHIC, self.case(wall), folder=self.base / "none", settings=settings)
+        self.assertEqual(refused.returncode, 1, refused.stderr)
+        said = refused.stderr.splitlines()[-1]
+        for words in ("has a hole at (", 'times 10 its places would fit: give length_unit = "cm"', "to be 10 kPa"):
+            self.assertIn(words, said)
+        both = wall.replace("within = 0.5", 'within = 0.5, length_unit = "cm"')
+        said = attempt(MONOLITHIC, self.case(both), "--check", settings=settings)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertIn('looks like a value in dyn/cm^2; did you mean 10 kPa? Give unit = "dyn/cm^2"', said.stderr)
+        units = both.replace('"cm"', '"cm", unit = "dyn/cm^2"')
+        said = attempt(MONOLITHIC, self.case(units), "--check", settings=settings)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertNotIn("looks like", said.stderr)
+        self.assertIn("varies from 10 to 10 kPa", said.stdout)
+        wall = wall.replace("stiffness.csv", "soft.csv")  # as it should be, without a warning
+        (self.base / "soft.csv").write_text(points(lambda x, y, z: 3))
+        self.assertIn(
+            "is no known unit of length",
+            self.refused(wall.replace("within = 0.5", 'within = 0.5, length_unit = "furlong"')),
+        )
+        self.assertIn(
+            "is no known unit of c10", self.refused(wall.replace("within = 0.5", 'within = 0.5, unit = "mm"'))
+        )
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -4,9 +4,14 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/error.hpp"
+#include "mesh/fields/field_units.hpp"
+#include "mesh/fields/near_points.hpp"
 #include "mesh/fields/point_field.hpp"
+#include "mesh/fields/point_table.hpp"
 #include "mesh/fields/region_shape.hpp"
 #include "mesh/fields/vtk_file.hpp"
 
@@ -95,6 +100,53 @@ const std::string text_of_vtk =
     "IAAAAAAAAAAAAPA/AAAAAAAAAEAAAAAAAAAIQAAAAAAAABBA</DataArray></PointData>\n"
     "<CellData><DataArray type=\"Float32\" Name=\"part\" format=\"ascii\">5</DataArray></CellData>\n"
     "</Piece></UnstructuredGrid></VTKFile>\n";
+
+TEST(PointTable, HeadersMaySayUnits) {
+  const auto table = point_table("x_cm,y [mm],z (m),young [dyn/cm2]\n1,2,3,4e5\n0,0,0,1e5\n", "young", "t.csv", "");
+  EXPECT_DOUBLE_EQ(table.places[0][0], 10);
+  EXPECT_DOUBLE_EQ(table.places[0][1], 2);
+  EXPECT_DOUBLE_EQ(table.places[0][2], 3000);
+  EXPECT_EQ(table.values[0], 4e5);
+  EXPECT_EQ(table.unit, "dyn/cm2");
+  EXPECT_EQ(table.length_unit, "cm");
+  const auto plain = point_table("x,y,z,young,young_cm\n1,2,3,4,5\n0,0,0,1,1\n", "young", "t.csv", "");
+  EXPECT_EQ(plain.values[0], 4);
+  EXPECT_EQ(plain.unit + plain.length_unit, "");
+  // Another name is no unit, and a unit of something else no length.
+  EXPECT_THROW(point_table("x,y,z,young_modulus\n1,2,3,4\n0,0,0,1\n", "young", "t.csv", ""), InputError);
+  EXPECT_THROW(point_table("x [s],y,z,young\n1,2,3,4\n0,0,0,1\n", "young", "t.csv", ""), InputError);
+}
+
+/// Points around a tube of radius 1.5 and length 18 mm that begins at the origin.
+TEST(LengthSlip, IsTheUnitThatBringsPointsToTheirPlaces) {
+  std::vector<Point> places;
+  for (int k = 0; k <= 36; ++k)
+    for (int i = 0; i < 8; ++i) places.push_back({1.5 * std::cos(i), 1.5 * std::sin(i), 0.5 * k});
+  for (const auto& [unit, factor] : {std::pair{"cm", 10.0}, {"m", 1000.0}, {"um", 1e-3}, {"in", 25.4}}) {
+    std::vector<Point> points = places;
+    for (Point& x : points)
+      for (double& c : x) c /= factor;
+    const auto slip = length_slip(points, places);
+    ASSERT_TRUE(slip) << unit;
+    EXPECT_EQ(slip->unit, unit);
+    EXPECT_EQ(slip->factor, factor);
+    // Of a field, however far it goes beyond the places.
+    points.push_back({5 / factor, 5 / factor, 5 / factor});
+    const NearPoints near(points);
+    const auto distance = [&](const Point& x) { return std::sqrt(near.nearest(x, 1).front().first); };
+    for (const double within : {0.0, 0.5}) {
+      const auto of_field = length_slip(places, distance, within, 0.5 / factor);
+      ASSERT_TRUE(of_field) << unit;
+      EXPECT_EQ(of_field->unit, unit);
+    }
+  }
+  EXPECT_FALSE(length_slip(places, places));
+  std::vector<Point> line;  // a centre line, and one of another vessel
+  for (int k = 0; k <= 18; ++k) line.push_back({0, 0, 1.0 * k});
+  EXPECT_FALSE(length_slip(line, places));
+  for (Point& x : line) x[0] += 300;
+  EXPECT_FALSE(length_slip(line, places));
+}
 
 TEST(VtkFile, IsReadAsTextAndInBase64) {
   const VtkMesh mesh = read_vtk(text_of_vtk, "a.vtu");
