@@ -11,6 +11,7 @@
 #include "fem/facet_load.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/point_math.hpp"
+#include "mesh/surface_pieces.hpp"
 
 namespace fsi {
 
@@ -28,9 +29,15 @@ Point mean_inward(const InflowOpening<Element>& opening, const std::vector<int>&
   double area = 0;
   for (const int a : nodes) area += areas[a];
   const double length = norm(inward);
-  if (!(length > 1e-6 * area))
-    throw InputError(opening.file, "opening." + opening.name, "this surface has no mean normal for the flow to follow",
-                     "take a flow rate through a surface that does not surround the fluid");
+  if (!(length > 1e-6 * area)) {
+    const SurfacePieces pieces = pieces_of<Element::dim>(opening.nodes, opening.facets);
+    const bool apart = pieces.pieces.size() > 1;
+    throw InputError(opening.file, "opening." + opening.name,
+                     "this surface has no mean normal for the flow to follow" +
+                         (apart ? ": it " + said_of<Element::dim>(pieces) : std::string()),
+                     apart ? "give each opening a surface and an [[opening]] of its own"
+                           : "take a flow rate through a surface that does not surround the fluid");
+  }
   for (double& component : inward) component = std::abs(component) < 1e-10 * length ? 0.0 : component / length;
   return (1 / norm(inward)) * inward;
 }

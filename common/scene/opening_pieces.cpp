@@ -12,7 +12,7 @@ namespace {
 
 /// What takes all pieces of an opening together; empty: each piece has the same pressure, as it would alone.
 std::string takes_all(const OpeningData& opening) {
-  if (opening.flow_rate) return "its flow_rate is shared out among all of them";
+  if (opening.flow_rate) return "its flow_rate is shared out among all of them, along their mean normal";
   if (opening.law)
     return fmt::format("its {} takes the flow of all of them, and gives all one pressure", opening.law->name);
   if (opening.joined) return "the network takes the flow of all of them, and gives all one pressure";
