@@ -86,15 +86,12 @@ double forcing_term(const NewtonOptions& options, bool renewed, double ratio, do
   return std::max(eta, smallest_forcing);
 }
 
-/// Whether an iteration shows that the start was far from the solution, by those before it. The last digits do not count. Of
-/// a Jacobian that the call began with little is asked: that of another load contracts badly where nothing is wrong.
+/// Whether an iteration shows that the start was far from the solution, by those before it. The last digits do not count.
 bool strays(const NewtonIteration& now, const std::vector<NewtonIteration>& before) {
-  constexpr double straight = 0.5, small = 0.01, shortest_of_old = 0.5;
-  const bool was_new = std::any_of(before.begin(), before.end(), [](const auto& it) { return it.linearised; });
-  if (now.step < (now.linearised || was_new ? 1 : shortest_of_old)) return true;
-  if (before.empty() || now.increment <= small * before.front().increment) return false;
-  if (!was_new) return now.increment > (now.linearised ? before.front() : before.back()).increment;
-  return now.increment > straight * before.back().increment;
+  constexpr double straight = 0.5, small = 0.01;
+  if (now.step < 1) return true;
+  return !before.empty() && now.increment > straight * before.back().increment &&
+         now.increment > small * before.front().increment;
 }
 
 /// What an increment left of the residual tells what is left of the error: the increments to come, if each is `left` of
