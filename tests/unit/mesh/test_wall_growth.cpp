@@ -89,10 +89,10 @@ TetrahedralMesh block_around_a_hollow() {
   auto mesh = grid(
       {12, 12, 12},
       [](int i, int j, int k) {
-        return Point{0.5 * i, 0.5 * j, 0.5 * k};
+        return Point{i / 3.0, j / 3.0, k / 3.0};
       },
       [](int i, int j, int k) {
-        const auto within = [](int a) { return a >= 2 && a < 4; };
+        const auto within = [](int a) { return a >= 3 && a < 6; };
         return !(within(i) && within(j) && within(k));
       });
   name_facets(mesh, "outside", [](const Point& x) {
