@@ -17,14 +17,14 @@ constexpr double steepness = 3;
 }  // namespace
 
 GradientFit::GradientFit(std::vector<int> axes, int degree) : axes_(std::move(axes)), degree_(degree) {
-  static constexpr double factorial[] = {1, 1, 2, 6, 24};  // quadratic elements: up to degree four
-  for (int total = 0; total <= degree + 2; ++total)
+  static constexpr double factorial[] = {1, 1, 2, 6, 24};
+  for (int total = 0; total <= degree + 1; ++total)
     for (int i = total; i >= 0; --i)
       for (int j = total - i; j >= 0; --j) {
         const int k = total - i - j;
         if (axes_.size() < 3 && k > 0) continue;
         const double scale = std::sqrt(factorial[total] / (factorial[i] * factorial[j] * factorial[k]));
-        (total <= degree ? own_ : total <= degree + 1 ? above_ : beyond_).push_back({{i, j, k}, scale});
+        (total <= degree ? own_ : above_).push_back({{i, j, k}, scale});
       }
 }
 
@@ -101,7 +101,7 @@ double GradientFit::amplification() const {
 }
 
 Eigen::MatrixXd GradientFit::error_directions() const {
-  const Eigen::MatrixXd errors = values(left_out_ > 0 ? above_ : beyond_, lengths_).transpose() * weights_;
+  const Eigen::MatrixXd errors = values(above_, lengths_).transpose() * weights_;
   return errors.transpose() * errors;
 }
 

@@ -45,8 +45,9 @@ class GradientFit {
   /// Of the last solve(): sum |x_i - x_0|^(q+1) |w_i| for polynomials of degree q, which bounds the error of the
   /// gradient of a field by its derivatives of degree q + 1, mm^q.
   double remainder() const;
-  /// Of the last solve(): what the gradient makes of the polynomials that it has not exactly, of the lowest degree of
-  /// which there are any, as sum e e^T over those of unit length. By direction its error is expected like that, up to a
+  int left_out() const { return left_out_; }  ///< of the last solve()
+  /// Of the last solve(): what the gradient makes of the polynomials of the degree above, which it has not exactly where
+  /// directions are left out: sum e e^T over those of unit length. By direction its error is expected like that, up to a
   /// factor; in a layer one element thick nearly all along the normal.
   Eigen::MatrixXd error_directions() const;
   /// Of the last solve(): what the values at the points are multiplied with to give the gradient at the first, 1/mm.
@@ -63,7 +64,6 @@ class GradientFit {
   std::vector<int> axes_;
   int degree_, left_out_ = 0;
   std::vector<Monomial> own_, above_;  ///< up to the element's degree, the constant and the coordinates first; above it
-  std::vector<Monomial> beyond_;       ///< by two degrees
   Eigen::MatrixXd from_xi_;            ///< C^(1/2), mm
   Eigen::MatrixXd to_frame_;           ///< of the polynomials, 1/mm
   Eigen::MatrixXd lengths_;            ///< rows: points, seen from the first, over their root mean square

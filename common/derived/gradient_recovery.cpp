@@ -54,11 +54,13 @@ void keep_linear_fields(const std::vector<PatchPoint>& patch, const std::vector<
 class WeightSearch {
  public:
   explicit WeightSearch(const RecoveryCells& cells)
-      : axes_(cells.axes), patches_(cells), shapes_(cells), fit_(cells.axes, cells.order) {}
+      : axes_(cells.axes), patches_(cells), fit_(cells.axes, cells.order) {
+    if (cells.along_boundaries) shapes_.emplace(cells);
+  }
 
   /// \returns whether the polynomial has the degree above the element's in all directions
   bool find(int node) {
-    const SurfaceShape* shape = shapes_.at(node);
+    const SurfaceShape* shape = shapes_ ? shapes_->at(node) : nullptr;
     bool full = find_full(node, shape);
     if (!full && !find_reduced(node, shape)) {  // the first ring reaches the centre of curvature
       shape = nullptr;
@@ -120,8 +122,9 @@ class WeightSearch {
 
   void take() {
     weights_ = fit_.weights();
-    const Eigen::MatrixXd directions = fit_.error_directions();
     error_directions_ = {};
+    if (fit_.left_out() == 0) return;
+    const Eigen::MatrixXd directions = fit_.error_directions();
     for (std::size_t r = 0; r < axes_.size(); ++r)
       for (std::size_t c = 0; c < axes_.size(); ++c)
         error_directions_(axes_[r], axes_[c]) =
@@ -130,7 +133,7 @@ class WeightSearch {
 
   std::vector<int> axes_;
   RecoveryPatches patches_;
-  SurfaceShapes shapes_;
+  std::optional<SurfaceShapes> shapes_;
   GradientFit fit_;
   PointWeights weights_;
   Mat3<double> error_directions_{};

@@ -56,7 +56,7 @@ class GradientRecovery {
   /// Nodes at which the polynomial lacks some directions of the degree above the element's.
   std::size_t fallbacks() const { return fallbacks_; }
 
-  /// GradientFit::error_directions() in space, of trace one.
+  /// GradientFit::error_directions() in space, of trace one; zero where no direction is left out.
   const Mat3<double>& error_directions(std::size_t i) const { return error_directions_[i]; }
 
   /// Of the field's vectors, (i, j) = d u_i / d X_j in space, with u_r / r in (1, 1) of bodies of revolution; at entry

@@ -24,6 +24,7 @@ struct RecoveryCells {
   std::vector<int> axes;  ///< of space, one per coordinate
   bool axisymmetric = false;
   std::vector<RecoveryMirror> mirrors{};
+  bool along_boundaries = false;  ///< what the field is follows curved boundaries, as in thin layers of a wall
   int corners = static_cast<int>(axes.size()) + 1;  ///< of a cell, its first nodes; facets have one less
 };
 

@@ -180,6 +180,7 @@ class WallStressOf : public WallStress<Element::components> {
         for (int a = 0; a < Element::nodes; ++a) ends[cell[a]] = ends_of(cell, a);
       }
       cells.mirrors = recovery_mirrors<Element>(mesh, part, cells.nodes);
+      cells.along_boundaries = true;
       std::vector<int> at;
       for (const auto& [node, of_node] : ends)
         if (!here || here->owns_whole(node)) at.push_back(node);
