@@ -168,6 +168,11 @@ class MeshAndStep(unittest.TestCase):
         bar = self.bar(0.1, 0.02, loose=0.009)
         self.assertAlmostEqual(bar.solver, 3 * 0.009 / 9)
 
+    def test_error_of_the_solver_that_hides_all_orders_widens(self):
+        bar = self.bar(0.001, 0.0005, loose=0.9)
+        self.assertEqual((bar.mesh.state, bar.step.state, bar.verdict), (SILENT, SILENT, BAR_WIDENED))
+        self.assertGreaterEqual(bar.total, 0.1)
+
     def test_bar_elsewhere_falls_with_the_orders(self):
         bar = self.bar(0.1, 0.02)
         self.assertAlmostEqual(bar.at(0.5, 0.5), bar.total / 4, delta=0.02 * bar.total)

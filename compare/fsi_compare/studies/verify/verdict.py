@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple
 
 from .curve_norms import CurveNorm
-from .direction import NOTHING, OUTSIDE, WIDENED, Part, by_elements, part_of, part_of_curves
+from .direction import NOTHING, OUTSIDE, SILENT, WIDENED, Part, by_elements, part_of, part_of_curves
 
 CONVERGES, BAR_WIDENED, NOT_IN_RANGE = (
     "converges as its elements do",
@@ -180,6 +180,11 @@ def _judged(mesh: Part, step: Part, together: float, solver: float, negligible: 
     if together > mesh.bar + step.bar + solver and together > negligible:
         return NOT_IN_RANGE, _advice(["mesh", "step"])
     widened = any(part.state in (WIDENED, OUTSIDE) for _, part in counting) or together > 0.5 * (mesh.bar + step.bar)
+    drowned = (mesh.state, step.state) == (
+        SILENT,
+        SILENT,
+    ) and solver > negligible  # no order is seen for the solver's error
+    widened = widened or drowned
     return (BAR_WIDENED if widened else CONVERGES), ""
 
 
