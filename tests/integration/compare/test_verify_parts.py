@@ -24,6 +24,7 @@ from fsi_compare.studies.verify.geo_sizes import graded_text, read_sizes
 from fsi_compare.studies.verify.lean import between, cross, lean, starting_member
 from fsi_compare.studies.verify.artery_sizes import LEVELS, RECOMMENDED, artery_words
 from fsi_compare.studies.verify.mesh_family import ratio_for
+from fsi_compare.studies.verify.preparing import tell_damped
 from fsi_compare.studies.verify.quantities import Asked, Curve, peak, quantities_of
 from fsi_compare.studies.verify.results import Judged, about
 from fsi_compare.studies.verify.tolerances import (
@@ -288,6 +289,24 @@ class Tolerances(unittest.TestCase):
 
 
 class MeshWords(unittest.TestCase):
+    def test_says_where_the_error_of_a_recommended_mesh_does_not_hold(self):
+        def said(mesh, order=2.0, step=0.03125):
+            facts = types.SimpleNamespace(
+                entries={"mesh": mesh}, time_order=order, static=False, adaptive=False, step=step
+            )
+            notes = []
+            tell_damped(types.SimpleNamespace(requests=types.SimpleNamespace(facts=facts), note=notes.append))
+            return notes
+
+        self.assertIn("mesh.error = 10% holds for damped waves", said({"error": "10%"})[0])
+        for quiet in (
+            said({"error": "10%", "waves": "resolved"}),
+            said({"error": "10%"}, 1.0),
+            said({"file": "a.msh"}),
+        ):
+            self.assertEqual(quiet, [])
+        self.assertEqual(said({"error": "10%"}, step=0.125), [])
+
     def test_sizes_of_levels_are_those_of_fsi_mesh(self):
         source = (SOURCES / "common/mesh/artery/options.cpp").read_text()
         table = re.search(r"constexpr Level levels\[\] = \{(.*)\};", source)[1]
