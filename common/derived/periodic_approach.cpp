@@ -19,6 +19,14 @@ struct Approach {
   bool settled = false;
 };
 
+/// What a period leaves of the change itself, in the mean of the last two. A mean that swings while it falls has no
+/// contraction of its own, and may pass through zero.
+double fall_of_change(const std::vector<PeriodChange>& changes, std::size_t period) {
+  const double last = changes[period].largest();
+  if (period == 0) return std::numeric_limits<double>::infinity();
+  return period < 2 ? last / changes[period - 1].largest() : std::sqrt(last / changes[period - 2].largest());
+}
+
 /// Of a quantity after a period, by its number, as far as the last two contractions tell.
 Approach observed_approach(const std::vector<PeriodChange>& changes, std::size_t period, std::size_t q,
                            const PeriodicDemand& demand) {
@@ -28,7 +36,9 @@ Approach observed_approach(const std::vector<PeriodChange>& changes, std::size_t
   approach.settled = std::abs(last - before) <= settled;
   if (!std::isnan(last)) {
     const double observed = std::isnan(before) ? last : std::max(last, before);
-    approach.contraction = approach.settled ? observed : std::max(observed, demand.law_contraction);
+    approach.contraction = approach.settled
+                               ? observed
+                               : std::max(std::min(observed, fall_of_change(changes, period)), demand.law_contraction);
     if (approach.contraction < 1)  // else it does not fall
       approach.distance = change * std::max(0.0, approach.contraction) / (1 - approach.contraction);
   }

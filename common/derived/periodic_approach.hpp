@@ -27,8 +27,8 @@ struct PeriodicStanding {
 /// Where a run stands after the last of these periods. A transient that falls by lambda each period has
 ///   d lambda/(1 - lambda)
 /// before it after a period that changed by d: 9.5 d behind a Windkessel whose time constant is ten periods. lambda is
-/// observed, the larger of the last two. While these differ, faster transients hide slower ones: then it counts as no less
-/// than that of the slowest law by itself. Pressures, flows and displacements are judged each by itself.
+/// observed, the larger of the last two. While these differ, the mean swings, or faster transients hide slower ones: then it
+/// counts as no more than what is left of the change at all phases, and as no less than that of the slowest law by itself. Pressures, flows and displacements are judged each by itself.
 PeriodicStanding standing_of(const std::vector<PeriodChange>& changes, const PeriodicDemand& demand);
 
 }  // namespace fsi

@@ -115,6 +115,13 @@ TEST(PeriodicApproach, TellsWhatStepsLeaveFromATransient) {
       << "a transient is left";
 }
 
+TEST(PeriodicApproach, IsNotHeldUpByAMeanThatPassesThroughZeroAsItSwings) {
+  const std::vector<PeriodChange> changes{change_by(0.08, 0.03, NAN), change_by(0.03, 1e-4, -0.003),
+                                          change_by(0.009, 4e-3, -40), change_by(0.003, 3.9e-3, 0.98)};
+  EXPECT_TRUE(standing_of({changes.begin(), changes.begin() + 3}, {0.01, 0.5}).reached);
+  EXPECT_TRUE(standing_of(changes, {0.01, 0.5}).reached) << "all that changes falls by three in each period";
+}
+
 TEST(PeriodicApproach, SaysHowManyPeriodsAreLeft) {
   const PeriodicStanding standing =
       standing_of({change_by(0.02, 0.02, NAN), change_by(0.016, 0.016, 0.8), change_by(0.0128, 0.0128, 0.8)}, {0.01});
