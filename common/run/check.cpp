@@ -138,6 +138,7 @@ void describe_trial(const Trial& trial, const Loads& loads, const Communicator& 
                                          processes.is_alone() ? "" : ", all processes together")});
   if (trial.seconds.empty()) return;
   lines.push_back({"first step", fmt::format("{}, {:.3g} s", text_of_iterations(trial.first), trial.seconds.front())});
+  if (!trial.failure.empty()) return;
   const double run = trial.seconds.front() + (loads.steps() - 1) * trial.seconds.back();
   lines.push_back({"run", fmt::format("about {} if all {} steps are like {}, without output", readable_duration(run),
                                       loads.steps(), trial.seconds.size() > 1 ? "the second" : "the first")});

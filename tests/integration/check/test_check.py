@@ -19,6 +19,7 @@ surface = "outer"
 normal_spring = 2.0
 """
 TIME = "[time]\nstep = 0.125\nend = 2.5\n"
+AT_REST = OPENINGS.replace("distal = 2.0", "distal = 2.0, initial_pressure = 0.1, distal_pressure = 0.1")
 SAMPLES = "[output.points]\nmiddle = [0, 0, 1.5]\n[output.planes.cut]\norigin = [0, 0, 1.5]\nnormal = [0, 0, 1]\n"
 
 
@@ -89,8 +90,7 @@ class Check(FolderTest):
 
     def test_prestress(self):
         """Of a small wall it is found, as a run does before its first step; a kept one is read."""
-        rest = OPENINGS.replace("distal = 2.0", "distal = 2.0, initial_pressure = 0.1, distal_pressure = 0.1")
-        text = FLUID + WALL + rest + TIME
+        text = FLUID + WALL + AT_REST + TIME
         prestress = "[prestress]\npressure = 0.1\n"
         for program in DRIVERS:
             with self.subTest(program=program):
@@ -107,7 +107,7 @@ class Check(FolderTest):
         """Nor is a step tried then: it would be that of another wall. 47,000 unknowns of the wall."""
         size = ("--lumen-cells", 4, "--media-cells", 2, "--adventitia-cells", 2, "--axial-cells", 18, "--around", 24)
         mesh = make_mesh(self.base / "fine.msh", "--length", 6, *size, "--order", 2)
-        text = FLUID + WALL + OPENINGS + TIME + "[prestress]\npressure = 0.1\n"
+        text = FLUID + WALL + AT_REST + TIME + "[prestress]\npressure = 0.1\n"
         for program in DRIVERS:
             with self.subTest(program=program):
                 said = self.check(program, text, geometry="3d", mesh=mesh)
@@ -118,7 +118,7 @@ class Check(FolderTest):
     def test_a_step_without_solution(self):
         blown = WALL + "[load]\npressure = 50\n[static]\nload_steps = 1\n"
         said = self.check(MONOLITHIC, blown)
-        self.assertIn("finds no solution: load step 1", said["step tried"])
+        self.assertRegex(said["step tried"], r"finds no solution: load step \d \(to 0\.0\d* of the load\)", "halved")
         self.assertNotIn("run", said)
 
     def test_what_a_run_refuses(self):
