@@ -9,6 +9,7 @@
 
 #include "mesh/corner_cells.hpp"
 #include "mesh/curved_cells.hpp"
+#include "mesh/facets.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
 
