@@ -11,6 +11,7 @@
 #include "derived/gradient_recovery.hpp"
 #include "derived/recovery_mirrors.hpp"
 #include "fem/elements.hpp"
+#include "mesh/point_math.hpp"
 #include "parallel/whole_field.hpp"
 #include "wall/varying_hyperelastic.hpp"
 #include "wall/wall_problem.hpp"
@@ -172,15 +173,18 @@ class WallStressOf : public WallStress<Element::components> {
                           {std::begin(Element::axis), std::end(Element::axis)},
                           Element::axisymmetric};
       std::map<int, std::array<int, 2>> ends;  // of nodes
+      bool curved = false;
       const int region = mesh.region_index(name);
       for (std::size_t c = 0; c < part.cells.size(); ++c) {
         if (part.cell_region[c] != region) continue;
         const auto& cell = part.cells[c];
         cells.nodes.insert(cells.nodes.end(), cell.begin(), cell.end());
         for (int a = 0; a < Element::nodes; ++a) ends[cell[a]] = ends_of(cell, a);
+        curved = curved || has_curved_edges(part.nodes, cell);
       }
       cells.mirrors = recovery_mirrors<Element>(mesh, part, cells.nodes);
-      cells.along_boundaries = true;
+      // Facets without curvature of their own tell too little of that of an irregular surface (docs/theory.md, 11a.1).
+      cells.along_boundaries = curved;
       std::vector<int> at;
       for (const auto& [node, of_node] : ends)
         if (!here || here->owns_whole(node)) at.push_back(node);
@@ -238,6 +242,18 @@ class WallStressOf : public WallStress<Element::components> {
   }
 
  private:
+  /// Whether a mid-edge node is off the middle of its edge: not of linear elements, nor of straight-edged quadratic ones.
+  template <class Cell>
+  static bool has_curved_edges(const std::vector<Point>& nodes, const Cell& cell) {
+    constexpr double least = 1e-3;  // of the edge: half a degree
+    for (int a = Element::dim + 1; a < Element::nodes; ++a) {
+      const auto [first, second] = ends_of(cell, a);
+      const Point middle = 0.5 * (nodes[first] + nodes[second]);
+      if (distance(nodes[cell[a]], middle) > least * distance(nodes[first], nodes[second])) return true;
+    }
+    return false;
+  }
+
   /// The edge's vertices of a mid-edge node, ascending; a vertex itself.
   template <class Cell>
   static std::array<int, 2> ends_of(const Cell& cell, int a) {

@@ -47,6 +47,22 @@ double relative_to_step(const State& state, const StepData& data, const FieldDif
 }
 
 template <int n>
+bool stays(const Wall<n>& wall, const std::vector<double>& before, const std::vector<double>& after) {
+  constexpr double rounding = 1e-9;
+  const std::vector<double> volumes = owned_volumes<n>(wall.space(), wall.nodes());
+  double sums[2] = {};  // of squares of the way, and of volumes
+  for (int a = 0; a < wall.node_count(); ++a) {
+    for (int k = 0; k < n; ++k) {
+      const double way = after[MixedLayout<n>::vector(a, k)] - before[MixedLayout<n>::vector(a, k)];
+      sums[0] += volumes[a] * way * way;
+    }
+    sums[1] += volumes[a];
+  }
+  wall.nodes().processes().sum(sums, 2);
+  return std::sqrt(sums[0] / sums[1]) <= rounding * std::cbrt(sums[1]);
+}
+
+template <int n>
 double relative_distance(const Wall<n>& wall, const std::vector<double>& before, const std::vector<double>& one,
                          const std::vector<double>& other) {
   const std::vector<double> volumes = owned_volumes<n>(wall.space(), wall.nodes());
@@ -74,6 +90,7 @@ std::vector<double> owned_volumes(const FunctionSpace<n>& space, const PartNodes
                                       const Communicator&);                                                          \
   template double relative_distance<n>(const Wall<n>&, const std::vector<double>&, const std::vector<double>&,       \
                                        const std::vector<double>&);                                                  \
+  template bool stays<n>(const Wall<n>&, const std::vector<double>&, const std::vector<double>&);                    \
   template std::vector<double> owned_volumes<n>(const FunctionSpace<n>&, const PartNodes&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 

@@ -31,6 +31,11 @@ template <int n>
 double relative_distance(const Wall<n>& wall, const std::vector<double>& before, const std::vector<double>& one,
                          const std::vector<double>& other);
 
+/// Whether the wall is where it was but for rounding: the root mean square of what it moves by is below 1e-9 of its size, the
+/// cube root of its volume. Of all processes.
+template <int n>
+bool stays(const Wall<n>& wall, const std::vector<double>& before, const std::vector<double>& after);
+
 /// The volumes that belong to the nodes of a part, mm^3; zero at nodes of other processes, which count them.
 template <int n>
 std::vector<double> owned_volumes(const FunctionSpace<n>& space, const PartNodes& part);

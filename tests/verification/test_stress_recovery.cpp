@@ -95,7 +95,9 @@ struct Errors {
 
 template <class Element>
 class ThinCurvedLayers : public testing::Test {};
-TYPED_TEST_SUITE(ThinCurvedLayers, Elements, ElementNames);
+// Linear elements have no curved edges: along a bent layer their stresses are recovered in coordinates of space (theory 11a.1).
+using QuadraticElements = testing::Types<P2P1Tetrahedron, P2P1PlaneTriangle, P2P1AxisymmetricTriangle>;
+TYPED_TEST_SUITE(ThinCurvedLayers, QuadraticElements, ElementNames);
 
 // The tube of docs/theory.md, section 13.1: r^2 = R^2 + a^2 - R_i^2, sigma' = mu dev diag(1/s^2, s^2, 1) in (r, theta, z)
 // with s = r/R, and a pressure that is linear in R.

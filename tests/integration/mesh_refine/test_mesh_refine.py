@@ -138,7 +138,7 @@ class MeshRefine(FolderTest):
             ("cube.msh", (), ("cube.msh: fluid: element 1", "hexahedra", "mesh with tetrahedra only")),
             ("nameless.msh", (), ("nameless.msh: $PhysicalNames: the file names no physical",)),
             ("shape.geo", (), ("shape.geo: is a script, no mesh", "fsi-mesh geo", "--set NAME=SIZE")),
-            ("tube.msh", ("--times", 0), ("--times",)),
+            ("tube.msh", ("--times", -1), ("--times",)),
             ("tube.msh", ("--times", 10, "--order", 2), ("--order",)),
         ):
             with self.subTest(file=file, options=options):
