@@ -149,6 +149,7 @@ class StaticWall(FolderTest):
                 "solve: coupled",
                 "energy balance",
                 "level check",
+                "wall check",
                 "checkpoint",
                 "output",
             },
