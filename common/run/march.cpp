@@ -20,7 +20,8 @@ namespace {
 constexpr double first_share = 1.0 / 32, largest_share = 1;
 constexpr double its_tolerance = 0.01;  // of the first step, which goes with the root of the tolerance
 
-constexpr double same_state = 0.01;  // of what a load step changes
+constexpr double same_state = 0.01;   // of what a load step changes
+constexpr double same_energy = 1e-3;  // likewise
 
 }  // namespace
 
@@ -120,6 +121,13 @@ std::string March<n>::doubt_about(const State& before, const State& after, const
 }
 
 template <int n>
+bool March<n>::have_same_energy(const State& before, const State& one, const State& other) const {
+  const double a = load_path_energy(scene_, loads_, one.step, before, one).stored;
+  const double b = load_path_energy(scene_, loads_, one.step, before, other).stored;
+  return std::abs(a - b) <= same_energy * std::max(std::abs(a), std::abs(b));
+}
+
+template <int n>
 StepReport March<n>::load_step(State& state) {
   const State before = state;
   StepReport report = stepper_.advance(state);
@@ -140,7 +148,7 @@ StepReport March<n>::load_step(State& state) {
     for (int half = 0; half < 2; ++half) add(stepper_.advance(state));
     const double apart =
         relative_distance(*scene_.wall, before.before[0].wall, whole.before[0].wall, state.before[0].wall);
-    if (!(apart <= same_state))
+    if (!(apart <= same_state) && !have_same_energy(before, whole, state))
       other = fmt::format("they come to another state, {:.2g} % of the step's displacement away", 100 * apart);
   } catch (const ConvergenceError& failure) {
     add(stepper_.report());

@@ -64,6 +64,9 @@ class March : private StepJudge {
   StepReport load_step(State& state);
   /// Why a load step is looked at again, a clause; empty: it is not.
   std::string doubt_about(const State& before, const State& after, const StepReport& report) const;
+  /// Whether two ends of a load step have the same elastic energy: then they differ by what costs none, as rigid motions of a
+  /// wall on soft springs do, and are not two branches.
+  bool have_same_energy(const State& before, const State& one, const State& other) const;
 
   const Case& setup_;
   const Scene<n>& scene_;
