@@ -17,18 +17,25 @@ namespace fsi {
 
 namespace {
 
+thread_local bool refused = false;  // an allocation for UMFPACK has failed
+
+void* noticed(void* memory) {
+  refused = refused || memory == nullptr;
+  return memory;
+}
+
 // UMFPACK copes with allocations that fail: it asks for less.
 void* malloc_for_umfpack(std::size_t size) {
   const MayFail umfpack_asks_for_less;
-  return std::malloc(size);
+  return noticed(std::malloc(size));
 }
 void* calloc_for_umfpack(std::size_t count, std::size_t size) {
   const MayFail umfpack_asks_for_less;
-  return std::calloc(count, size);
+  return noticed(std::calloc(count, size));
 }
 void* realloc_for_umfpack(void* old, std::size_t size) {
   const MayFail umfpack_asks_for_less;
-  return std::realloc(old, size);
+  return noticed(std::realloc(old, size));
 }
 const bool umfpack_may_fail = [] {
 #if SUITESPARSE_VERSION >= SUITESPARSE_VER_CODE(6, 0)
@@ -174,10 +181,15 @@ void DirectSolver::factorise(const SparseMatrix& a) {
   double info[UMFPACK_INFO];
   const Activity activity("factorising a matrix");
   if (!my.symbolic) {
+    refused = false;
     const auto status =
         umfpack_dl_symbolic(a.size(), a.size(), offsets, rows, a.values.data(), &my.symbolic, my.control, info);
-    if (status == UMFPACK_ERROR_out_of_memory)
+    // An ordering that gets no memory is replaced by another in silence, which would change the bits of the result.
+    if (status == UMFPACK_ERROR_out_of_memory || refused) {
+      if (my.symbolic) umfpack_dl_free_symbolic(&my.symbolic);
+      my.symbolic = nullptr;
       throw OutOfMemory(fmt::format("the symbolic analysis of {} unknowns does not fit", a.size()));
+    }
     if (status < 0)
       throw ConvergenceError(fmt::format("sparse factorisation: symbolic analysis failed (UMFPACK status {})", status),
                              "a smaller time step, and check the materials");
