@@ -88,7 +88,7 @@ std::string unit_word(const CaseEntry& entry, const char* key, const std::string
 /// Brings places and values to mm and the unit of the constant. \return the unit that places were in
 std::string apply_units(const CaseEntry& entry, const Parameter& parameter, const UnitsOfFile& own, bool& unit_given,
                         FieldSamples& samples) {
-  const std::string lengths = unit_word(entry, "length_unit", own.places);
+  std::string lengths = unit_word(entry, "length_unit", own.places);
   if (own.places.empty() && !lengths.empty()) {
     const auto factor = length_unit(lengths);
     if (!factor) entry.child("length_unit").refuse_value("is no known unit of length", "give " + known_length_units());

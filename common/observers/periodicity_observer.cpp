@@ -132,8 +132,7 @@ class PeriodicityObserver : public Observer {
     if (!standing.distance)
       return changes_.size() < 2 ? "how far the periodic state is shows after the next period"
                                  : "how far the periodic state is does not show yet: the change does not fall";
-    const std::string left =
-        fmt::format("its mean is about {:.3g} % from the periodic state", 100 * *standing.distance);
+    std::string left = fmt::format("its mean is about {:.3g} % from the periodic state", 100 * *standing.distance);
     if (!standing.contraction || *standing.contraction <= 0) return left;
     return left + fmt::format(", to which each period leaves {:.3g} of the way", *standing.contraction);
   }

@@ -35,9 +35,10 @@ double largest_magnitude(const PressureTable& table, double end) {
 }
 
 /// Largest difference of a table's values from one, up to `end`.
-double largest_change(PressureTable table, double from, double end) {
-  for (auto& [time, value] : table.points) value -= from;
-  return largest_magnitude(table, end);
+double largest_change(const PressureTable& table, double from, double end) {
+  PressureTable change = table;
+  for (auto& [time, value] : change.points) value -= from;
+  return largest_magnitude(change, end);
 }
 
 /// Pressures that the case gives to its fluid, kPa: their largest distance from that at rest.

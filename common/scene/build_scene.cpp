@@ -71,7 +71,8 @@ std::string problem_of(const LostPressures& lost) {
 
 template <class Element>
 std::string remedy_of(const Case& setup, const LostPressures& lost) {
-  const std::string cells = CellWords<Element::dim>::cells, others = "mesh finer there, or take element = \"p1\"";
+  const std::string cells = CellWords<Element::dim>::cells;
+  std::string others = "mesh finer there, or take element = \"p1\"";
   if (!lost.corner()) return others;
   const std::string mesh = setup.mesh.file.empty() ? "MESH.msh" : setup.mesh.file.string();
   return fmt::format("fsi-mesh refine {} --times 0 -o NEW.msh divides {} in corners; or {}", mesh, cells, others);

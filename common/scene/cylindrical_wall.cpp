@@ -43,7 +43,7 @@ struct BodyFaces {
 }  // namespace
 
 template <class Element>
-bool is_cylinder(const MeshOf<Element>& mesh, const std::vector<WallFacet<Element>>& boundary, Axis axis) {
+bool is_cylinder(const MeshOf<Element>& mesh, const WallFacets<Element>& boundary, Axis axis) {
   if (Element::dim == 2) axis.direction = {0, 0, 1};
   if (Element::axisymmetric) axis.origin = {0, 0, 0};
   const AxisFrame frame(axis);
@@ -62,7 +62,7 @@ bool is_cylinder(const MeshOf<Element>& mesh, const std::vector<WallFacet<Elemen
 }
 
 #define FSI_INSTANTIATE(Element) \
-  template bool is_cylinder<Element>(const MeshOf<Element>&, const std::vector<WallFacet<Element>>&, Axis);
+  template bool is_cylinder<Element>(const MeshOf<Element>&, const WallFacets<Element>&, Axis);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -12,6 +12,6 @@ namespace fsi {
 /// of the two. "One" allows for the flat facets of a mesh of 12 elements around that was refined: 4 %.
 /// \param axis  of triangles in a plane its origin counts, of a body of revolution it is the body's own
 template <class Element>
-bool is_cylinder(const MeshOf<Element>& mesh, const std::vector<WallFacet<Element>>& boundary, Axis axis);
+bool is_cylinder(const MeshOf<Element>& mesh, const WallFacets<Element>& boundary, Axis axis);
 
 }  // namespace fsi

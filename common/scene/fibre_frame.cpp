@@ -124,7 +124,7 @@ std::string text_of_axis(const StructureData& data) {
 
 template <class Element>
 FrameBoundary frame_boundary(const MeshOf<Element>& mesh, const PartOf<Element>& wall,
-                             const std::vector<WallFacet<Element>>& facets, const std::string& case_file,
+                             const WallFacets<Element>& facets, const std::string& case_file,
                              const std::string& subject) {
   const VesselFaces<Element> faces = vessel_faces<Element>(mesh, facets);
   ConnectedNodes body(mesh.nodes.size());
@@ -212,11 +212,10 @@ WallFrame wall_frame(const Case& setup, const MeshOf<Element>& mesh, const PartO
   return frame;
 }
 
-#define FSI_INSTANTIATE(Element)                                                                             \
-  template FrameBoundary frame_boundary<Element>(const MeshOf<Element>&, const PartOf<Element>&,             \
-                                                 const std::vector<WallFacet<Element>>&, const std::string&, \
-                                                 const std::string&);                                        \
-  template WallFrame wall_frame<Element>(const Case&, const MeshOf<Element>&, const PartOf<Element>&,        \
+#define FSI_INSTANTIATE(Element)                                                                                      \
+  template FrameBoundary frame_boundary<Element>(const MeshOf<Element>&, const PartOf<Element>&,                      \
+                                                 const WallFacets<Element>&, const std::string&, const std::string&); \
+  template WallFrame wall_frame<Element>(const Case&, const MeshOf<Element>&, const PartOf<Element>&,                 \
                                          const std::vector<int>&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE

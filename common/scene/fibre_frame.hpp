@@ -34,7 +34,7 @@ WallFrame wall_frame(const Case& setup, const MeshOf<Element>& mesh, const PartO
 /// \throws InputError where a piece of the wall has no inner or outer face, or fewer than two ends
 template <class Element>
 FrameBoundary frame_boundary(const MeshOf<Element>& mesh, const PartOf<Element>& wall,
-                             const std::vector<WallFacet<Element>>& facets, const std::string& case_file,
+                             const WallFacets<Element>& facets, const std::string& case_file,
                              const std::string& subject);
 
 }  // namespace fsi

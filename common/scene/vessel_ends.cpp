@@ -38,7 +38,7 @@ class FaceFinder {
  public:
   static constexpr int dim = Element::dim;
 
-  FaceFinder(const MeshOf<Element>& mesh, const std::vector<WallFacet<Element>>& boundary)
+  FaceFinder(const MeshOf<Element>& mesh, const WallFacets<Element>& boundary)
       : mesh_(mesh), boundary_(boundary), sets_(boundary.size()) {
     join();
     meet_inner();
@@ -162,7 +162,7 @@ class FaceFinder {
   }
 
   const MeshOf<Element>& mesh_;
-  const std::vector<WallFacet<Element>>& boundary_;
+  const WallFacets<Element>& boundary_;
   DisjointSets sets_;                       ///< of facets that make up a face, which is known by its root
   std::vector<std::pair<int, int>> pairs_;  ///< facets with a common side
   std::map<int, int> edges_;         ///< per face, how many more sides meet the inner face at an edge than do not
@@ -173,12 +173,12 @@ class FaceFinder {
 }  // namespace
 
 template <class Element>
-VesselFaces<Element> vessel_faces(const MeshOf<Element>& mesh, const std::vector<WallFacet<Element>>& boundary) {
+VesselFaces<Element> vessel_faces(const MeshOf<Element>& mesh, const WallFacets<Element>& boundary) {
   return FaceFinder<Element>(mesh, boundary).sorted();
 }
 
 #define FSI_INSTANTIATE(Element) \
-  template VesselFaces<Element> vessel_faces<Element>(const MeshOf<Element>&, const std::vector<WallFacet<Element>>&);
+  template VesselFaces<Element> vessel_faces<Element>(const MeshOf<Element>&, const WallFacets<Element>&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -22,6 +22,6 @@ struct VesselFaces {
 /// - A plane of symmetry that touches an end is a cut along the vessel. One that touches none and no other such plane is a
 ///   cut across it: an end.
 template <class Element>
-VesselFaces<Element> vessel_faces(const MeshOf<Element>& mesh, const std::vector<WallFacet<Element>>& boundary);
+VesselFaces<Element> vessel_faces(const MeshOf<Element>& mesh, const WallFacets<Element>& boundary);
 
 }  // namespace fsi

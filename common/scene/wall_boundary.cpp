@@ -64,7 +64,7 @@ DisjointSets bodies_of(const Mesh& mesh, const std::vector<int>& regions) {
 }  // namespace
 
 template <class Element>
-std::vector<WallFacet<Element>> wall_boundary(const MeshOf<Element>& mesh, const std::vector<int>& wall_regions) {
+WallFacets<Element> wall_boundary(const MeshOf<Element>& mesh, const std::vector<int>& wall_regions) {
   const FacetSet<Element> inner(inner_surface<Element>(mesh, wall_regions)), ends(group_facets(mesh, group::wall_ends));
   std::vector<FacetSet<Element>> planes;
   for (const auto& plane : symmetry_planes(mesh)) planes.emplace_back(plane.group->facets);
@@ -77,7 +77,7 @@ std::vector<WallFacet<Element>> wall_boundary(const MeshOf<Element>& mesh, const
     return static_cast<int>(numbers.size()) - 1;
   };
 
-  std::vector<WallFacet<Element>> boundary;
+  WallFacets<Element> boundary;
   for (const auto& found : boundary_facets(mesh, wall_regions)) {
     WallFacet<Element> facet{found.nodes, unit_normal<Element>(mesh, found.nodes), WallFacetKind::other};
     const auto key = facet_key<Element::dim>(found.nodes);
@@ -98,7 +98,7 @@ std::vector<WallFacet<Element>> wall_boundary(const MeshOf<Element>& mesh, const
 }
 
 #define FSI_INSTANTIATE(Element) \
-  template std::vector<WallFacet<Element>> wall_boundary<Element>(const MeshOf<Element>&, const std::vector<int>&);
+  template WallFacets<Element> wall_boundary<Element>(const MeshOf<Element>&, const std::vector<int>&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -25,8 +25,11 @@ struct WallFacet {
   int body = 0;    ///< number of the connected piece of wall that it bounds
 };
 
+template <class Element>
+using WallFacets = std::vector<WallFacet<Element>>;
+
 /// The boundary of the union of these regions, layers together.
 template <class Element>
-std::vector<WallFacet<Element>> wall_boundary(const MeshOf<Element>& mesh, const std::vector<int>& wall_regions);
+WallFacets<Element> wall_boundary(const MeshOf<Element>& mesh, const std::vector<int>& wall_regions);
 
 }  // namespace fsi
