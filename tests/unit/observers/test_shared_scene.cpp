@@ -237,7 +237,7 @@ TYPED_TEST(SharedScene, DerivedQuantitiesAreThoseOfTheWhole) {
   EXPECT_TRUE(found.stress->has_fibres());
   const auto& nodes = twins.parts.wall_here->whole_nodes();
   ASSERT_GE(stress_here.cauchy.size(), nodes.size());  // behind them mid-edge nodes of further layers
-  for (std::size_t a = 0; a < nodes.size(); ++a) {  // copies, too
+  for (std::size_t a = 0; a < nodes.size(); ++a) {     // copies, too
     for (int i = 0; i < 9; ++i)
       EXPECT_NEAR(stress_here.cauchy[a](i / 3, i % 3), stress.cauchy[nodes[a]](i / 3, i % 3), 1e-9);
     for (std::size_t family = 0; family < 2; ++family)
