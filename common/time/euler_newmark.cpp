@@ -16,6 +16,7 @@ StepRates EulerNewmark<Components>::rates_of(const State& state, double step, in
   rates.time = rates.end = state.time + step;
   rates.load = {{rates.start, rates.end, 1}};
   rates.interface.period = step;
+  rates.strain_lag = step / 2;
   rates.fluid_factor = 1.0 / step;
   rates.acceleration_factor = 1.0 / (newmark_.beta * step * step);
   rates.mesh_reference = old.mesh;

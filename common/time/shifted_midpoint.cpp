@@ -42,6 +42,7 @@ StepRates ShiftedMidpoint<n>::rates_of(const State& state, double step, int) con
   rates.end = state.time + step;
   rates.time = theta < 1 ? state.time + theta * step : rates.end;
   rates.carry = theta;
+  rates.strain_lag = (theta - 0.5) * step;
   rates.load = {{rates.start, rates.end, 1}};
   return rates;
 }

@@ -25,7 +25,7 @@ struct StepRates {
   std::vector<double> branches_reference{};  ///< of what Maxwell branches keep, with the rate of the wall
   std::vector<double> acceleration_history;  ///< mm/ms^2
   /// ms, from the middle of the way that the velocity of the balance is made of to the balance: there F^T grad v is the
-  /// rate of a strain, and that of a rigid rotation zero (docs/theory.md, section 5.10). No scheme sets it yet.
+  /// rate of a strain, and that of a rigid rotation zero (docs/theory.md, section 5.10).
   double strain_lag = 0;
 
   int stage = 0;               ///< from 0

@@ -24,6 +24,7 @@ StepRates TrBdf2<n>::first_rates(const BalanceScheme<n>& scheme, const State& st
   if (stage == 0) {
     StepRates rates = scheme.rates_from(step, 1 / (g * step), scheme.level(state), state.balances[0]);
     rates.last_stage = false;
+    rates.strain_lag = g * step / 2;
     rates.start = start;
     rates.time = rates.end = middle;
     rates.weight = 1 / (2 - g);
