@@ -10,8 +10,8 @@ namespace fsi {
 
 namespace {
 
-constexpr double little = 0.5;      // of what was not explained, that a guess of it should leave at most
-constexpr double rounding = 1e-10;  // of pairs, relative
+constexpr double little = 0.5;           // of what was not explained, that a guess of it should leave at most
+constexpr double pair_rounding = 1e-10;  // of pairs, relative
 constexpr double hardly = 1e-3;  // of a residual that a pass leaves, what was not explained before: pairs are to blame
 
 using Matrix = Eigen::Map<const Eigen::MatrixXd>;
@@ -83,7 +83,7 @@ void AffineMap::learn(const std::vector<double>& r, double accuracy) {
   // Where the guess of what was not explained has helped little, any pair is welcome, and L is no guide.
   const bool misled = space_.norm(r) > little * space_.norm(unexplained_);
   if (misled) before_.clear();
-  const double least = std::max(misled ? rounding : filter_, accuracy) * space_.norm(corrected_);
+  const double least = std::max(misled ? pair_rounding : filter_, accuracy) * space_.norm(corrected_);
   if (!(space_.norm(v) > least)) return;
   std::vector<double> along = products(v);
   scale(-1, along);
