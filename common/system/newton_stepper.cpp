@@ -54,7 +54,7 @@ bool keep(const std::string& name, LinearisationPoint& point, Memory& memory) {
   };
   if_there(point.viscous_wall, ".wall_reference", ArrayKind::wall, rates.wall_reference);
   // Earlier programs had no such lag, and wrote none.
-  if (memory.recalls() ? memory.has(name + ".strain_lag") : point.viscous_wall && rates.strain_lag != 0)
+  if (memory.recalls() ? memory.has(name + ".strain_lag") : point.viscous_wall)
     memory.number(name + ".strain_lag", rates.strain_lag);
   if_there(point.branches, ".branches_reference", ArrayKind::wall_branches, rates.branches_reference);
   if_any(".support_loads", ArrayKind::support_loads, point.support_loads);

@@ -5,7 +5,19 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from programs import DRIVERS, MONOLITHIC, FolderTest, arrays, attempt, differing_arrays, energy, restart, run
+from programs import (
+    DRIVERS,
+    MESH,
+    MONOLITHIC,
+    FolderTest,
+    arrays,
+    attempt,
+    differing_arrays,
+    energy,
+    execute,
+    restart,
+    run,
+)
 from scenes import KINDS, WALL, scene
 
 LAWS = {
@@ -37,6 +49,40 @@ MAXWELL = WALL.replace(  # a layer with two branches, one with a branch and a vi
     "c10 = 3.0", "c10 = 3.0\nmaxwell = [{ shear = 2.0, time = 0.2 }, { shear = 1.0, time = 2.0 }]"
 ).replace("c10 = 0.3\n", "c10 = 0.3\nviscosity = 0.5\nmaxwell = [{ shear = 0.2, time = 0.1 }]\n")
 BRANCHES = "arrays/level0.branches"
+SQUARE = """
+Point(1) = {-0.5, -0.5, 0}; Point(2) = {0.5, -0.5, 0}; Point(3) = {0.5, 0.5, 0}; Point(4) = {-0.5, 0.5, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Transfinite Curve{1, 2, 3, 4} = 3; Transfinite Surface{1} Alternated;
+Physical Surface("wall") = {1}; Physical Curve("right") = {2}; Physical Curve("left") = {4};
+"""
+SPINNING = """element = "p2p1"
+geometry = "plane"
+[mesh]
+file = "square.msh"
+[structure]
+density = 1.2
+[structure.layers.wall]
+material = "compressible-neo-hookean"
+young = 1000.0
+poisson = 0.3
+viscosity = 10.0
+[[support]]
+surface = "right"
+spring = 1e-9
+traction = [0, 2.0]
+until = 0.1
+[[support]]
+surface = "left"
+traction = [0, -2.0]
+until = 0.1
+[monolithic]
+newton_tolerance = 1e-10
+[time]
+step = 0.2
+end = 32
+scheme = "euler"
+"""
 
 
 class ViscousTest(FolderTest):
@@ -68,6 +114,17 @@ class Viscous(ViscousTest):
                 if wall == MAXWELL:
                     self.assertGreater(rows["wall_branch_energy"][-1], 0)
                 self.assertLess(np.abs(rows["remainder"]).max(), 1e-7 * np.abs(rows["inlet_work"]).sum())
+
+    def test_a_square_that_spins_loses_nothing_to_its_viscosity(self):
+        """Four turns behind a torque of 0.1 ms: of the energy the strain's rate at the end of each step took 8.8 times."""
+        (self.base / "square.geo").write_text(SQUARE)
+        execute(MESH, "geo", self.base / "square.geo", "-o", self.base / "square.msh")
+        (self.base / "square.toml").write_text(SPINNING)
+        rows = energy(run(MONOLITHIC, self.base / "square.toml", self.base / "square"))
+        free = slice(8, None)  # the square has come to rest in itself
+        kinetic = rows["wall_kinetic_energy"][free]
+        self.assertGreater(kinetic[0], 0.05)
+        self.assertLess(np.abs(rows["wall_viscous_dissipation"][free]).sum(), 1e-5 * kinetic[0])
 
     def test_a_run_goes_on_with_the_same_bits(self):
         settings = scene(self.base, "p2p1", "axisymmetric")
