@@ -78,7 +78,7 @@ class FibreFrames(FolderTest):
 
     def tube_along(self, name, order):
         """The case of a tube whose mesh is that along z with its coordinates in another order."""
-        mesh = make_mesh(self.base / f"{name}.msh", "--level", "coarse", "--length", 3, "--order", 2, "--format", "2.2")
+        mesh = make_mesh(self.base / f"{name}.msh", "--level", "coarse", "--length", 1, "--order", 2, "--format", "2.2")
         lines = mesh.read_text().split("\n")
         first = lines.index("$Nodes") + 2
         for k in range(first, first + int(lines[first - 1])):
@@ -86,7 +86,7 @@ class FibreFrames(FolderTest):
             lines[k] = " ".join([number, *(x[i] for i in order)])
         mesh.write_text("\n".join(lines))
         case = self.base / f"{name}.toml"
-        at = [[1.43, 0, 1.5], [0, 1.43, 1.5], [-1.43, 0, 1.5], [0, -1.43, 1.5]]
+        at = [[1.43, 0, 0.5], [0, 1.43, 0.5], [-1.43, 0, 0.5], [0, -1.43, 0.5]]
         points = "".join(f"p{k} = {[x[i] for i in order]}\n" for k, x in enumerate(at))
         case.write_text(TUBE.read_text().replace("MESH", mesh.name) + "[output.points]\n" + points)
         return case
