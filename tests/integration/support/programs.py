@@ -87,7 +87,7 @@ def table(folder, name):
 
 def energy(folder):
     """energy.csv by column: {name without _uJ: values per step}."""
-    names = (Path(folder) / "energy.csv").open().readline().strip().split(",")
+    names = (Path(folder) / "energy.csv").read_text().split("\n", 1)[0].split(",")
     return {name.removesuffix("_uJ"): column for name, column in zip(names, table(folder, "energy.csv").T)}
 
 
