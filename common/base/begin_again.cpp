@@ -6,29 +6,19 @@
 #include <cstddef>
 #include <cstring>
 
+#include "base/instruction_set.hpp"
+
 namespace fsi {
-
-namespace {
-
-/// For OPENBLAS_CORETYPE; null: what OpenBLAS takes by itself.
-char* dense_kernels() {
-  static char of_512_bits[] = "OPENBLAS_CORETYPE=SkylakeX", of_256_bits[] = "OPENBLAS_CORETYPE=Haswell";
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
-      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-    return of_512_bits;
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? of_256_bits : nullptr;
-}
-
-}  // namespace
 
 void begin_again_with_settings(const char* const* argv, char* const* environment) noexcept {
   static char spins[] = "GOMP_SPINCOUNT=1000", dense[] = "OPENBLAS_NUM_THREADS=1",
               pages[] = "GLIBC_TUNABLES=glibc.malloc.hugetlb=1:glibc.malloc.trim_threshold=268435456";
   std::array<char*, 1024> with{};
   std::size_t count = 0;
-  char* const kernels = dense_kernels();
-  bool waits = false, starts_dense = false, names_kernels = kernels == nullptr, names_pages = false;
+  static std::array<char, 64> kernels{"OPENBLAS_CORETYPE="};
+  const char* const processor = dense_kernel_processor();
+  if (processor != nullptr) std::strncat(kernels.data(), processor, kernels.size() - std::strlen(kernels.data()) - 1);
+  bool waits = false, starts_dense = false, names_kernels = processor == nullptr, names_pages = false;
   const auto begins = [](const char* entry, const char* name) {
     return std::strncmp(entry, name, std::strlen(name)) == 0;
   };
@@ -43,7 +33,7 @@ void begin_again_with_settings(const char* const* argv, char* const* environment
   if (waits && starts_dense && names_kernels && names_pages) return;
   if (!waits) with[count++] = spins;
   if (!starts_dense) with[count++] = dense;
-  if (!names_kernels) with[count++] = kernels;
+  if (!names_kernels) with[count++] = kernels.data();
   if (!names_pages) with[count++] = pages;
   std::array<char, 4096> file{};  // by its name: "/proc/self/exe" would be the name that ps shows
   if (readlink("/proc/self/exe", file.data(), file.size() - 1) > 0)

@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include "case/case_keys.hpp"
 #include "case/choices.hpp"
 #include "case/key_values.hpp"

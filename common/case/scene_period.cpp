@@ -1,6 +1,7 @@
 #include "case/scene_period.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #include "case/table_input.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>

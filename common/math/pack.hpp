@@ -3,17 +3,15 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/instruction_set.hpp"
+
 namespace fsi {
 
 /// Doubles that one vector instruction handles. Element kernels use a pack as their scalar type, one element per lane.
 #if defined(FSI_PACK_WIDTH)  // only to measure other widths: docs/performance.md
 inline constexpr int pack_width = FSI_PACK_WIDTH;
-#elif defined(__AVX512F__)
-inline constexpr int pack_width = 8;
-#elif defined(__AVX__)
-inline constexpr int pack_width = 4;
 #else
-inline constexpr int pack_width = 2;
+inline constexpr int pack_width = vector_doubles;
 #endif
 
 /// A short vector of doubles with arithmetic lane by lane.

@@ -1,6 +1,7 @@
 #include "mesh/flat_parts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "run/case_description.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 

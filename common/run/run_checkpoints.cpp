@@ -1,6 +1,7 @@
 #include "run/run_checkpoints.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <utility>
 

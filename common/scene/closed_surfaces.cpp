@@ -1,6 +1,7 @@
 #include "scene/closed_surfaces.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>

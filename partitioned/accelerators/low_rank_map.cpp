@@ -88,7 +88,11 @@ void LowRankMap::truncate(std::size_t rank, double tolerance) {
   const auto [qb, rb] = thin_qr(b_, space_);
   if (ra.rows() == 0 || rb.rows() == 0) return clear();
   const Eigen::MatrixXd core = ra * rb.transpose();
+#if EIGEN_VERSION_AT_LEAST(3, 4, 90)
+  const Eigen::BDCSVD<Eigen::MatrixXd, Eigen::ComputeThinU | Eigen::ComputeThinV> svd(core);
+#else
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(core, Eigen::ComputeThinU | Eigen::ComputeThinV);
+#endif
   const auto& values = svd.singularValues();
   Eigen::Index keep = 0;
   while (keep < values.size() && keep < static_cast<Eigen::Index>(rank) && values[keep] > tolerance * values[0]) ++keep;

@@ -10,6 +10,12 @@
 
 namespace fsi {
 
+/// What the conditions on both sides of the interface are made of: a base of the problem that refers to them, and so there
+/// before it is.
+struct RobinSides {
+  InterfaceImpedance wall_side_{}, fluid_side_{};
+};
+
 /// The loosely coupled Robin-Robin scheme ([Burman2023]; docs/theory.md, section 10.5). A step is one wall and then one fluid
 /// solve, c being nodal areas times the coefficient alpha, F and W the momentum rows of fluid and wall on the interface,
 /// u the fluid's velocity there, w the wall's, and lambda^n = F^n of the last step:
@@ -20,7 +26,7 @@ namespace fsi {
 /// Where a step is iterated, x is the datum v of the wall's condition, given as a displacement; a pass and its next datum are
 ///   W + c (w - v) = 0,   L = c (w - v),   F - L + c (u - w) = 0,   v~ = u - F/c,   r = period (v~ - v) = 2 period (u - w).
 template <int n>
-class RobinRobin : public InterfaceProblem<n> {
+class RobinRobin : private RobinSides, public InterfaceProblem<n> {
   using Base = InterfaceProblem<n>;
 
  public:
@@ -224,7 +230,6 @@ class RobinRobin : public InterfaceProblem<n> {
       data_->interface_load[Base::wall_entry(scene_.interface[i / n], static_cast<int>(i % n))] = load_[i];
   }
 
-  InterfaceImpedance wall_side_, fluid_side_;
   RobinCoefficient coefficient_;
   double alpha_;  ///< kPa/(mm/ms)
   System<n> fluid_;

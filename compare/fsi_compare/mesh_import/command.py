@@ -13,6 +13,7 @@ from ..base.errors import InputError, printable
 from ..base.files import exists, folder, replacing
 from ..base.options import Commands, add_command
 from .groups import KINDS, Block, FoundMesh, Group, choose_groups, dimensions_of, found_mesh
+from .vtu import read_vtu
 
 
 def add_parser(commands: Commands, version: str) -> None:
@@ -72,6 +73,8 @@ def _read(path: Path) -> Any:
         import meshio  # takes a while to load
     except ImportError:
         raise InputError("meshio", "", "is not there", "install the Debian package python3-meshio") from None
+    if path.suffix.lower() == ".vtu":
+        return read_vtu(path)
     try:
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             return meshio.read(path)

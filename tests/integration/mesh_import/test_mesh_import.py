@@ -60,12 +60,13 @@ class MeshImport(FolderTest):
             text = (self.base / "out.msh").read_text()
             self.assertEqual(set(re.findall(r'^\d \d+ "(\w+)"', text, re.MULTILINE)), {"fluid", "inlet", "outlet"})
 
-    def test_vtu_with_numbered_cells_of_both_orders(self):
-        for order in (1, 2):
+    def test_vtu_with_numbered_cells_of_both_orders_packed_or_not(self):
+        for order, packing in ((1, "zlib"), (2, "lzma"), (1, None)):
             points, solid, sides = self.lumen(order)
             blocks = [solid, *sides]
             numbers = [np.full(len(data), i + 1) for i, (_, data) in enumerate(blocks)]
-            meshio.Mesh(points, blocks, cell_data={"part": numbers}).write(self.base / "tube.vtu")
+            mesh = meshio.Mesh(points, blocks, cell_data={"part": numbers})
+            meshio.vtu.write(self.base / "tube.vtu", mesh, compression=packing)
             words = ("--scale", 1000, "--group", "fluid=part:1", "--group", "inlet=part:2", "--group", "outlet=part:3")
             self.expect_tube(self.imported(self.base / "tube.vtu", *words), order)
 
@@ -117,10 +118,12 @@ class MeshImport(FolderTest):
         meshio.Mesh(points, [solid], cell_data={"part": [np.ones(len(solid[1]), int)]}).write(self.base / "tube.vtu")
         cube = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
         meshio.Mesh(cube, [("hexahedron", np.array([[0, 1, 3, 2, 4, 5, 7, 6]]))]).write(self.base / "cube.vtu")
-        (self.base / "text.vtu").write_text("no mesh")
+        for name in ("text.vtu", "text.med"):
+            (self.base / name).write_text("no mesh")
         for file, options, words in (
             ("none.vtu", (), ("none.vtu: no such file",)),
-            ("text.vtu", (), ("meshio cannot read it",)),
+            ("text.vtu", (), ("text.vtu: is no XML",)),
+            ("text.med", (), ("meshio cannot read it",)),
             ("cube.vtu", (), ("holds hexahedron in place of tetrahedra",)),
             ("tube.vtu", (), ("--group: is not given", "part:1 (tetrahedra)")),
             ("tube.vtu", ("--group", "fluid=prt:1"), ("no part prt:1", "did you mean part:1?")),

@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "base/instruction_set.hpp"
+
 namespace fsi::test {
 
 namespace {
@@ -17,6 +19,11 @@ TEST(Machine, ReadsTheModelOfTheFirstProcessor) {
 TEST(Machine, SaysWhereNoModelIsNamed) {
   for (const char* text : {"", "processor\t: 0\nBogoMIPS\t: 100\n", "model name\t:  \n", "model name\n"})
     EXPECT_EQ(processor_in(text), "unknown") << text;
+}
+
+TEST(Machine, GivesTheNumbersOfArmsDesigns) {
+  EXPECT_EQ(processor_in("processor\t: 0\nCPU implementer\t: 0x41\nCPU architecture: 8\nCPU part\t: 0xd0c\n"),
+            "Arm, implementer 0x41, part 0xd0c");
 }
 
 TEST(Machine, NamesInstructionSetAndCompiler) {

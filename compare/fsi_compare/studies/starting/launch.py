@@ -25,7 +25,8 @@ def launched(command: Sequence, processes: int) -> List[str]:
         )
     # Placing is left to the system: a bound process cannot get out of the way of what else the machine does. Processes
     # that wait give way: on a busy machine a step on two took twenty times as long without.
-    options = ["-n", str(processes), "--quiet", "--oversubscribe", "--bind-to", "none"]
+    # --quiet ends mpirun of Open MPI 5 with an error; without_chatter() takes out what it would have kept back.
+    options = ["-n", str(processes), "--oversubscribe", "--bind-to", "none"]
     options += ["--mca", "mpi_yield_when_idle", "1"]
     if os.geteuid() == 0:
         options.append("--allow-run-as-root")

@@ -1,0 +1,115 @@
+"""Arrays of VTK's XML files (.vtp, .vtu): text, base64 or raw, packed by zlib, lzma or not.
+
+Base64 is decoded piece by piece: each piece has a padding of its own, at which Python 3.13 and later refuse to go on."""
+
+import base64
+import lzma
+import re
+import struct
+import xml.etree.ElementTree as ElementTree
+import zlib
+from pathlib import Path
+from typing import Any, Callable, Dict
+
+import numpy as np
+
+from ..base.errors import InputError
+
+TYPES = {
+    f"{kind}{bits}": f"{letter}{bits // 8}"
+    for kind, letter in (("Int", "i"), ("UInt", "u"))
+    for bits in (8, 16, 32, 64)
+}
+TYPES |= {"Float32": "f4", "Float64": "f8"}
+
+
+EXTENSIONS = {"PolyData": ".vtp", "UnstructuredGrid": ".vtu"}
+UNPACKERS: Dict[str, Callable[[bytes], bytes]] = {
+    "": lambda data: data,
+    "vtkZLibDataCompressor": zlib.decompress,
+    "vtkLZMADataCompressor": lzma.decompress,
+}
+# What a damaged file raises beside InputError.
+DAMAGES = (
+    OSError,
+    ValueError,
+    struct.error,
+    zlib.error,
+    lzma.LZMAError,
+    IndexError,
+    KeyError,
+    TypeError,
+    OverflowError,
+)
+
+
+class VtkFile:
+    """The arrays of one file. `contents` is the kind of data set that is asked for, `PolyData` for one. Raises InputError."""
+
+    def __init__(self, path: Path, contents: str) -> None:
+        self.path = path
+        text = path.read_bytes()
+        # What is appended raw is no XML: it is cut out, from the underscore on.
+        found = re.search(rb"<AppendedData[^>]*>\s*_", text)
+        self.appended = b""
+        if found:
+            end = text.rindex(b"</AppendedData>")
+            self.appended = text[found.end() : end]
+            self.raw = b'"raw"' in found.group()
+            text = text[: found.start()] + text[end + len(b"</AppendedData>") :]
+        try:
+            self.root = ElementTree.fromstring(text)
+        except ElementTree.ParseError as error:
+            raise InputError(path, "", f"is no XML: {error}", f"write it anew as {EXTENSIONS[contents]}") from None
+        if self.root.tag != "VTKFile" or self.root.get("type") != contents:
+            raise InputError(path, "", f"holds no {contents} of VTK", f"write it as {EXTENSIONS[contents]}")
+        self.order = "<" if self.root.get("byte_order", "LittleEndian") == "LittleEndian" else ">"
+        self.header = self.order + ("Q" if self.root.get("header_type") == "UInt64" else "I")
+        compressor = self.root.get("compressor", "")
+        if compressor not in UNPACKERS:
+            raise InputError(path, "", f"is packed by {compressor}", "write it with zlib or without packing")
+        self.packed = bool(compressor)
+        self.unpack = UNPACKERS[compressor]
+
+    def array(self, element: Any) -> np.ndarray:
+        """A DataArray's numbers, in rows of its components."""
+        kind = TYPES.get(element.get("type", ""))
+        if kind is None:
+            raise InputError(self.path, element.get("Name", "array"), "is no array of numbers")
+        form = element.get("format", "ascii")
+        if form == "ascii":
+            numbers = np.array((element.text or "").split(), dtype=kind)
+        elif form == "binary":
+            numbers = np.frombuffer(
+                self._unpacked(self._coded((element.text or "").strip().encode())), self.order + kind
+            )
+        else:
+            data = self.appended[int(element.get("offset", "0")) :]
+            numbers = np.frombuffer(self._unpacked(data if self.raw else self._coded(data)), self.order + kind)
+        components = int(element.get("NumberOfComponents") or 1)
+        return numbers.reshape(-1, components) if components > 1 else numbers
+
+    def _coded(self, text: bytes) -> bytes:
+        """Bytes of base64: header and data are coded one after the other, each with a padding of its own."""
+        size = struct.calcsize(self.header)
+        length = -(-size // 3) * 4
+        if not self.packed:
+            (count,) = struct.unpack_from(self.header, base64.b64decode(text[:length]))
+            return base64.b64decode(text[: -(-(size + count) // 3) * 4])
+        (blocks,) = struct.unpack_from(self.header, base64.b64decode(text[:length]))
+        length = -(-size * (3 + blocks) // 3) * 4
+        head = base64.b64decode(text[:length])
+        counts = struct.unpack_from(f"{self.order}{blocks}{self.header[1]}", head, 3 * size)
+        return head + base64.b64decode(text[length : length + -(-sum(counts) // 3) * 4])
+
+    def _unpacked(self, data: bytes) -> bytes:
+        size = struct.calcsize(self.header)
+        (first,) = struct.unpack_from(self.header, data)
+        if not self.packed:
+            return data[size : size + first]
+        counts = struct.unpack_from(f"{self.order}{first}{self.header[1]}", data, 3 * size)
+        at, parts = size * (3 + first), []
+        for count in counts:
+            parts.append(self.unpack(data[at : at + count]))
+            at += count
+        return b"".join(parts)

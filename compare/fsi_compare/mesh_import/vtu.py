@@ -1,0 +1,101 @@
+"""Reads meshes of VTK's XML format (.vtu). meshio's own reader fails at packed or binary ones under Python 3.13."""
+
+from pathlib import Path
+from typing import Any, Dict, List, Tuple
+
+import numpy as np
+
+from ..base.errors import InputError
+from .vtk_xml import DAMAGES, VtkFile
+
+# VTK's numbers of cells: meshio's name and how many nodes.
+CELLS = {
+    1: ("vertex", 1),
+    3: ("line", 2),
+    5: ("triangle", 3),
+    9: ("quad", 4),
+    10: ("tetra", 4),
+    12: ("hexahedron", 8),
+    13: ("wedge", 6),
+    14: ("pyramid", 5),
+    21: ("line3", 3),
+    22: ("triangle6", 6),
+    23: ("quad8", 8),
+    24: ("tetra10", 10),
+    25: ("hexahedron20", 20),
+    26: ("wedge15", 15),
+    27: ("pyramid13", 13),
+    28: ("quad9", 9),
+    29: ("hexahedron27", 27),
+}
+
+
+def read_vtu(path: Path) -> Any:
+    """The cells of all pieces, those of a kind in one block, with the fields of cells and points: a mesh as meshio gives
+    it. Raises InputError."""
+    try:
+        return _read(VtkFile(path, "UnstructuredGrid"))
+    except DAMAGES as error:
+        raise InputError(path, "", f"cannot be read: {error}", "write the mesh anew as .vtu") from None
+
+
+def _read(file: VtkFile) -> Any:
+    import meshio  # takes a while to load
+
+    points: List[np.ndarray] = []
+    point_data: Dict[str, List[np.ndarray]] = {}
+    blocks: Dict[int, List[np.ndarray]] = {}  # by kind, of each piece that has such cells
+    cell_data: Dict[str, Dict[int, List[np.ndarray]]] = {}
+    first = 0
+    for piece in file.root.iter("Piece"):
+        there = piece.find("Points/DataArray")
+        if there is None:
+            continue
+        points.append(file.array(there).reshape(-1, 3))
+        for element in piece.findall("PointData/DataArray"):
+            point_data.setdefault(element.get("Name", ""), []).append(file.array(element))
+        fields = {element.get("Name", ""): file.array(element) for element in piece.findall("CellData/DataArray")}
+        for kind, which, nodes in _cells(file, piece):
+            if np.any((nodes < 0) | (nodes >= len(points[-1]))):
+                raise InputError(file.path, "connectivity", "names a point that is not there", "write the mesh anew")
+            blocks.setdefault(kind, []).append(nodes + first)
+            for name, values in fields.items():
+                cell_data.setdefault(name, {}).setdefault(kind, []).append(values[which])
+        first += len(points[-1])
+    cells = [(CELLS[kind][0], np.concatenate(parts)) for kind, parts in blocks.items()]
+    # A field that some piece lacks is none of the mesh.
+    whole = {
+        name: [np.concatenate(of_kinds.get(kind, [])) for kind in blocks]
+        for name, of_kinds in cell_data.items()
+        if all(len(of_kinds.get(kind, [])) == len(parts) for kind, parts in blocks.items())
+    }
+    at_points = {name: np.concatenate(parts) for name, parts in point_data.items() if len(parts) == len(points)}
+    return meshio.Mesh(
+        np.concatenate(points) if points else np.zeros((0, 3)), cells, point_data=at_points, cell_data=whole
+    )
+
+
+def _cells(file: VtkFile, piece: Any) -> List[Tuple[int, np.ndarray, np.ndarray]]:
+    """Kind, places in the piece and nodes of its cells, kind by kind."""
+    arrays = {element.get("Name"): file.array(element) for element in piece.findall("Cells/DataArray")}
+    if not {"connectivity", "offsets", "types"} <= set(arrays):
+        raise InputError(file.path, "Cells", "has no connectivity, offsets and types", "write the mesh anew as .vtu")
+    corners = arrays["connectivity"].astype(np.int64)
+    ends, kinds = arrays["offsets"].astype(np.int64), arrays["types"].astype(np.int64)
+    lengths = np.diff(ends, prepend=0)
+    if len(ends) != len(kinds) or np.any(lengths < 0) or (len(ends) and ends[-1] > len(corners)):
+        raise InputError(file.path, "offsets", "do not fit the cells", "write the mesh anew as .vtu")
+    found = []
+    for kind in np.unique(kinds):
+        if int(kind) not in CELLS:
+            raise InputError(
+                file.path, "types", f"has a cell of VTK's kind {kind}", "mesh it by tetrahedra, or by triangles"
+            )
+        which = np.flatnonzero(kinds == kind)
+        count = CELLS[int(kind)][1]
+        if np.any(lengths[which] != count):
+            raise InputError(
+                file.path, "offsets", f"a cell of VTK's kind {kind} has not {count} nodes", "write the mesh anew"
+            )
+        found.append((int(kind), which, corners[(ends[which] - count)[:, None] + np.arange(count)]))
+    return found
