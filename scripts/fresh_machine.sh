@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A fresh Debian 12 machine: makes a minimal Debian 12 in a folder, clones the last commit into it and runs there, by chroot,
+# A fresh Debian machine: makes a minimal Debian in a folder, clones the last commit into it and runs there, by chroot,
 # what README promises of such a machine. Prints seconds, processor seconds and disk space of every stage. Any failure
 # names its stage and makes the exit code 1. The whole output is in a log file.
 #   scripts/fresh_machine.sh [OPTIONS] [FOLDER]
@@ -9,6 +9,7 @@
 #   --short             packages, configuring, one program, and a run of it
 #   --package FILE.deb  not the sources: installs a Debian package and runs the commands of docs/tutorial.md by its programs
 #   --container         not README's commands: the steps of containers/Containerfile, and the entry point of what they make
+#   --suite NAME        which Debian: bookworm (12), trixie (13) or testing; otherwise bookworm
 #   --level v2|v3|v4    a lower processor level, x86-64-v3 for one: programs are compiled for it, and libraries that choose
 #                       by the processor (OpenBLAS, glibc, numpy) choose for it. This is no emulator: an instruction
 #                       beyond the level, if there is one, still runs. Registers that the level does not have are
@@ -29,7 +30,7 @@ fail() {
   exit 1
 }
 
-mode=clone tests=yes level="" package="" debs="" cache="" keep=no folder="" log=$top/build/fresh_machine.log
+mode=clone tests=yes suite=bookworm level="" package="" debs="" cache="" keep=no folder="" log=$top/build/fresh_machine.log
 choose() {
   [ "$mode" = clone ] || fail "--$1 beside --$mode: these are different things to try; give one of them"
   mode=$1
@@ -37,13 +38,14 @@ choose() {
 existing_folder() { [ -d "$2" ] || fail "$1 $2: there is no such folder"; }
 while [ $# -gt 0 ]; do
   case "$1" in
-    --package | --level | --debs | --ccache | --log) [ $# -gt 1 ] || fail "$1 needs a value; see --help" ;;
+    --package | --suite | --level | --debs | --ccache | --log) [ $# -gt 1 ] || fail "$1 needs a value; see --help" ;;
   esac
   case "$1" in
     --help) sed -n '2,/^set /s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" && exit 0 ;;
     --no-tests) tests=no ;;
     --short | --container) choose "${1#--}" ;;
     --package) choose package && package=$2 && shift ;;
+    --suite) suite=$2 && shift ;;
     --level) level=$2 && shift ;;
     --debs) debs=$2 && shift && existing_folder --debs "$debs" ;;
     --ccache) cache=$2 && shift && existing_folder --ccache "$cache" ;;
@@ -58,6 +60,8 @@ while [ $# -gt 0 ]; do
   shift
 done
 
+case "$suite" in bookworm | trixie | testing) ;; *) fail "--suite $suite: the suites are bookworm, trixie and testing" ;; esac
+[ "$mode" != container ] || [ "$suite" = bookworm ] || fail "--suite beside --container: the container file names its own Debian"
 case "$level" in "" | v2 | v3 | v4) ;; *) fail "--level $level: the levels are v2, v3 and v4" ;; esac
 [ -z "$level" ] || /lib64/ld-linux-x86-64.so.2 --help | grep -q "x86-64-$level (supported" ||
   fail "--level $level: this machine's processor does not have it; a level can only be lowered"
@@ -103,7 +107,7 @@ remove_machine() {
 # In namespaces of their own: what is mounted goes, and what still runs is killed, with the first process there; and that
 # one with unshare, and that with this script, however it ends.
 run_stages() {
-  export fresh_mode=$mode fresh_tests=$tests fresh_level=$level fresh_debs=${debs:+$(cd "$debs" && pwd)} fresh_log=$log
+  export fresh_mode=$mode fresh_tests=$tests fresh_suite=$suite fresh_level=$level fresh_debs=${debs:+$(cd "$debs" && pwd)} fresh_log=$log
   export fresh_package=${package:+$(realpath "$package")} fresh_ccache=${cache:+$(cd "$cache" && pwd)} fresh_folder=$folder
   setpriv --pdeathsig KILL unshare --mount --propagation private --pid --mount-proc --fork --kill-child \
     bash "$here/fresh_machine/stages.sh" &

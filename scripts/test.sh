@@ -2,11 +2,13 @@
 # Builds and tests; installs what is missing first. May be run again: only what changed is built anew.
 #   scripts/test.sh         the quick tests of the release build
 #   scripts/test.sh --all   everything, with warnings as errors: unit tests under the address and undefined-behaviour
-#                           sanitizers in a build by clang, without MPI, for x86-64-v2; what depends on the width of
-#                           vectors for another processor level; then the release build by gcc, for this machine, with
-#                           every other test and the unit tests that use MPI or vectors. A test program is then one test
-#                           of ctest, which spares its start for each case; the quick tests, and cmake -DFSI_TEST_CASES=ON
-#                           -DFSI_UNIT_TESTS=ON, run each case by itself
+#                           sanitizers in a build by clang, without MPI, for x86-64-v2; three sources that depend on the
+#                           width of vectors for another processor level; then the release build by gcc, for this machine,
+#                           with every other test and the unit tests that use MPI or vectors. A test program is then one
+#                           test of ctest, which spares its start for each case; the quick tests, and cmake
+#                           -DFSI_TEST_CASES=ON -DFSI_UNIT_TESTS=ON, run each case by itself
+#   scripts/test.sh --levels  all that depends on the width of vectors for the levels x86-64-v2, -v3 and -v4, with
+#                           warnings as errors, and its unit tests where this processor has the level
 # CONTRIBUTING.md says how many minutes that takes on which kind of machine.
 # Ends with ctest's summary; any failure ends it earlier or makes its exit code non-zero.
 set -euo pipefail
@@ -17,24 +19,22 @@ fail() {
   exit 1
 }
 
-all=no
+what=quick
 for argument in "$@"; do
   case "$argument" in
-    --all) all=yes ;;
-    *) fail "unknown option '$argument'; the only one is --all" ;;
+    --all | --levels) what=${argument#--} ;;
+    *) fail "unknown option '$argument'; those there are: --all, --levels" ;;
   esac
 done
 
-# Whether this machine's processor has a level, x86-64-v3 for one.
-has_level() { /lib64/ld-linux-x86-64.so.2 --help | grep -q "$1 (supported"; }
+# Whether this machine's processor has a level, x86-64-v3 for one. Processors of other kinds have none.
+has_level() { /lib64/ld-linux-x86-64.so.2 --help 2>/dev/null | grep -q "$1 (supported"; }
 
-# check_level LEVEL: builds what depends on the width of vectors, and runs its unit tests where that can be.
-check_level() {
-  local build=build/level/$1
+# build_level LEVEL TARGET
+build_level() {
   echo "== $1"
-  cmake --preset level -B "$build" -DFSI_ARCH="$1" -DFSI_WARNINGS_AS_ERRORS=ON
-  cmake --build "$build" --target level_tests
-  if has_level "$1"; then run_tests "$build" -R '^(math|materials|fem|mesh_motion|derived): '; fi
+  cmake --preset level -B "build/level/$1" -DFSI_ARCH="$1" -DFSI_WARNINGS_AS_ERRORS=ON
+  cmake --build "build/level/$1" --target "$2"
 }
 
 # Files that the sources' folder holds beside what git keeps. Building and testing leave it as it was.
@@ -48,7 +48,8 @@ run_tests() { ctest --test-dir "$1" -j"$(nproc)" --output-on-failure --no-tests=
 scripts/install_packages.sh --tests
 before=$(strangers)
 
-if [ $all = yes ]; then
+case "$what" in
+all)
   # Another compiler than the release build's: each warns of what the other does not.
   echo "== unit tests with sanitizers, by clang, and without MPI"
   cmake --preset sanitize -DCMAKE_CXX_COMPILER=clang++ -DFSI_TESTS=ON -DFSI_WARNINGS_AS_ERRORS=ON
@@ -57,17 +58,25 @@ if [ $all = yes ]; then
   run_tests build/sanitize -R '^partitions[.]WithoutMpi$'
 
   # The release build below is for this machine's level; here the other one that counts. x86-64-v2 has had its turn.
-  if has_level x86-64-v4; then check_level x86-64-v3; else check_level x86-64-v4; fi
+  if has_level x86-64-v4; then build_level x86-64-v3 level_sources; elif has_level x86-64-v2; then build_level x86-64-v4 level_sources; fi
 
   echo "== all other tests, release build"
   cmake --preset release -DFSI_TESTS=ON -DFSI_TEST_CASES=OFF -DFSI_UNIT_TESTS=OFF -DFSI_WARNINGS_AS_ERRORS=ON
   cmake --build --preset release
   run_tests build/release
-else
+  ;;
+levels)
+  for level in x86-64-v2 x86-64-v3 x86-64-v4; do
+    build_level "$level" level_tests
+    if has_level "$level"; then run_tests "build/level/$level" -R '^(math|materials|fem|mesh_motion|derived): '; fi
+  done
+  ;;
+quick)
   cmake --preset release -DFSI_TESTS=ON -DFSI_TEST_CASES=ON -DFSI_UNIT_TESTS=ON -DFSI_WARNINGS_AS_ERRORS=OFF
   cmake --build --preset release --target quick_tests
   run_tests build/release -L '^quick$'
-fi
+  ;;
+esac
 
 after=$(strangers)
 [ "$before" = "$after" ] || fail "the tests have left files in the sources: $(comm -13 <(echo "$before") <(echo "$after"))"

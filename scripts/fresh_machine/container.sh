@@ -92,5 +92,5 @@ try_container() {
   stage "entry point, --version" in_container --version
   stage "entry point, a case" run_case
   umount "$container_root/work"
-  say "The image has $(measured=$container_root used_kib) KiB; a minimal Debian 12 $(measured=$root used_kib)"
+  say "The image has $(measured=$container_root used_kib) KiB; a minimal Debian $(measured=$root used_kib)"
 }

@@ -1,11 +1,9 @@
 # shellcheck shell=bash disable=SC2154
-# A minimal Debian 12 in a folder, to be read by a bash script: made by mmdebstrap, entered by chroot. The script runs in a
-# mount and a process namespace of its own and says in `level`, `ccache_folder`
+# A minimal Debian in a folder, to be read by a bash script: made by mmdebstrap, entered by chroot. The script runs in a
+# mount and a process namespace of its own and says in `suite`, `level`, `ccache_folder`
 # and `debs_folder` what is wanted.
 
-suite=bookworm
-
-# Mirrors of Debian 12 that this machine uses, as lines of sources.list; Debian's own where it uses none.
+# Mirrors of this Debian that this machine uses, as lines of sources.list; Debian's own where it uses none.
 debian_sources() {
   local found
   # The suites of Debian itself and its component main: no one-file repositories of others.

@@ -3,7 +3,7 @@
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 top=$(cd "$here/../.." && pwd)
-log=$fresh_log level=$fresh_level debs_folder=$fresh_debs ccache_folder=$fresh_ccache
+log=$fresh_log suite=$fresh_suite level=$fresh_level debs_folder=$fresh_debs ccache_folder=$fresh_ccache
 measured=$fresh_folder not_measured=ccache
 root=$fresh_folder/root
 clone=/home/user/fsi-duo # in there
@@ -95,10 +95,10 @@ try_package() {
 
 main() {
   local changed
-  say "fsi-duo $(git -C "$top" rev-parse --short HEAD) on a fresh Debian 12, processor level: ${level:-that of this machine}"
+  say "fsi-duo $(git -C "$top" rev-parse --short HEAD) on a fresh Debian ($suite), processor level: ${level:-that of this machine}"
   changed=$(git -C "$top" status --porcelain | wc -l)
   [ "$changed" -eq 0 ] || say "$changed files of the sources differ from this commit; the machine has the commit's"
-  stage "minimal Debian 12" make_root "$root"
+  stage "minimal Debian" make_root "$root"
   "try_$fresh_mode"
   print_table | tee -a "$log"
 }
