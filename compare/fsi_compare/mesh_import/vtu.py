@@ -1,4 +1,5 @@
-"""Reads meshes of VTK's XML format (.vtu). meshio's own reader fails at packed or binary ones under Python 3.13."""
+"""Reads meshes of VTK's XML format (.vtu). meshio 5.3.5 under Python 3.13 refuses most that have
+appended arrays in base64, which is how VTK writes them."""
 
 from pathlib import Path
 from typing import Any, Dict, List, Tuple
