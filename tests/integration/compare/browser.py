@@ -15,7 +15,8 @@ PATIENCE = 60  # seconds for an answer, on a busy machine
 
 
 class Browser:
-    """Closes with its `with` block. `webgl`: it draws in space, by the processor."""
+    """Closes with its `with` block. `webgl`: it draws in space, by the processor; otherwise pages find no
+    WebGL, as in a window of a machine without graphics hardware."""
 
     def __init__(self, width=1200, height=1000, webgl=False):
         self._home = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
@@ -32,7 +33,11 @@ class Browser:
                 PROGRAM,
                 "--headless",
                 "--no-sandbox",
-                *(["--use-angle=swiftshader", "--enable-unsafe-swiftshader"] if webgl else ["--disable-gpu"]),
+                *(
+                    ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+                    if webgl
+                    else ["--disable-gpu", "--disable-3d-apis"]
+                ),
                 "--disable-dev-shm-usage",
                 "--remote-debugging-pipe",
                 f"--user-data-dir={self._home.name}",

@@ -347,13 +347,14 @@ class InABrowser(FolderCase):
         self.assertRegex(self.readout(), r"node \d+ of the wall at \(.*, 4\) mm: von Mises stress 20 kPa")
         self.assertEqual(self.browser.complaints, [])
 
-    def heights(self, selector):
+    def heights(self, selector, browser=None):
         """Of the elements as they are laid out; zero: not shown."""
-        root = self.browser.send("DOM.getDocument", depth=0)["root"]["nodeId"]
+        browser = browser or self.browser
+        root = browser.send("DOM.getDocument", depth=0)["root"]["nodeId"]
         found = []
-        for node in self.browser.send("DOM.querySelectorAll", nodeId=root, selector=selector)["nodeIds"]:
+        for node in browser.send("DOM.querySelectorAll", nodeId=root, selector=selector)["nodeIds"]:
             try:
-                found.append(self.browser.send("DOM.getBoxModel", nodeId=node)["model"]["height"])
+                found.append(browser.send("DOM.getBoxModel", nodeId=node)["model"]["height"])
             except AssertionError:  # it has no box
                 found.append(0)
         return found
@@ -375,6 +376,14 @@ class InABrowser(FolderCase):
         self.browser.open(self.page, javascript=False)
         self.assertTrue(all(height > 100 for height in self.heights(".stills img")))
         self.assertEqual(self.heights(".vessel canvas"), [])
+
+    def test_without_webgl(self):
+        with Browser() as plain:
+            plain.open(self.page)
+            plain.await_("document.body.innerText.includes('it lacks WebGL')")
+            self.assertTrue(all(height > 100 for height in self.heights(".stills img", plain)))
+            self.assertEqual(set(self.heights(".vessel canvas", plain)) - {0}, set())
+            self.assertEqual(plain.complaints, [])
 
     def test_turned_scene(self):
         folder = write_run(self.base / "pipe", lambda t, z: z + t, geometry="axisymmetric")
