@@ -1,6 +1,7 @@
 """Walls of laws with a finite bulk modulus in both drivers, and fibre frames of the wall's own potentials."""
 
 import csv
+import re
 import unittest
 from pathlib import Path
 
@@ -104,6 +105,29 @@ class FibreFrames(FolderTest):
             stretch = np.linalg.norm(place[:2] - place[2:], axis=1) / (2 * 1.43)
             print(f"along {name}: the inner radius grows by", stretch)
             np.testing.assert_allclose(stretch, 1.2, atol=1.5e-3)
+
+    def test_of_a_sector_along_another_axis_are_its_own(self):
+        """A quarter of it: planes of symmetry meet at the axis, and its openings are quarters of discs."""
+        mesh = make_mesh(
+            self.base / "q.msh", "--level", "coarse", "--length", 1, "--order", 2, "--format", "2.2", "--sector", 90
+        )
+        lines = mesh.read_text().split("\n")
+        first = lines.index("$Nodes") + 2
+        for k in range(first, first + int(lines[first - 1])):
+            number, x, y, z = lines[k].split()
+            lines[k] = " ".join([number, z, x, y])
+        names = {"symmetry_x": "symmetry_y", "symmetry_y": "symmetry_z"}
+        text = re.sub("symmetry_[xy]", lambda found: names[found.group()], "\n".join(lines))
+        mesh.write_text(text)
+        case = self.base / "quarter_along_x.toml"
+        points = "p0 = [0.5, 1.43, 0]\np1 = [0.5, 0, 1.43]\n"
+        case.write_text(TUBE.read_text().replace("MESH", mesh.name) + "[output.points]\n" + points)
+        folder = run(MONOLITHIC, case, self.base / "quarter_along_x")
+        self.assertEqual(summary(folder)["fibre_frame"], "laplace")
+        with (folder / "points.csv").open() as file:
+            one, other = list(csv.DictReader(file))[-2:]
+        stretch = [1 + float(one["displacement_y_mm"]) / 1.43, 1 + float(other["displacement_z_mm"]) / 1.43]
+        np.testing.assert_allclose(stretch, 1.2, atol=1.5e-3)
 
     def test_a_run_is_not_continued_with_another_frame(self):
         """What earlier programs took where a case names no frame, and what a wall along x has now."""
