@@ -20,7 +20,7 @@ void for_each_pack(const Submesh<Element::dim, Element::order>& part, Visit visi
   const int count = static_cast<int>(part.cells.size());
   for (int first = 0; first < count; first += pack_width) {
     const int filled = std::min(pack_width, count - first);
-    Vec3<Pack> x[Element::nodes];
+    Vec3<Pack> x[Element::nodes]{};
     for (int lane = 0; lane < pack_width; ++lane)
       for (int a = 0; a < Element::nodes; ++a)
         for (int i = 0; i < 3; ++i) x[a][i].set(lane, part.nodes[part.cells[first + std::min(lane, filled - 1)][a]][i]);
