@@ -2,18 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "base/threads.hpp"
+#include "mesh/edge_curves.hpp"
+#include "mesh/flat_parts.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/lumen_volume.hpp"
+#include "mesh/mid_edge_nodes.hpp"
+#include "mesh/point_math.hpp"
 #include "mesh/surface/remeshing.hpp"
+#include "mesh/surface/smooth_edges.hpp"
 #include "mesh/wall_growth.hpp"
 #include "meshes/mesh_report.hpp"
 #include "meshes/options.hpp"
@@ -29,7 +38,13 @@ struct ThickenRequest {
   std::vector<std::string> layers, openings, closed;
   WallGrowth growth;
   ThicknessOptions thickness;
+  int order = 0;  ///< 0: that of the lumen's mesh
   MeshOutput output;
+};
+
+struct Lumen {
+  TetrahedralMesh mesh;
+  std::optional<EdgeCurves> curves;  ///< of its mesh, where that is quadratic
 };
 
 /// NAME=THICKNESS or NAME=THICKNESS:ELEMENTS. \param share  the thickness is one of a wall that varies, SHARE%
@@ -59,15 +74,120 @@ GrownLayer layer_of(const std::string& text, bool share) {
 }
 
 /// A mesh of the lumen's volume, or of its surface, which is filled.
-TetrahedralMesh lumen_of(const ThickenRequest& request) {
+Lumen lumen_of(const ThickenRequest& request) {
   const std::filesystem::path file = request.lumen;
   const auto openings = flat_parts_of(request.openings);
+  Lumen lumen;
   if (file.extension() == ".msh" && gmsh_dimension(file) == 3) {
-    auto lumen = read_gmsh<3, 1>(file, {group::fluid});
-    name_flat_parts(lumen, openings);
+    if (gmsh_order(parse_gmsh(file), 3) == 2) {
+      const auto mesh = read_gmsh<3, 2>(file, {group::fluid});
+      lumen = {without_mid_edge_nodes(mesh), curves_of(mesh)};
+    } else {
+      lumen.mesh = read_gmsh<3, 1>(file, {group::fluid});
+    }
+    name_flat_parts(lumen.mesh, openings);
     return lumen;
   }
-  return fill_lumen(file, openings);
+  lumen.mesh = fill_lumen(file, openings);
+  return lumen;
+}
+
+void warn_of_straightened(const std::vector<Point>& middles, const std::string& whose) {
+  constexpr std::size_t most = 4;
+  if (middles.empty()) return;
+  std::string places;
+  for (std::size_t i = 0; i < std::min(most, middles.size()); ++i)
+    places += (i > 0 ? ", " : "") + fsi::place_of(middles[i]);
+  if (middles.size() > most) places += fmt::format(" and {} more", middles.size() - most);
+  warn(mesh_program, fmt::format("{} edges of {} were left straight, since curved ones fold cells: at {}; give smaller "
+                                 "facets there",
+                                 middles.size(), whose, places));
+}
+
+/// How the shape of the lumen changed.
+std::string volumes(const std::string& before_text, double before, const std::string& after_text, double after) {
+  return fmt::format("The lumen's volume is {:.5g} mm^3 with {} edges and {:.5g} with {} ones ({:+.2f} %).\n", before,
+                     before_text, after, after_text, 100 * (after / before - 1));
+}
+
+double straight_volume(const TetrahedralMesh& lumen) {
+  double volume = 0;
+  for (const auto& cell : lumen.cells) {
+    std::array<Point, 4> x;
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] = lumen.nodes[cell[k]];
+    volume += simplex_volume<3>(x.data());
+  }
+  return volume;
+}
+
+double curved_volume(const TetrahedralMesh& lumen, const EdgeCurves& curves) {
+  return volume_of(with_curves(lumen, curves), lumen.region_index(group::fluid));
+}
+
+void warn_of_thickness(const ReachedThickness& reached, const MeshOutput& output) {
+  if (output.quiet) return;
+  for (const auto& warning : warnings_of(reached)) warn(mesh_program, warning);
+}
+
+/// Curved facets of a surface as four flat ones each.
+TriangleSurface flattened(const SimplexMesh<3, 2>& mesh, const std::string& surface) {
+  TriangleSurface flat{mesh.nodes, {}};
+  for (const auto& [a, b, c, ab, bc, ca] : *mesh.facets(surface))
+    for (const auto& part : {SurfaceTriangle{a, ab, ca}, SurfaceTriangle{ab, b, bc}, SurfaceTriangle{ca, bc, c},
+                             SurfaceTriangle{ab, bc, ca}})
+      flat.triangles.push_back(part);
+  return flat;
+}
+
+constexpr const char* no_room = "there is no room for the wall there: give thinner layers, or draw its parts apart";
+
+void make_linear(const ThickenRequest& request, const Lumen& lumen) {
+  std::string said;
+  if (lumen.curves)
+    said = "The lumen's curved edges are made straight, as --order 1 asks. " +
+           volumes("curved", curved_volume(lumen.mesh, *lumen.curves), "straight", straight_volume(lumen.mesh));
+  if (request.growth.layers.empty()) {
+    write_and_report(lumen.mesh, request.output, TriangleGeometry::plane, said);
+    return;
+  }
+  const auto grown = grow_wall(lumen.mesh, request.growth);
+  require_no_cuts({grown.mesh.nodes, *grown.mesh.facets(group::outer)}, "--layer", no_room);
+  said +=
+      "Cells are linear. With the element p2p1 a round wall of them is a polygon, which bends: give --order 2 for "
+      "it.\n";
+  write_and_report(grown.mesh, request.output, TriangleGeometry::plane, said);
+  warn_of_thickness(grown.reached, request.output);
+}
+
+/// The lumen's surface as its nodes show it, where its mesh has no curves of its own.
+EdgeCurves curves_for(const ThickenRequest& request, const TetrahedralMesh& lumen, std::string& said) {
+  const auto facets = facets_to_grow_on(lumen, request.growth.on);
+  auto smooth = smooth_edges(lumen.nodes, facets, normals_to_grow_along(lumen, facets, 0));
+  const auto straightened = straighten_folded(lumen, smooth.curves);
+  if (!request.output.quiet) warn_of_straightened(straightened, "the lumen's surface");
+  said += to_text(smooth);
+  return std::move(smooth.curves);
+}
+
+void make_quadratic(const ThickenRequest& request, const Lumen& lumen) {
+  std::string said;
+  EdgeCurves curves;
+  if (lumen.curves) {
+    curves = *lumen.curves;
+    said = "The lumen's edges are curved as in its mesh.\n";
+  } else {
+    curves = curves_for(request, lumen.mesh, said);
+    said += volumes("straight", straight_volume(lumen.mesh), "curved", curved_volume(lumen.mesh, curves));
+  }
+  if (request.growth.layers.empty()) {
+    write_and_report(with_curves(lumen.mesh, curves), request.output, TriangleGeometry::plane, said);
+    return;
+  }
+  const auto grown = grow_quadratic_wall(lumen.mesh, std::move(curves), !lumen.curves, request.growth);
+  require_no_cuts(flattened(grown.mesh, group::outer), "--layer", no_room);
+  write_and_report(grown.mesh, request.output, TriangleGeometry::plane, said);
+  if (!request.output.quiet) warn_of_straightened(grown.straightened, "the wall");
+  warn_of_thickness(grown.reached, request.output);
 }
 
 void make(ThickenRequest& request) {
@@ -76,18 +196,12 @@ void make(ThickenRequest& request) {
   regular_output_file(request.output.file);  // before anything is computed
   for (const auto& text : request.layers) request.growth.layers.push_back(layer_of(text, request.thickness.varies()));
   const auto lumen = lumen_of(request);
-  if (request.growth.on.empty()) require_flat_parts_named(lumen, points_of("--closed", request.closed));
-  request.growth.total = total_thickness(lumen, request.growth, request.thickness);
-  if (request.growth.layers.empty()) {
-    write_and_report(lumen, request.output, TriangleGeometry::plane);
-    return;
-  }
-  const auto grown = grow_wall(lumen, request.growth);
-  require_no_cuts({grown.mesh.nodes, *grown.mesh.facets(group::outer)}, "--layer",
-                  "there is no room for the wall there: give thinner layers, or draw its parts apart");
-  write_and_report(grown.mesh, request.output, TriangleGeometry::plane);
-  if (request.output.quiet) return;
-  for (const auto& warning : warnings_of(grown.reached)) warn(mesh_program, warning);
+  if (request.growth.on.empty()) require_flat_parts_named(lumen.mesh, points_of("--closed", request.closed));
+  request.growth.total = total_thickness(lumen.mesh, request.growth, request.thickness);
+  if (request.order == 2 || (request.order == 0 && lumen.curves))
+    make_quadratic(request, lumen);
+  else
+    make_linear(request, lumen);
 }
 
 }  // namespace
@@ -112,6 +226,12 @@ MeshCommand thicken_command(CLI::App& app) {
   options->add_option("--smoothing", request->growth.smoothing, "Times that the normals are averaged with neighbours'")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000));
+  options
+      ->add_option(
+          "--order", request->order,
+          "1: straight edges; 2: quadratic cells with curved edges, for the element p2p1; that of the lumen's mesh "
+          "unless given. A lumen of straight edges gets curved ones along the wall, by the normals of its surface")
+      ->check(CLI::Range(1, 2));
   add_output_options(*options, request->output);
   request->output.advise = true;
   return {options, [request] { make(*request); }};

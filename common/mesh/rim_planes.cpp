@@ -88,6 +88,18 @@ Point in_planes(Point v, const std::vector<Point>& planes) {
   return v;
 }
 
+std::vector<Point> plane_of_rim_edge(const NodePlanes& planes, const RimEdge& edge) {
+  constexpr double same = 0.98;  // cosine
+  const auto one = planes.find(edge.first), other = planes.find(edge.second);
+  if (one == planes.end() || other == planes.end()) return {};
+  for (const auto* end : {&one->second, &other->second})
+    if (end->size() == 1) return *end;
+  for (const Point& p : one->second)
+    for (const Point& q : other->second)
+      if (std::abs(dot(p, q)) > same) return {p};
+  return {};
+}
+
 NodePlanes rim_planes(const std::vector<Point>& nodes, const std::vector<RimEdge>& rim, const RimSides& sides) {
   constexpr double same = 0.2;  // sine of the angle between two planes that are one
   NodePlanes planes;

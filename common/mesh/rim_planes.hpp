@@ -25,6 +25,9 @@ using NodePlanes = std::map<int, std::vector<Point>>;
 /// \throws InputError for a rim that is not flat, with its place
 NodePlanes rim_planes(const std::vector<Point>& nodes, const std::vector<RimEdge>& rim, const RimSides& sides = {});
 
+/// The plane that an edge of a rim lies in, by its unit normal; none where its ends are in none.
+std::vector<Point> plane_of_rim_edge(const NodePlanes& planes, const RimEdge& edge);
+
 /// The part of a vector that lies in the planes.
 Point in_planes(Point v, const std::vector<Point>& planes);
 

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "mesh/boundary.hpp"
+#include "mesh/facet_division.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/flat_parts.hpp"
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/group_names.hpp"
-#include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
 
 namespace fsi {
@@ -48,35 +48,10 @@ void add_flat_parts(const SimplexMesh<Dim, Order>& mesh, const typename SimplexM
   if constexpr (Order == 1) {
     parts.push_back({facet[0], facet[1], facet[Dim - 1]});  // an edge's last node twice
   } else {
-    constexpr int n = 4;  // parts of an edge
-    const auto at = [&](int i, int j) {
-      const std::array<double, 3> l{1 - static_cast<double>(i + j) / n, static_cast<double>(i) / n,
-                                    static_cast<double>(j) / n};
-      Point x{0, 0, 0};
-      for (int a = 0; a < Dim; ++a) x = x + (l[a] * (2 * l[a] - 1)) * mesh.nodes[facet[a]];
-      int middle = Dim;
-      for (const auto& [a, b] : SimplexEdges<Dim - 1>::vertices)
-        x = x + (4 * l[a] * l[b]) * mesh.nodes[facet[middle++]];
-      points.push_back(x);
-      return static_cast<int>(points.size()) - 1;
-    };
-    if constexpr (Dim == 2) {
-      int before = at(0, 0);
-      for (int i = 1; i <= n; ++i) {
-        const int next = at(i, 0);
-        parts.push_back({before, next, next});
-        before = next;
-      }
-    } else {
-      std::array<std::array<int, n + 1>, n + 1> number{};
-      for (int i = 0; i <= n; ++i)
-        for (int j = 0; i + j <= n; ++j) number[i][j] = at(i, j);
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; i + j < n; ++j) {
-          parts.push_back({number[i][j], number[i + 1][j], number[i][j + 1]});
-          if (i + j + 1 < n) parts.push_back({number[i + 1][j], number[i + 1][j + 1], number[i][j + 1]});
-        }
-    }
+    static const FacetDivision<Dim> division = divided_facet<Dim>();
+    const auto first = static_cast<int>(points.size());
+    for (const auto& l : division.points) points.push_back(point_of_facet<Dim>(mesh.nodes, facet, l));
+    for (const auto& [a, b, c] : division.parts) parts.push_back({first + a, first + b, first + c});
   }
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/edge_curves.hpp"
+#include "mesh/offset_normals.hpp"
 #include "mesh/simplex_mesh.hpp"
 
 namespace fsi {
@@ -28,7 +30,12 @@ struct WallGrowth {
 /// \throws InputError where there are none
 std::vector<TetrahedralMesh::Facet> facets_to_grow_on(const TetrahedralMesh& lumen, const std::string& on);
 
-/// How thick a wall became, over what was asked for.
+/// Rims and normals of those facets, averaged with their neighbours' so many times.
+/// \throws InputError for a rim that is not flat
+OffsetNormals normals_to_grow_along(const TetrahedralMesh& lumen, const std::vector<TetrahedralMesh::Facet>& facets,
+                                    int smoothing);
+
+/// How thick a wall became, over what was asked for. Nodes are those in the middles of edges, too.
 struct ReachedThickness {
   double least = 1, most = 1;   ///< distances of the outer surface's nodes from the surface that the wall grew on
   Point least_at{}, most_at{};  ///< mm
@@ -62,5 +69,20 @@ struct GrownWall {
 /// \throws InputError naming the fsi-mesh option at fault: no surface left to grow on, a name twice, an opening whose rim
 ///         is not flat, and a wall that folds, with the place
 GrownWall grow_wall(const TetrahedralMesh& lumen, const WallGrowth& growth);
+
+struct QuadraticWall {
+  SimplexMesh<3, 2> mesh;
+  ReachedThickness reached;
+  std::vector<Point>
+      straightened;  ///< mm, middles of the lumen's edges over which the wall's are straight: curved, they fold cells
+};
+
+/// The same with quadratic cells on a lumen whose edges are curved. Distances are those from the curved surface. The columns on the
+/// middles of its edges lie between those on their ends, with nodes at the layers' distances, too; an edge across a column's
+/// side has its node half way between the middles of the edges below and above, one through a layer half way.
+/// \param curves  of the lumen's edges, in its numbers
+/// \param bendable  whether the lumen's curved edges may be made straight where cells fold; else those of the wall alone
+QuadraticWall grow_quadratic_wall(const TetrahedralMesh& lumen, EdgeCurves curves, bool bendable,
+                                  const WallGrowth& growth);
 
 }  // namespace fsi
