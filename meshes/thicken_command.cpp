@@ -92,16 +92,19 @@ Lumen lumen_of(const ThickenRequest& request) {
   return lumen;
 }
 
-void warn_of_straightened(const std::vector<Point>& middles, const std::string& whose) {
+/// What a user is told behind the report.
+using Warnings = std::vector<std::string>;
+
+void add_straightened(const std::vector<Point>& middles, const std::string& whose, Warnings& warnings) {
   constexpr std::size_t most = 4;
   if (middles.empty()) return;
   std::string places;
   for (std::size_t i = 0; i < std::min(most, middles.size()); ++i)
     places += (i > 0 ? ", " : "") + fsi::place_of(middles[i]);
   if (middles.size() > most) places += fmt::format(" and {} more", middles.size() - most);
-  warn(mesh_program, fmt::format("{} edges of {} were left straight, since curved ones fold cells: at {}; give smaller "
-                                 "facets there",
-                                 middles.size(), whose, places));
+  warnings.push_back(
+      fmt::format("{} edges of {} are left straight, since curved ones fold cells: at {}; give smaller facets there",
+                  middles.size(), whose, places));
 }
 
 /// How the shape of the lumen changed.
@@ -124,9 +127,12 @@ double curved_volume(const TetrahedralMesh& lumen, const EdgeCurves& curves) {
   return volume_of(with_curves(lumen, curves), lumen.region_index(group::fluid));
 }
 
-void warn_of_thickness(const ReachedThickness& reached, const MeshOutput& output) {
-  if (output.quiet) return;
-  for (const auto& warning : warnings_of(reached)) warn(mesh_program, warning);
+void report(const AnyMesh& mesh, const ThickenRequest& request, const std::string& said, Warnings warnings,
+            const ReachedThickness& reached = {}) {
+  write_and_report(mesh, request.output, TriangleGeometry::plane, said);
+  if (request.output.quiet) return;
+  for (auto& warning : warnings_of(reached)) warnings.push_back(std::move(warning));
+  for (const auto& warning : warnings) warn(mesh_program, warning);
 }
 
 /// Curved facets of a surface as four flat ones each.
@@ -147,47 +153,46 @@ void make_linear(const ThickenRequest& request, const Lumen& lumen) {
     said = "The lumen's curved edges are made straight, as --order 1 asks. " +
            volumes("curved", curved_volume(lumen.mesh, *lumen.curves), "straight", straight_volume(lumen.mesh));
   if (request.growth.layers.empty()) {
-    write_and_report(lumen.mesh, request.output, TriangleGeometry::plane, said);
+    report(lumen.mesh, request, said, {});
     return;
   }
   const auto grown = grow_wall(lumen.mesh, request.growth);
   require_no_cuts({grown.mesh.nodes, *grown.mesh.facets(group::outer)}, "--layer", no_room);
   said +=
-      "Cells are linear. With the element p2p1 a round wall of them is a polygon, which bends: give --order 2 for "
-      "it.\n";
-  write_and_report(grown.mesh, request.output, TriangleGeometry::plane, said);
-  warn_of_thickness(grown.reached, request.output);
+      "Cells are linear. With the element p2p1 a round wall of them is a polygon, which bends: --order 2 is for it.\n";
+  report(grown.mesh, request, said, {}, grown.reached);
 }
 
-/// The lumen's surface as its nodes show it, where its mesh has no curves of its own.
-EdgeCurves curves_for(const ThickenRequest& request, const TetrahedralMesh& lumen, std::string& said) {
+/// The curves of a lumen of straight edges: of its surface, as its nodes show it.
+EdgeCurves smooth_curves(const ThickenRequest& request, const TetrahedralMesh& lumen, std::string& said,
+                         Warnings& warnings) {
   const auto facets = facets_to_grow_on(lumen, request.growth.on);
   auto smooth = smooth_edges(lumen.nodes, facets, normals_to_grow_along(lumen, facets, 0));
-  const auto straightened = straighten_folded(lumen, smooth.curves);
-  if (!request.output.quiet) warn_of_straightened(straightened, "the lumen's surface");
   said += to_text(smooth);
+  add_straightened(straighten_folded(lumen, smooth.curves), "the lumen's surface", warnings);
   return std::move(smooth.curves);
 }
 
-void make_quadratic(const ThickenRequest& request, const Lumen& lumen) {
+void make_quadratic(const ThickenRequest& request, Lumen& lumen) {
   std::string said;
-  EdgeCurves curves;
-  if (lumen.curves) {
-    curves = *lumen.curves;
-    said = "The lumen's edges are curved as in its mesh.\n";
-  } else {
-    curves = curves_for(request, lumen.mesh, said);
-    said += volumes("straight", straight_volume(lumen.mesh), "curved", curved_volume(lumen.mesh, curves));
-  }
+  Warnings warnings;
+  const double before = straight_volume(lumen.mesh);
+  EdgeCurves curves = lumen.curves ? std::move(*lumen.curves) : smooth_curves(request, lumen.mesh, said, warnings);
+  const auto say_volume = [&](const SimplexMesh<3, 2>& mesh) {
+    said += lumen.curves ? "The lumen's edges are curved as in its mesh.\n"
+                         : volumes("straight", before, "curved", volume_of(mesh, mesh.region_index(group::fluid)));
+  };
   if (request.growth.layers.empty()) {
-    write_and_report(with_curves(lumen.mesh, curves), request.output, TriangleGeometry::plane, said);
+    const auto mesh = with_curves(lumen.mesh, curves);
+    say_volume(mesh);
+    report(mesh, request, said, warnings);
     return;
   }
   const auto grown = grow_quadratic_wall(lumen.mesh, std::move(curves), !lumen.curves, request.growth);
   require_no_cuts(flattened(grown.mesh, group::outer), "--layer", no_room);
-  write_and_report(grown.mesh, request.output, TriangleGeometry::plane, said);
-  if (!request.output.quiet) warn_of_straightened(grown.straightened, "the wall");
-  warn_of_thickness(grown.reached, request.output);
+  say_volume(grown.mesh);
+  add_straightened(grown.straightened, "the wall", warnings);
+  report(grown.mesh, request, said, warnings, grown.reached);
 }
 
 void make(ThickenRequest& request) {
@@ -195,7 +200,7 @@ void make(ThickenRequest& request) {
   set_threads(request.output.threads);
   regular_output_file(request.output.file);  // before anything is computed
   for (const auto& text : request.layers) request.growth.layers.push_back(layer_of(text, request.thickness.varies()));
-  const auto lumen = lumen_of(request);
+  auto lumen = lumen_of(request);
   if (request.growth.on.empty()) require_flat_parts_named(lumen.mesh, points_of("--closed", request.closed));
   request.growth.total = total_thickness(lumen.mesh, request.growth, request.thickness);
   if (request.order == 2 || (request.order == 0 && lumen.curves))
