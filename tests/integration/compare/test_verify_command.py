@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 import tomllib
 import unittest
 import unittest.mock
@@ -280,6 +281,47 @@ class AdaptedMeshes(VerifyCase):
         self.assertIn("has not paid for tip: displacement x", err)
         self.assertNotIn("tip: pressure", err)
         self.assertIn("velocity, displacement and pressure, each alike", (self.out / "report.md").read_text())
+
+    def members(self):
+        return {(round(float(row["mesh"]), 3), float(row["step"])) for row in self.csv("members.csv")}
+
+    def test_adaptation_stops_where_it_does_not_pay(self):
+        """Displacement grows from mesh to mesh, pressure gains: the second of four adaptations is the last, and steps are halved on
+        the mesh before it."""
+        behave(self.programs, grows=True)
+        code, _, err = self.verify("--adapt", "--levels", "5")
+        self.assertEqual(code, 0, err)  # nothing is missing
+        self.assertEqual(len(self.adaptations()), 2)
+        self.assertEqual(self.members(), {(1, 2), (1, 1), (1, 0.5), (0.667, 1), (0.667, 0.5), (0.444, 1)})
+        said = re.search(r"adaptation stops: the second one has changed displacement \((.*) %, before (.*) %\) by", err)
+        changed = A * (1.5**6 - 1.5**3) / (1 + A * 1.5**6), A * (1.5**3 - 1) / (
+            1 + A * 1.5**3
+        )  # of y = 1 + A h^-3
+        for text, share in zip(said.groups(), changed):
+            self.assertEqual(text, f"{100 * share:.2g}")
+        self.assertIn("adaptation stops", (self.out / "report.md").read_text())
+        self.assertIn("adaptation stops", (self.out / "verification.json").read_text())
+        bars = self.bars()
+        self.assertEqual(bars["tip: displacement x, curve"]["error"], "")
+        true = 10  # of 100 + 10 h^2 at h = 1
+        self.assertTrue(true <= float(bars["tip: pressure, curve"]["error"]) <= 2.1 * true)
+        before = len(calls(self.programs))
+        self.verify("--adapt", "--levels", "5")  # all of it is found again
+        self.assertFalse([line for line in calls(self.programs)[before:] if "-o" in line])
+
+    def test_what_is_asked_for_says_whether_adaptation_pays(self):
+        behave(self.programs, grows=True)
+        code, _, err = self.verify("--adapt", "--levels", "4", "--of", "pressure")
+        self.assertEqual((code, len(self.adaptations())), (0, 3), err)
+        self.assertNotIn("adaptation stops", err)
+        self.assertIn((0.296, 0.5), self.members())
+
+    def test_demand_out_of_reach_of_adaptation(self):
+        behave(self.programs, grows=True)
+        code, out, err = self.verify("--adapt", "--error", "0.5%", "--of", "displacement")
+        self.assertEqual(code, 2, err)
+        self.assertEqual(len(self.adaptations()), 2)
+        self.assertIn("Adaptation has stopped", out)
 
 
 class DemandedError(VerifyCase):

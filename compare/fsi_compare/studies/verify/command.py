@@ -163,7 +163,7 @@ def make(
         requests.study(options.threads or 1), place, programs, mesh_maker, options.threads, 1, options.quiet
     )
     facts = requests.facts
-    maker = Maker(runner, requests, dimension_of(facts), options.quiet)
+    maker = Maker(runner, requests, dimension_of(facts), options.quiet, options.of)
     tell_mesh(maker, requests.recipe)
     if options.error is not None:
         return seek(options, maker, times, programs)

@@ -11,14 +11,22 @@ from ..running.study_run import REFUSED, StudyRun
 from .adapting import Adapted, adapting_member, nodes_of
 from .cost import learn
 from .family import Member, Requests
+from .paying import about_unpaid, unpaid
+from .quantities import curves_of
 from .results import FamilyRuns
 
 
 class Maker:
-    """Keeps what became of each member, by driver."""
+    """Keeps what became of each member, by driver. `names`: of the quantities that say whether an adaptation has paid; empty: all."""
 
-    def __init__(self, runner: Runner, requests: Requests, dimension: int, quiet: bool) -> None:
+    def __init__(
+        self, runner: Runner, requests: Requests, dimension: int, quiet: bool, names: Sequence[str] = ()
+    ) -> None:
         self.runner, self.requests, self.dimension, self.quiet = runner, requests, dimension, quiet
+        self.names = names
+        self.last: Optional[
+            int
+        ] = None  # level of the adapted mesh that was none the better for it: there is no finer one
         self.families = {driver: FamilyRuns(driver, {}) for driver in requests.methods}
         self.others: Dict[str, StudyRun] = {}
         self.notes: List[str] = []
@@ -31,19 +39,41 @@ class Maker:
 
     def run(self, members: Sequence[Member]) -> None:
         """Those that are not there yet. Raises InputError where the user's own cannot run."""
-        wanted = [(m, driver) for m in members for driver in self.families if m not in self.families[driver].runs]
         recipe = self.requests.recipe
         if not isinstance(recipe, Adapted):
-            self._together([pair for pair in wanted if self._has_mesh(pair[0], pair[1])])
+            self._together([pair for pair in self._wanted(members) if self._has_mesh(*pair)])
             return
-        for mesh in sorted({member.mesh for member, _ in wanted}, reverse=True):  # each from the runs on the one before
-            for level in range(recipe.level(mesh)):
+        moved: List[Member] = []
+        for mesh in sorted(
+            {member.mesh for member, _ in self._wanted(members)}, reverse=True
+        ):  # each from the one before
+            level, here, plain = recipe.level(mesh), [m for m in members if m.mesh == mesh], Member(mesh, 1.0)
+            for below in range(level):
+                self._climb(recipe, below)
+            if plain in here and self.reaches(plain):  # before its others: it says whether there are any
+                self._together([pair for pair in self._wanted([plain])[:1] if self._has_mesh(*pair)])
                 self._climb(recipe, level)
-            self._together([pair for pair in wanted if pair[0].mesh == mesh and self._has_mesh(pair[0], pair[1])])
+            if self.last is not None and level >= self.last:
+                runs = next(iter(self.families.values())).runs
+                before = adapting_member(recipe, runs, self.last - 1).mesh
+                moved += [replace(m, mesh=before) for m in here if m.step < 1]
+                here = [m for m in here if m.step >= 1 and level == self.last]
+            self._together([pair for pair in self._wanted(here) if self._has_mesh(*pair)])
+        self._together([pair for pair in self._wanted(moved) if self._has_mesh(*pair)])
+
+    def reaches(self, member: Member) -> bool:
+        """Whether adaptation has not stopped before its mesh."""
+        recipe = self.requests.recipe
+        return not isinstance(recipe, Adapted) or self.last is None or recipe.level(member.mesh) <= self.last
+
+    def _wanted(self, members: Iterable[Member]) -> List[Tuple[Member, str]]:
+        """Those that are not there yet, each once."""
+        pairs = [(m, driver) for m in dict.fromkeys(members) for driver in self.families]
+        return [(m, driver) for m, driver in pairs if m not in self.families[driver].runs]
 
     def _climb(self, recipe: Adapted, level: int) -> None:
         """The run whose indicator makes the mesh of the next level: that of the first driver by the case's own step."""
-        if level in recipe.parents:
+        if level in recipe.parents or self.last is not None:
             return
         driver, family = next(iter(self.families.items()))
         parent = adapting_member(recipe, family.runs, level)
@@ -54,6 +84,17 @@ class Maker:
             mesh = self.runner.mesh_file(self.requests.mesh(parent)) or recipe.file
             assert mesh is not None  # a case without a mesh file has one made
             recipe.parents[level] = absolute(mesh), absolute(run.folder)
+            self._judge_adaptation(recipe, level)
+
+    def _judge_adaptation(self, recipe: Adapted, level: int) -> None:
+        """Ends the family at this level where its mesh has brought a kind of quantity no nearer."""
+        if level < 2:
+            return
+        curves = [curves_of(recipe.parents[n][1]) for n in range(level - 2, level + 1)]
+        found = unpaid(curves, self.requests.facts, self.names)
+        if found:
+            self.last = level
+            self.note(about_unpaid(level, found))
 
     def _together(self, wanted: Sequence[Tuple[Member, str]]) -> None:
         runs = self.runner.run([self.requests.of(member, driver) for member, driver in wanted])
@@ -105,6 +146,7 @@ class Maker:
         self._meshes.clear()
         if isinstance(self.requests.recipe, Adapted):
             self.requests.recipe.parents.clear()
+            self.last = None
 
     def predicted(self, members: Iterable[Member]) -> float:
         """Seconds of those that are not there yet, by all drivers, from those that are."""

@@ -203,7 +203,10 @@ class Search:
         return f"elements of {mesh * self.centre.mesh:.3g} and steps of {step * self.centre.step:.3g} of the case's"
 
     def _move(self, target: Member, lines: List[str]) -> bool:
-        """The family to another centre; False where that does not fit the budget."""
+        """The family to another centre; False where adaptation has stopped before it, or that does not fit the budget."""
+        if not self.maker.reaches(target):
+            lines.append("Adaptation has stopped: a finer mesh was none the better for what it is adapted to.")
+            return False
         costs = learn(
             about(self.maker.families[self.driver], Member(1.0, 1.0)).runs,
             self.maker.dimension,
