@@ -68,7 +68,7 @@ LOOSE = (
     1e-4  # as little as newton_tolerance = 1e-3, the monolithic driver's default, shows in an error (docs/evidence.md)
 )
 PAPER = {"coarse": "meshes/artery/{}.toml", "axisymmetric": "meshes/artery/axisymmetric/{}.toml"}
-MESHES = {"coarse": ["--level", "coarse"], "axisymmetric": ["--axisymmetric", "--for", "p2p1", "--error", "1%"]}
+MESHES = {"coarse": ["--level", "coarse"], "axisymmetric": ["--axisymmetric", "--for", "p2p1", "--error", "2%"]}
 
 
 class Case(NamedTuple):

@@ -53,7 +53,7 @@ struct MeshData {
   std::filesystem::path file;  ///< absolute, or relative to the working directory once read
   std::string level;           ///< "coarse", "intermediate", "fine", or empty
   double error = 0;  ///< percent that the artery mesh made on demand may leave in the wave; 0: none is asked for
-  Waves waves = Waves::damped;  ///< for which `error` holds
+  Waves waves = Waves::damped;  ///< for which `error` holds; read_case() chooses it where the file does not
 };
 
 /// fluid.viscosity_model: a law that the viscosity follows

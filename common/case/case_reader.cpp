@@ -134,15 +134,28 @@ void warn_of_stabilisation(const CaseEntry& whole_case, const Case& scene) {
     warn(whole_case.child("structure").child("stabilisation"));
 }
 
-/// Second order with short steps keeps waves that a mesh for damped ones cannot carry.
-void warn_of_damped_mesh(const CaseEntry& whole_case, const Case& scene) {
-  constexpr double short_step = 0.1;  // ms: the table's two kinds are for 1/8 and for 1/32 or less
-  if (scene.mesh.error == 0 || scene.mesh.waves != Waves::damped || !scene.time) return;
-  if (scene.time->scheme && prototype(*scene.time->scheme)->error_terms().order == 1) return;
-  if (!scene.time->adaptive && scene.time->step > short_step) return;
-  whole_case.child("mesh").child("error").warn(
-      "holds for backward Euler with 1/8 ms; shorter steps of second order keep waves that this mesh does not resolve",
-      "add waves = \"resolved\" for a mesh that does");
+/// Steps of second order that are short keep waves which longer ones, and those of first order, let die.
+bool keeps_short_waves(const Case& scene) {
+  constexpr double short_step = 0.1;  // ms: the recommended meshes' two kinds are for 1/8 and for 1/32 or less
+  if (!scene.time) return false;
+  if (scene.time->scheme && prototype(*scene.time->scheme)->error_terms().order == 1) return false;
+  return scene.time->adaptive || scene.time->step <= short_step;
+}
+
+/// mesh.error holds for one kind of waves: that which the case's own steps leave, unless it names one.
+void choose_waves(const CaseEntry& whole_case, Case& scene) {
+  if (scene.mesh.error == 0 || !keeps_short_waves(scene)) return;
+  const CaseEntry mesh = whole_case.child("mesh");
+  if (mesh.has("waves")) {
+    if (scene.mesh.waves == Waves::damped)
+      mesh.child("waves").warn(
+          "is for backward Euler with 1/8 ms; shorter steps of second order keep waves that this mesh does not resolve",
+          "leave it out, or set \"resolved\", for a mesh that does");
+    return;
+  }
+  scene.mesh.waves = Waves::resolved;
+  mesh.child("error").remark(
+      "taken for resolved waves, which short steps of second order keep; waves = \"damped\" takes a coarser mesh");
 }
 
 /// A wall a thousand times denser than a fluid in the right unit is meant so, to see what the added mass does. Without
@@ -227,7 +240,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   choose_newton_stop(whole_case, scene);
   warn_of_wall_density(whole_case, scene);
   warn_of_stabilisation(whole_case, scene);
-  warn_of_damped_mesh(whole_case, scene);
+  choose_waves(whole_case, scene);
   scene.warnings = source.warnings;
   for (auto& warning : warnings_of_doubts(source.doubts, scene)) scene.warnings.push_back(std::move(warning));
   scene.remarks = source.remarks;

@@ -76,7 +76,8 @@ std::vector<CaseKey<MeshData>> mesh_keys() {
           {read_mesh_error,
            [](const MeshData& mesh) { return mesh.error > 0 ? fmt::format("{}%", mesh.error) : std::string(); }}),
       leaf("waves", optional,
-           "for which error holds: {}; resolved by steps of second order of 1/32 ms or less, default {}",
+           "for which error holds: {}; resolved unless given where steps are of second order and at most 0.1 ms, else "
+           "{}",
            name_from(at(&MeshData::waves), wave_kinds())),
   };
 }

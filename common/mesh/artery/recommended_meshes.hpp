@@ -18,9 +18,9 @@ enum class Waves {
 /// Names of the two in case files and options.
 const NameTable<Waves>& wave_kinds();
 
-/// A mesh of the artery with the error that it leaves in the wave of the neo-Hookean case: relative L2 norm along z,
-/// against a much finer mesh at the same time steps, so that only space counts. The largest of t = 1.5, 3, 4.5 and 6 ms
-/// for damped waves, of these and 7.5 and 9 ms for resolved ones.
+/// A mesh of the artery with the error that it leaves in the wave of the neo-Hookean case: the largest of t = 1.5, 3, 4.5,
+/// 6, 7.5 and 9 ms of the relative L2 norm along z of the difference from a much finer mesh at the same time steps, so
+/// that only space counts.
 struct RecommendedMesh {
   std::string element;        ///< as in case files
   bool axisymmetric;          ///< else three-dimensional, whole or a sector

@@ -22,7 +22,7 @@ from fsi_compare.studies.verify.family import Member, read_case, with_settings
 from fsi_compare.studies.verify.found_case import write_case
 from fsi_compare.studies.verify.geo_sizes import graded_text, read_sizes
 from fsi_compare.studies.verify.lean import between, cross, lean, starting_member
-from fsi_compare.studies.verify.artery_sizes import LEVELS, RECOMMENDED, artery_words
+from fsi_compare.studies.verify.artery_sizes import LEVELS, RECOMMENDED, SHORT_STEP, artery_words, waves_of
 from fsi_compare.studies.verify.mesh_family import ratio_for
 from fsi_compare.studies.verify.preparing import tell_damped
 from fsi_compare.studies.verify.quantities import Asked, Curve, peak, quantities_of
@@ -289,23 +289,38 @@ class Tolerances(unittest.TestCase):
 
 
 class MeshWords(unittest.TestCase):
+    def test_waves_of_a_recommended_mesh_follow_from_the_steps(self):
+        """As the drivers take them (test_unit_warnings.cpp)."""
+
+        def waves(mesh=None, **time):
+            return waves_of({"mesh": {"error": "10%", **(mesh or {})}, "time": time})
+
+        for short in ({"step": 0.03125}, {"step": 0.1}, {"step": "adaptive"}, {"step": 0.05, "scheme": "bdf2"}):
+            self.assertEqual(waves(**short), "resolved", short)
+        for other in ({"step": 0.125}, {"step": 0.03125, "scheme": "euler"}, {"step": "adaptive", "scheme": "euler"}):
+            self.assertEqual(waves(**other), "damped", other)
+        self.assertEqual(waves({"waves": "damped"}, step=0.03125), "damped")
+        self.assertEqual(waves_of({"mesh": {"error": "3%"}, "static": {}}), "damped")
+        source = (SOURCES / "common/case/case_reader.cpp").read_text()
+        self.assertEqual(float(re.search(r"double short_step = ([\d.]+)", source)[1]), SHORT_STEP)
+
     def test_says_where_the_error_of_a_recommended_mesh_does_not_hold(self):
-        def said(mesh, order=2.0, step=0.03125):
-            facts = types.SimpleNamespace(
-                entries={"mesh": mesh}, time_order=order, static=False, adaptive=False, step=step
-            )
+        def said(mesh, **time):
+            facts = types.SimpleNamespace(entries={"mesh": mesh, "time": {"step": 0.03125, **time}})
             notes = []
             tell_damped(types.SimpleNamespace(requests=types.SimpleNamespace(facts=facts), note=notes.append))
             return notes
 
-        self.assertIn("mesh.error = 10% holds for damped waves", said({"error": "10%"})[0])
+        damped = {"error": "10%", "waves": "damped"}
+        self.assertIn("mesh.error = 10% is for damped waves", said(damped)[0])
         for quiet in (
             said({"error": "10%", "waves": "resolved"}),
-            said({"error": "10%"}, 1.0),
+            said({"error": "10%"}),
+            said(damped, scheme="euler"),
+            said(damped, step=0.125),
             said({"file": "a.msh"}),
         ):
             self.assertEqual(quiet, [])
-        self.assertEqual(said({"error": "10%"}, step=0.125), [])
 
     def test_sizes_of_levels_are_those_of_fsi_mesh(self):
         source = (SOURCES / "common/mesh/artery/options.cpp").read_text()

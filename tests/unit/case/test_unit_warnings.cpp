@@ -270,17 +270,33 @@ TEST(UnitWarnings, AreSilentOnTheSettingsOfEveryStudy) {
   EXPECT_GT(tried, 60);
 }
 
-TEST(MeshWarnings, AMeshForDampedWavesIsNamedWhereTheyLive) {
+TEST(MeshWarnings, AnErrorHoldsForTheWavesThatTheStepsLeave) {
   std::string text = good_case;
   const std::string level = "level = \"coarse\"";
   text.replace(text.find(level), level.size(), "error = \"1%\"");
-  const auto warnings = [&](const Lines& settings) { return parse_case(text, "case.toml", settings).warnings; };
-  EXPECT_EQ(warnings({"time.scheme=midpoint", "time.step=0.125"}), Lines());
-  EXPECT_EQ(warnings({"time.scheme=euler", "time.step=0.03125"}), Lines());
-  EXPECT_EQ(warnings({"time.scheme=midpoint", "time.step=0.03125", "mesh.waves=resolved"}), Lines());
-  const Lines said = warnings({"time.scheme=midpoint", "time.step=0.03125"});
-  ASSERT_EQ(said.size(), 1u);
-  EXPECT_NE(said[0].find("mesh.error: holds for backward Euler"), std::string::npos) << said[0];
+  const auto read = [&](const Lines& settings) { return parse_case(text, "case.toml", settings); };
+  for (const Lines& damped :
+       {Lines{"time.scheme=midpoint", "time.step=0.125"}, Lines{"time.scheme=euler", "time.step=0.03125"}}) {
+    const auto scene = read(damped);
+    EXPECT_EQ(scene.mesh.waves, Waves::damped);
+    EXPECT_EQ(scene.warnings, Lines());
+    EXPECT_EQ(scene.remarks, Lines());
+  }
+  for (const Lines& short_steps :
+       {Lines{"time.scheme=midpoint", "time.step=0.03125"}, Lines{"time.scheme=tr-bdf2", "time.step=adaptive"}}) {
+    const auto scene = read(short_steps);
+    EXPECT_EQ(scene.mesh.waves, Waves::resolved);
+    EXPECT_EQ(scene.warnings, Lines());
+    ASSERT_EQ(scene.remarks.size(), 1u);
+    EXPECT_NE(scene.remarks[0].find("mesh.error: taken for resolved waves"), std::string::npos) << scene.remarks[0];
+  }
+  const auto named = read({"time.scheme=midpoint", "time.step=0.03125", "mesh.waves=resolved"});
+  EXPECT_EQ(named.warnings, Lines());
+  EXPECT_EQ(named.remarks, Lines());
+  const auto against = read({"time.scheme=midpoint", "time.step=0.03125", "mesh.waves=damped"});
+  EXPECT_EQ(against.mesh.waves, Waves::damped);
+  ASSERT_EQ(against.warnings.size(), 1u);
+  EXPECT_NE(against.warnings[0].find("mesh.waves: is for backward Euler"), std::string::npos) << against.warnings[0];
 }
 
 }  // namespace

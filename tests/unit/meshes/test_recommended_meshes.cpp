@@ -35,6 +35,18 @@ TEST(RecommendedMeshes, TheCheapestGoodEnoughOneIsTaken) {
   }
 }
 
+TEST(RecommendedMeshes, ThreeAndTenPercentAreTwoMeshesThatLeaveNotMuchLess) {
+  for (const bool axisymmetric : {true, false})
+    for (const auto waves : {Waves::damped, Waves::resolved}) {
+      SCOPED_TRACE(axisymmetric ? "axisymmetric, " + wave_kinds().name_of(waves) : wave_kinds().name_of(waves));
+      const auto& fine = recommended_mesh("p2p1", axisymmetric, waves, 3, asked);
+      const auto& coarse = recommended_mesh("p2p1", axisymmetric, waves, 10, asked);
+      EXPECT_NE(&fine, &coarse);
+      EXPECT_GT(fine.error(), 1);
+      EXPECT_GT(coarse.error(), 10.0 / 3);
+    }
+}
+
 std::string refusal(const std::function<void()>& call) {
   try {
     call();

@@ -3,7 +3,7 @@
 import re
 import tempfile
 from pathlib import Path
-from typing import Dict, List, Sequence
+from typing import Any, Dict, List, Mapping, Sequence
 
 from ...base.errors import InputError
 from ..starting.processes import answer
@@ -15,8 +15,24 @@ RECOMMENDED = re.compile(
 )
 CELLS = ("--lumen-cells", "--media-cells", "--adventitia-cells", "--around", "--axial-cells")
 SIZE_OPTIONS = ("--size", "--axial-size")
+SHORT_STEP = 0.1  # ms, as common/case/case_reader.cpp has it: second order keeps waves that longer steps let die
+FIRST_ORDER = ("euler",)
 # mm across and along, as common/mesh/artery/options.cpp has them: fsi-mesh says them nowhere
 LEVELS = {"coarse": (0.75, 0.78), "intermediate": (0.375, 0.34), "fine": (0.1875, 0.168)}
+
+
+def keeps_short_waves(entries: Mapping[str, Any]) -> bool:
+    """Whether the drivers take mesh.error of a case for resolved waves."""
+    time = entries.get("time", {})
+    if "static" in entries or time.get("scheme") in FIRST_ORDER:
+        return False
+    step = time.get("step", 1.0)
+    return bool(step == "adaptive" or step <= SHORT_STEP)
+
+
+def waves_of(entries: Mapping[str, Any]) -> str:
+    """That mesh.error of a case is for: "damped" or "resolved"."""
+    return str(entries.get("mesh", {}).get("waves") or ("resolved" if keeps_short_waves(entries) else "damped"))
 
 
 def cells_of(words: Sequence[str]) -> List[float]:

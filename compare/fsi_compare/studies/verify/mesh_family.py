@@ -19,7 +19,7 @@ from ...base.files import is_file, replacing
 from ..gallery.mesh_chain import MARK, READ, SCRIPT, commands_of, links, with_places
 from ..gallery.scene import Scene, read_scene
 from ..running.study_file import StudyMesh
-from .artery_sizes import artery_words, cells_of, with_numbers
+from .artery_sizes import artery_words, cells_of, waves_of, with_numbers
 from .chain_sizes import Command, apart, sized
 from .geo_sizes import GeoSizes, graded_text, read_sizes
 
@@ -139,8 +139,7 @@ def find_recipe(case: Path, entries: Mapping[str, Any], named: Optional[str], me
     if "level" in section or "error" in section:
         words = ["artery", *(["--axisymmetric"] if geometry == "axisymmetric" else [])]
         if "error" in section:
-            words += ["--for", element, "--error", str(section["error"])]
-            words += ["--waves", str(section["waves"])] if "waves" in section else []
+            words += ["--for", element, "--error", str(section["error"]), "--waves", waves_of(entries)]
         else:
             words += ["--level", str(section["level"]), *(["--order", "2"] if element == "p2p1" else [])]
         return _recipe(words, case.parent, str(case), mesh_maker)

@@ -8,6 +8,7 @@ from ...base.errors import InputError
 from ..gallery.mesh_chain import READ
 from ..starting.progress import duration
 from .adapting import Adapted, about_adapted
+from .artery_sizes import keeps_short_waves
 from .family import CaseFacts, Member, members, mesh_ratio
 from .making import Maker
 from .mesh_family import Recipe
@@ -95,19 +96,15 @@ def _try_out(maker: Maker, family: Sequence[Member], budget: float) -> None:
         maker.run([member])
 
 
-SHORT_STEP = 0.1  # ms: mesh.error holds for 1/8 ms or, of resolved waves, for 1/32 ms or less
-
-
 def tell_damped(maker: Maker) -> None:
-    """That a mesh by mesh.error is for other steps than the case's: runs of the family are made with it as a file, so that no
-    driver says so."""
-    facts = maker.requests.facts
-    mesh = facts.entries.get("mesh", {})
-    second = facts.time_order == 2 and not facts.static
-    if second and "error" in mesh and "waves" not in mesh and (facts.adaptive or facts.step <= SHORT_STEP):
+    """That mesh.error is for other steps than the case's, where the case says so itself: runs of the family are made with the mesh
+    as a file, so that no driver does."""
+    entries = maker.requests.facts.entries
+    mesh = entries.get("mesh", {})
+    if "error" in mesh and mesh.get("waves") == "damped" and keeps_short_waves(entries):
         maker.note(
-            f"mesh.error = {mesh['error']} holds for damped waves, of euler and 1/8 ms; the case's steps keep waves that this mesh "
-            'does not resolve: waves = "resolved" takes one that does'
+            f"mesh.error = {mesh['error']} is for damped waves, of euler and 1/8 ms; the case's steps keep waves that this mesh "
+            "does not resolve: without mesh.waves it is one that does"
         )
 
 
