@@ -24,6 +24,7 @@ from fsi_compare.studies.verify.geo_sizes import graded_text, read_sizes
 from fsi_compare.studies.verify.lean import between, cross, lean, starting_member
 from fsi_compare.studies.verify.artery_sizes import LEVELS, RECOMMENDED, SHORT_STEP, artery_words, waves_of
 from fsi_compare.studies.verify.mesh_family import ratio_for
+from fsi_compare.studies.verify.paying import kind_of, unpaid
 from fsi_compare.studies.verify.preparing import tell_damped
 from fsi_compare.studies.verify.quantities import Asked, Curve, peak, quantities_of
 from fsi_compare.studies.verify.results import Judged, about
@@ -286,6 +287,50 @@ class Tolerances(unittest.TestCase):
         self.assertEqual((float(newton[1]), float(gap[1])), (NEWTON_TOLERANCE, GAP_TOLERANCE))
         choice = (SOURCES / "partitioned/scheme_choice.cpp").read_text()
         self.assertIn(f'return {{"{DEFAULT_SCHEME}", "the case names none"}};', choice)
+
+
+class Paying(unittest.TestCase):
+    """Three meshes, each adapted from the one before: what the last has changed against what the one before has."""
+
+    NAMES = ("trunk: mean pressure", "trunk: area", "outlet: flow")
+    FACTS = types.SimpleNamespace(asked=lambda times: Asked())
+
+    def found(self, *factors, names=()):
+        """`factors`: those of a sine by curve, on each of the meshes."""
+        meshes = [
+            {name: curve(lambda t, f=f: f * math.sin(t), name=name) for name, f in zip(self.NAMES, of)}
+            for of in zip(*factors)
+        ]
+        return unpaid(meshes, self.FACTS, names)
+
+    def test_kinds_are_judged_apart(self):
+        """A pressure that moves by 5 and then by 9 %, beside an area and a flow that gain."""
+        found = self.found((1.0, 1.05, 1.14), (1.0, 1.04, 1.05), (1.0, 0.9, 0.88))
+        (one,) = found
+        self.assertEqual(one.kind, "pressure")
+        self.assertAlmostEqual(one.before, 0.05 / 1.05, places=9)
+        self.assertAlmostEqual(one.now, 0.09 / 1.14, places=9)
+
+    def test_what_is_not_asked_for_does_not_count(self):
+        factors = ((1.0, 1.05, 1.14), (1.0, 1.04, 1.05), (1.0, 0.9, 0.88))
+        self.assertEqual(self.found(*factors, names=("area", "flow")), [])
+        self.assertEqual([one.kind for one in self.found(*factors, names=("trunk",))], ["pressure"])
+
+    def test_less_than_a_thousandth_is_converged(self):
+        self.assertEqual(self.found((1.0, 1.0001, 1.0005), (1.0, 1.0, 1.0), (1.0, 1.0, 1.0)), [])
+        kinds = [one.kind for one in self.found((1.0, 1.0, 1.0), (1.0, 1.01, 1.03), (1.0, 0.99, 0.96))]
+        self.assertEqual(kinds, ["velocity", "displacement"])
+
+    def test_what_curves_are_of(self):
+        for name, kind in (
+            ("tip: displacement x", "displacement"),
+            ("plane: area", "displacement"),
+            ("inlet: flow", "velocity"),
+            ("tip: velocity z", "velocity"),
+            ("inlet: mean pressure", "pressure"),
+            ("body: force x", "pressure"),
+        ):
+            self.assertEqual(kind_of(curve(math.sin, name=name)), kind)
 
 
 class MeshWords(unittest.TestCase):
