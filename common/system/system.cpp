@@ -375,7 +375,8 @@ template <int n>
 bool System<n>::rates_differ(const StepRates& rates) const {
   const StepRates& of_jacobian = point_.rates;
   return rates.step != of_jacobian.step || rates.interface.period != of_jacobian.interface.period ||
-         rates.fluid_factor != of_jacobian.fluid_factor || rates.acceleration_factor != of_jacobian.acceleration_factor ||
+         rates.fluid_factor != of_jacobian.fluid_factor ||
+         rates.acceleration_factor != of_jacobian.acceleration_factor ||
          (point_.viscous_wall && rates.strain_lag != of_jacobian.strain_lag);
 }
 
