@@ -45,7 +45,8 @@ unshare --mount --propagation private --pid --fork --kill-child bash -c '
     PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 HOME=/root bash -euo pipefail -c "
       cd /source
       cmake --preset serial -B /build --toolchain cmake/aarch64.cmake -DFSI_NATIVE=OFF -DFSI_BENCHMARKS=OFF \
-        -DFSI_TEST_CASES=OFF -DFSI_WARNINGS_AS_ERRORS=ON
+        -DFSI_TEST_CASES=OFF -DFSI_WARNINGS_AS_ERRORS=ON \
+        -DCLANG_FORMAT=/bin/true -DCLANG_TIDY=/bin/true -DBLACK=/bin/true -DMYPY=/bin/true  # the checks do not run here
       cmake --build /build --target test_math test_fem test_algebra test_materials fsi-mesh fsi-monolithic fsi-partitioned
       for test in math fem algebra materials; do qemu-aarch64-static /build/bin/test_\$test --gtest_brief=1; done
       qemu-aarch64-static /build/bin/fsi-monolithic --version
