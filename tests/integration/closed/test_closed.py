@@ -1,10 +1,12 @@
 """Named surfaces of the fluid: each is an opening or closed, and both are said. Fluids without any opening."""
 
 import csv
+import re
 import unittest
 
+import h5py
 import numpy as np
-from programs import DRIVERS, MONOLITHIC, PARTITIONED, FolderTest, attempt, energy, make_mesh, run
+from programs import DRIVERS, MESH, MONOLITHIC, PARTITIONED, FolderTest, attempt, energy, execute, make_mesh, run
 from scenes import WALL
 
 FLUID = """element = "p2p1"
@@ -95,6 +97,8 @@ class Closed(FolderTest):
             text = self.log(program, FLUID + 'closed = ["inlet", "eca"]\n' + WALL + TISSUE + points)
             self.assertIn("closed, the fluid sticks there: inlet, eca\n", text)
             self.assertIn("the fluid is enclosed, and nothing but the velocities of each step keeps its volume", text)
+            for part in ("+1.3 % with midpoint", "+0.14 % with tr-bdf2", "docs/theory.md, section 8.12"):
+                self.assertIn(part, text)
             found.append(energy(self.base / "out")["wall_volumetric_energy"])
             with (self.base / "out" / "points.csv").open() as file:
                 (row,) = (row for row in csv.DictReader(file) if float(row["time_ms"]) == 0.375)
@@ -129,6 +133,120 @@ class Closed(FolderTest):
                 MONOLITHIC, FLUID.replace("tube.msh", mesh.name) + 'closed = ["eca"]\n' + WALL + INLET + geometry
             )
             self.assertIn('rename it, or add [[support]] with surface = "ends" and fixed = ["r", "z"]', said)
+
+
+RING_GEO = """Point(1) = {0, 0, 0};
+Point(2) = {1.43, 0, 0};
+Point(3) = {0, 1.43, 0};
+Point(4) = {1.82, 0, 0};
+Point(5) = {0, 1.82, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 4};
+Circle(3) = {2, 1, 3};
+Circle(4) = {4, 1, 5};
+Line(5) = {3, 1};
+Line(6) = {5, 3};
+Curve Loop(1) = {1, 3, 5};
+Curve Loop(2) = {2, 4, 6, -3};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Mesh.MeshSizeMin = 0.3;
+Mesh.MeshSizeMax = 0.3;
+Physical Surface("fluid") = {1};
+Physical Surface("wall") = {2};
+Physical Curve("outer") = {4};
+Physical Curve("symmetry_y") = {1, 2};
+Physical Curve("symmetry_x") = {5, 6};
+"""
+RING = """element = "p2p1"
+geometry = "plane"
+[mesh]
+file = "ring.msh"
+[fluid]
+density = 1.0
+viscosity = 1e-4
+closed = []
+[structure]
+density = 1.2
+bulk_modulus = 1e4
+[structure.layers.wall]
+material = "neo-hookean"
+c10 = 30.0
+[[support]]
+surface = "outer"
+traction = [[0, 0, 0], [0.5, 1.2, -1.2], [1, 0, 0]]
+[time]
+step = 0.05
+end = 3.0
+[monolithic]
+newton_tolerance = 1e-10
+[output]
+fields = ["displacement"]
+every = 1
+"""
+EDGES = ((0, 1, 3), (1, 2, 4), (2, 0, 5))  # of a quadratic triangle: both ends and the middle
+
+
+class EnclosedVolume(FolderTest):
+    """A quarter of a ring around its fluid, pushed to an oval by 0.6 mm. Continuity holds at x_n + theta dt v, so that in the plane
+    each step changes the volume by -(2 theta - 1) dt^2 A(v) exactly (docs/theory.md, section 8.12)."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        (cls.base / "ring.geo").write_text(RING_GEO)
+        made = execute(MESH, "geo", cls.base / "ring.geo", "--order", 2, "-o", cls.base / "ring.msh")
+        assert made.returncode == 0, made.stderr
+        (cls.base / "ring.toml").write_text(RING)
+
+    def boundary(self, folder):
+        """Nodes of the fluid's boundary at all levels, (levels, edges, 3, 2): both ends and the middle of each edge."""
+        with h5py.File(folder / "fields.h5") as file:
+            fluid = file["fluid"]
+            cells, points, moved = fluid["cells"][()], fluid["points"][()], fluid["displacement"]
+            levels = [points + moved[name][()] for name in sorted(moved)]
+        used = {}
+        for cell in cells:
+            for edge in EDGES:
+                nodes = [cell[i] for i in edge]
+                used.setdefault(frozenset(nodes[:2]), []).append(nodes)
+        outside = np.array([edges[0] for edges in used.values() if len(edges) == 1])
+        return np.array([level[outside][:, :, :2] for level in levels])
+
+    def half_cross(self, x, y):
+        """1/2 of the integral of x dy around the boundary, of curves with these nodes."""
+        found = 0.0
+        for s, weight in zip(*np.polynomial.legendre.leggauss(3)):  # exact: of degree three
+            shape, slope = (s * (s - 1) / 2, s * (s + 1) / 2, 1 - s * s), (s - 0.5, s + 0.5, -2 * s)
+            a, b = (np.einsum("i,eic->ec", of, nodes) for of, nodes in ((shape, x), (slope, y)))
+            found += weight * np.sum(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+        return found / 2
+
+    def changes(self, name, *settings):
+        """By step, relative to the volume at first: of the volume, and A(v) dt^2; theta."""
+        folder = run(MONOLITHIC, self.base / "ring.toml", self.base / name, *settings)
+        x = self.boundary(folder)
+        volumes = np.array([self.half_cross(level, level) for level in x])
+        areas = np.array([self.half_cross(v, v) for v in np.diff(x, axis=0)])
+        found = re.search(r"theta = [\d.]+: 1/2 \+ ([\d.e-]+)/ms times the step", (folder / "run.log").read_text())
+        return (
+            np.diff(volumes) / volumes[0],
+            areas / volumes[0],
+            None if found is None else 0.5 + 0.05 * float(found[1]),
+        )
+
+    def test_it_changes_by_what_theory_says(self):
+        changed, areas, _ = self.changes("euler", "time.scheme=euler")  # theta = 1
+        self.assertGreater(changed.sum(), 0.005)
+        np.testing.assert_allclose(changed, -areas, atol=1e-10)
+        changed, areas, theta = self.changes("midpoint", "time.scheme=midpoint")
+        self.assertGreater(changed.sum(), 5e-4)
+        np.testing.assert_allclose(changed.sum(), -(2 * theta - 1) * areas.sum(), rtol=1e-3)  # the log's digits
+
+    def test_it_stays_without_damping(self):
+        changed, areas, _ = self.changes("undamped", "time.scheme=midpoint", "time.damping=0")
+        self.assertLess(np.abs(changed).max(), 1e-10)
+        self.assertGreater(np.abs(areas).sum(), 0.005)  # it has swung
 
 
 if __name__ == "__main__":
