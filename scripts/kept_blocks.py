@@ -170,7 +170,7 @@ def references_verdict(rows: List[Row]) -> str:
     far = max(barred, key=_beyond)
     lines = [
         f"{len(barred)} of {len(rows)} numbers, each by each driver, have a bar. {len(held)} of these differ from the known value by no "
-        "more than their bar and what published values differ by among each other."
+        "more than their bar, what published values differ by among each other and, where these are of another model, what that is worth."
     ]
     if _beyond(far) > 1:
         lines.append(
@@ -193,6 +193,7 @@ def references_table(rows: List[Row]) -> str:
         first = next(iter(of.values()))
         orders = ", ".join(_digits(first[name], 2) if first[name] else "-" for name in ("order_mesh", "order_step"))
         spread = f", they differ by {_digits(first['spread'], 2)} %" if first["spread"] else ""
+        spread += f"; another model, worth {_digits(first['model'], 2)} %" if first["model"] else ""
         cells = [f"`{scene}`", number, first["unit"], _digits(first["known"], 6), first["source"] + spread, orders]
         for driver in DRIVERS:
             if driver not in of:
@@ -206,8 +207,9 @@ def references_table(rows: List[Row]) -> str:
 
 
 def _beyond(row: Row) -> float:
-    """What a number is off by over its bar and the spread of published values."""
-    return float(row["off"]) / (float(row["bar"]) + float(row["spread"] or 0) / 100 * abs(float(row["known"])))
+    """What a number is off by over its bar, the spread of published values and what their model is worth."""
+    share = sum(float(row[name] or 0) for name in ("spread", "model")) / 100
+    return float(row["off"]) / (float(row["bar"]) + share * abs(float(row["known"])))
 
 
 def _digits(number: str, digits: int) -> str:
@@ -230,6 +232,9 @@ def _errors(pair: Pair) -> str:
 
 
 def _two_digits(number: str) -> str:
+    """A dash where it was not measured."""
+    if not number:
+        return "-"
     value = float(number)
     return f"{value:.0f}" if value >= 10 else f"{value:.2g}"
 

@@ -1,6 +1,6 @@
 // Section of a tube of 5 mm radius, 1 mm wall and 50 mm length in the plane of radius and axis: finer towards the layer at the wall, and
 // towards both ends. All cells are cut the same way: alternating diagonals leave ten times the error in cells as flat as these.
-DefineConstant[ across = 16, through = 4, along = 120 ];
+DefineConstant[ across = 12, through = 3, along = 180 ];
 Point(1) = {0, 0, 0};
 Point(2) = {5, 0, 0};
 Point(3) = {6, 0, 0};
@@ -14,7 +14,7 @@ Line(4) = {5, 6};
 Line(5) = {1, 4};
 Line(6) = {2, 5};
 Line(7) = {3, 6};
-Transfinite Curve{1, 3} = across + 1 Using Progression 0.7416;
+Transfinite Curve{1, 3} = across + 1 Using Progression 0.6713;
 Transfinite Curve{2, 4} = through + 1;
 Transfinite Curve{5, 6, 7} = along + 1 Using Bump 0.2;
 Curve Loop(1) = {1, 6, -3, -5};

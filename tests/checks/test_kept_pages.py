@@ -207,6 +207,7 @@ class ReferencesPage(unittest.TestCase):
                 "off": str(round(value - 1, 6)),
                 "in_bars": str((value - 1) / 0.002),
                 "spread": "",
+                "model": "",
                 "source": "formula",
                 "seconds": "3.14",
             }
@@ -224,6 +225,11 @@ class ReferencesPage(unittest.TestCase):
         self.assertIn("2 of these differ", text)
         self.assertNotIn("Furthest", text)
 
+    def test_what_another_model_is_worth_is_allowed(self):
+        self.assertNotIn("Furthest", references_verdict(self.rows(model="0.5")))
+        self.assertIn("Furthest", references_verdict(self.rows(model="0.1")))
+        self.assertIn("| formula; another model, worth 0.5 % |", references_table(self.rows(model="0.5")))
+
     def test_both_drivers_stand_in_one_line(self):
         lines = references_table(self.rows()).splitlines()
         self.assertEqual(len(lines), 3)
@@ -231,6 +237,9 @@ class ReferencesPage(unittest.TestCase):
 
     def test_a_number_without_a_bar_says_so(self):
         self.assertIn("| none |", references_table(self.rows(bar="")))
+
+    def test_seconds_that_were_not_measured_are_a_dash(self):
+        self.assertIn("| 0.5 | - |", references_table(self.rows(seconds="")))
 
 
 if __name__ == "__main__":

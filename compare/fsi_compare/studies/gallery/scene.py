@@ -46,6 +46,7 @@ class Number:
     source: str  # of the reference: a formula, a publication
     scale: float = 0.0  # what the tolerance counts in; 0: the reference
     spread: float = 0.0  # by which published values of others differ among each other, relative; 0: not known
+    model: float = 0.0  # what the reference's model, where it is another one, is worth, relative; 0: it is this one
 
     @property
     def error(self) -> float:

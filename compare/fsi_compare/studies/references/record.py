@@ -34,8 +34,8 @@ class Record:
 
     @property
     def beyond(self) -> Optional[float]:
-        """The same for bar and spread of published values together."""
-        room = self.bar.total + self.number.spread * abs(self.number.reference)
+        """The same for bar, spread of published values and what another model is worth together."""
+        room = self.bar.total + (self.number.spread + self.number.model) * abs(self.number.reference)
         return self.off / room if self.bar.given and room > 0 else None
 
     @property

@@ -93,6 +93,7 @@ RECORDS: Sequence[Column[Record]] = (
     Column("differs by", "off", lambda r: r.off, ".1e"),
     Column("in bars", "in_bars", lambda r: r.in_bars, ".2f"),
     Column("published values differ by [%]", "spread", lambda r: 100 * r.number.spread or None, ".2g"),
+    Column("another model is worth [%]", "model", lambda r: 100 * r.number.model or None, ".2g"),
     Column("verdict", "verdict", lambda r: r.bar.verdict, left=True),
     Column("known from", "source", lambda r: r.number.source, left=True),
     Column("seconds", "seconds", lambda r: r.seconds, ".2g"),
@@ -126,11 +127,11 @@ def _report(context: Context, found: Sequence[Record], missing: Sequence[str]) -
 def _answer(score: Score) -> List[str]:
     if not score.given:
         return ["No number has a bar."]
-    exact = [one for one in score.given if not one.number.spread]
+    exact = [one for one in score.given if not one.number.spread and not one.number.model]
     lines = [
         f"Of {len(score.records)} known numbers, each by each driver that knows the scene, {len(score.given)} have a bar.",
-        f"{len(score.held)} of these differ from what is known by no more than it, with the spread of published values where "
-        "there is one.",
+        f"{len(score.held)} of these differ from what is known by no more than it, with the spread of published values and "
+        "what their model is worth where it is another one.",
     ]
     if exact:
         held = sum(one.holds for one in exact)
