@@ -60,12 +60,12 @@ WallFace face_of(const SimplexMesh<Dim, Order>& mesh, const Facets<Dim, Order>& 
   std::vector<Point> points;
   if (Order == 1) points = mesh.nodes;
   std::vector<SurfaceDistance::Facet> parts;
-  std::set<int> vertices;
+  std::set<int> nodes;
   for (const auto& facet : facets) {
     add_flat_parts<Dim, Order>(mesh, facet, points, parts);
-    vertices.insert(facet.begin(), facet.begin() + Dim);
+    nodes.insert(facet.begin(), facet.end());
   }
-  return {SurfaceDistance(std::move(points), std::move(parts)), {vertices.begin(), vertices.end()}};
+  return {SurfaceDistance(std::move(points), std::move(parts)), {nodes.begin(), nodes.end()}};
 }
 
 template <int Dim, int Order>
@@ -102,17 +102,17 @@ ThicknessRange range_between(const std::string& name, const std::vector<Point>& 
                              const WallFace& outer) {
   ThicknessRange range;
   range.name = name;
-  const auto extremes = [&](const std::vector<int>& vertices, const SurfaceDistance& surface, auto& least, auto* most) {
+  const auto extremes = [&](const std::vector<int>& on_face, const SurfaceDistance& surface, auto& least, auto* most) {
     bool first = true;
-    for (const int node : vertices) {
+    for (const int node : on_face) {
       const double distance = surface.nearest(nodes[node]).distance;
       if (first || distance < least.distance) least = {distance, nodes[node]};
       if (most && (first || distance > most->distance)) *most = {distance, nodes[node]};
       first = false;
     }
   };
-  extremes(outer.vertices, inner.surface, range.least, &range.most);
-  extremes(inner.vertices, outer.surface, range.least_seen_from_inside, static_cast<ThicknessRange::Extreme*>(nullptr));
+  extremes(outer.nodes, inner.surface, range.least, &range.most);
+  extremes(inner.nodes, outer.surface, range.least_seen_from_inside, static_cast<ThicknessRange::Extreme*>(nullptr));
   return range;
 }
 

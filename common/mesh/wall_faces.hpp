@@ -9,10 +9,10 @@
 
 namespace fsi {
 
-/// A face of a wall: distances from it, and its vertices in the numbers of the mesh.
+/// A face of a wall: distances from it, and its nodes in the numbers of the mesh.
 struct WallFace {
   SurfaceDistance surface;
-  std::vector<int> vertices;  ///< ascending
+  std::vector<int> nodes;  ///< ascending; those in the middles of edges, too
 };
 
 /// Both faces of a wall. The inner one is the interface with the fluid, without a fluid the surface `inner`; the outer one is
@@ -39,8 +39,8 @@ struct ThicknessRange {
     double distance = 0;  ///< mm
     Point at{};           ///< mm
   };
-  Extreme least, most;             ///< distances of the outer face's vertices from the inner one
-  Extreme least_seen_from_inside;  ///< distance of an inner face's vertex from the outer one
+  Extreme least, most;             ///< distances of the outer face's nodes from the inner one
+  Extreme least_seen_from_inside;  ///< distance of an inner face's node from the outer one
 };
 
 /// The wall's thickness; where it has several layers that lie one around the other, theirs before it, from inside

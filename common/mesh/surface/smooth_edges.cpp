@@ -33,7 +33,7 @@ Point unit(const Point& v) {
 Point fitted_normal(const std::vector<Point>& around, const Point& guess) {
   constexpr Eigen::Index unknowns = 5;
   constexpr std::size_t enough = 7;
-  constexpr int most_steps = 30;
+  constexpr int most_steps = 100;
   constexpr double converged = 1e-12, nearby = 0.1, dependent_column = 1e-3;
   if (around.size() < enough) return guess;
   const auto rows = static_cast<Eigen::Index>(around.size());

@@ -178,6 +178,22 @@ class MeshThicken(FolderTest):
         self.assertLess(errors[1], 0.015)
         self.assertGreater(math.log2(errors[0] / errors[1]), 1.6)
 
+    def test_quadratic_walls_are_round(self):
+        """On a lumen of straight edges, and on one of curved ones, which keeps them unless --order 1 asks otherwise."""
+        layers = ("--layer", "media=0.2", "--layer", "adventitia=0.1")
+        for order, options, said in (
+            (1, ("--order", 2), "edges of the lumen's surface are curved"),
+            (2, (), "as in its"),
+        ):
+            self.geo(TUBE, "--order", order)
+            process = self.thicken(*layers, *options)
+            found = self.volumes(process)
+            for name, area in (("fluid", 1), ("media", 1.2**2 - 1), ("adventitia", 1.3**2 - 1.2**2)):
+                self.assertAlmostEqual(found[name][0] / (5 * math.pi * area), 1, delta=1e-3)
+            self.assertIn(said, process.stdout)
+            self.assertEqual(process.stderr, "")
+        self.assertIn("are made straight, as --order 1 asks", self.thicken(*layers, "--order", 1).stdout)
+
     def test_both_drivers_run_on_what_was_grown(self):
         self.geo(TUBE)
         self.volumes(self.thicken("--layer", "media=0.2", "--layer", "adventitia=0.1"))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "base/error.hpp"
@@ -13,6 +14,7 @@
 #include "mesh/surface/curvature.hpp"
 #include "mesh/surface/local_radius.hpp"
 #include "mesh/surface/remeshing.hpp"
+#include "mesh/surface/smooth_edges.hpp"
 #include "mesh/surface/sound_surface.hpp"
 #include "mesh/surface/taubin_smoothing.hpp"
 #include "mesh/surface/triangle_surface.hpp"
@@ -102,6 +104,104 @@ TEST(Curvature, ShortensEdgesWhereTheSurfaceBends) {
   std::vector<double> bounded(surface.nodes.size(), 0.4);
   shorten_by_curvature(surface, 10, 0.3, bounded);
   EXPECT_EQ(*std::min_element(bounded.begin(), bounded.end()), 0.3);
+}
+
+/// Places on a tube that no symmetry helps: rows and columns are off by up to a sixth of the edges.
+template <class Place>
+TriangleSurface uneven(int around, int along, Place place) {
+  return turned(around, along, [&](double u, double v) {
+    const double inside = v > 1e-9 && v < 1 - 1e-9 ? 1.0 : 0.0;
+    return place(u + 0.16 * 2 * pi / around * std::sin(37 * u + 11 * v),
+                 v + inside * 0.16 / along * std::sin(23 * v + 5 * u));
+  });
+}
+
+SmoothEdges curved(const TriangleSurface& surface) {
+  return smooth_edges(surface.nodes, surface.triangles, offset_normals(surface.nodes, surface.triangles, 0));
+}
+
+// Max's normals are up to 2 degrees off here, and the middles 0.3 % of the radius.
+TEST(SmoothEdges, LieOnATubeOfTwelveEdges) {
+  const auto surface = uneven(12, 8, [](double u, double v) { return Point{2 * std::cos(u), 2 * std::sin(u), 8 * v}; });
+  const auto smooth = curved(surface);
+  EXPECT_EQ(smooth.curves.size(), smooth.edges);
+  EXPECT_EQ(smooth.sharp, 0U);
+  for (const auto& [edge, middle] : smooth.curves) {
+    EXPECT_NEAR(std::hypot(middle[0], middle[1]), 2, 1e-9);
+    const Point &a = surface.nodes[edge.first], &b = surface.nodes[edge.second];
+    EXPECT_NEAR(middle[2], 0.5 * (a[2] + b[2]), 1e-9);  // rims stay in their planes
+  }
+  EXPECT_NEAR(smooth.farthest, 2 * (1 - std::cos(pi / 12)), 0.03);
+}
+
+TEST(SmoothEdges, LieOnASphere) {
+  const auto surface = uneven(12, 6, [](double u, double v) {
+    const double w = pi * (0.2 + 0.6 * v);
+    return Point{3 * std::sin(w) * std::sin(u), 3 * std::sin(w) * std::cos(u), 3 * std::cos(w)};
+  });
+  std::set<int> rims;
+  for (const auto& rim : rims_of(surface)) rims.insert(rim.begin(), rim.end());
+  for (const auto& [edge, middle] : curved(surface).curves)
+    if (rims.count(edge.first) + rims.count(edge.second) < 2) {
+      EXPECT_NEAR(norm(middle), 3, 1e-9);
+    }
+}
+
+/// Largest distance of middles from a torus of tube radius 1.
+double off_torus(int refined, double share_of_straight) {
+  const auto surface = turned(
+      24 << refined, 12 << refined,
+      [](double u, double v) {
+        const double w = -2 * pi * v;
+        return Point{(4 + std::cos(w)) * std::cos(u), -(4 + std::cos(w)) * std::sin(u), std::sin(w)};
+      },
+      true);
+  double off = 0;
+  for (const auto& [edge, middle] : curved(surface).curves) {
+    const Point straight = 0.5 * (surface.nodes[edge.first] + surface.nodes[edge.second]);
+    const Point x = middle + share_of_straight * (straight - middle);
+    off = std::max(off, std::abs(std::hypot(std::hypot(x[0], x[1]) - 4, x[2]) - 1));
+  }
+  return off;
+}
+
+TEST(SmoothEdges, AreOfTheFourthOrder) {
+  EXPECT_LT(off_torus(0, 0), 0.05 * off_torus(0, 1));
+  EXPECT_GT(std::log2(off_torus(0, 0) / off_torus(1, 0)), 3.3);
+  EXPECT_LT(std::log2(off_torus(0, 1) / off_torus(1, 1)), 2.3);
+}
+
+// A half tube and a flat strip that goes on from each of its ends, in a fold of 90 degrees on one side.
+TEST(SmoothEdges, StayStraightInFoldsAndOnFlatSides) {
+  constexpr int arc = 6, strip = 3, along = 4, columns = arc + 2 * strip + 1;
+  TriangleSurface surface;
+  for (int j = 0; j <= along; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const double z = 0.5 * j, angle = pi * (i - strip) / arc;
+      if (i < strip)
+        surface.nodes.push_back({1 + 0.5 * (strip - i), 0, z});  // square to the tube
+      else if (i <= strip + arc)
+        surface.nodes.push_back({std::cos(angle), std::sin(angle), z});
+      else
+        surface.nodes.push_back({-1, -0.5 * (i - strip - arc), z});  // tangential
+    }
+  for (int j = 0; j < along; ++j)
+    for (int i = 0; i + 1 < columns; ++i) {
+      const int a = j * columns + i, b = a + 1, c = b + columns, d = a + columns;
+      surface.triangles.push_back({a, b, c});
+      surface.triangles.push_back({a, c, d});
+    }
+  const auto smooth = smooth_edges(surface.nodes, surface.triangles, {});
+  EXPECT_EQ(smooth.sharp, static_cast<std::size_t>(along));
+  for (const auto& [edge, middle] : smooth.curves) {
+    const int a = edge.first % columns, b = edge.second % columns;
+    if (std::max(a, b) <= strip) {
+      EXPECT_NEAR(middle[1], 0, 1e-12);
+    }
+    if (std::min(a, b) >= strip && std::max(a, b) <= strip + arc - 3) {
+      EXPECT_NEAR(std::hypot(middle[0], middle[1]), 1, 1e-4);  // in corners the fit sees one side alone
+    }
+  }
 }
 
 TEST(LocalRadius, OfATubeIsItsRadius) {
