@@ -6,9 +6,9 @@ import re
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy as np
-
-from programs import MESH, MONOLITHIC, PARTITIONED, FolderTest, attempt, execute
+from programs import MESH, MONOLITHIC, PARTITIONED, FolderTest, attempt, execute, run
 from vtp_files import write_vtp
 
 GALLERY = Path(__file__).resolve().parents[3] / "gallery"
@@ -44,6 +44,38 @@ inlet() = Surface In BoundingBox{-2, -2, -0.01, 2, 2, 0.01};
 Physical Surface("inlet") = {inlet()};
 outlet() = Surface In BoundingBox{-2, -2, 4, 2, 2, 8};
 Physical Surface("outlet") = {outlet()};
+"""
+QUARTER = """
+SetFactory("OpenCASCADE");
+Cylinder(1) = {0, 0, 0, 0, 0, 1.5, 1.43, Pi/2};
+Mesh.MeshSizeMax = 0.75;
+Mesh.MeshSizeMin = 0.75;
+Physical Volume("fluid") = {1};
+e = 0.001;
+s() = Surface In BoundingBox{-e, -e, -e, 2, 2, e}; Physical Surface("inlet") = {s()};
+s() = Surface In BoundingBox{-e, -e, 1.5 - e, 2, 2, 1.5 + e}; Physical Surface("outlet") = {s()};
+s() = Surface In BoundingBox{-e, -e, -e, e, 2, 1.5 + e}; Physical Surface("symmetry_x") = {s()};
+s() = Surface In BoundingBox{-e, -e, -e, 2, e, 1.5 + e}; Physical Surface("symmetry_y") = {s()};
+"""
+AT_REST = """
+element = "p2p1"
+[mesh]
+file = "wall.msh"
+[structure]
+density = 1.2
+bulk_modulus = 1e7
+[structure.layers.media]
+material = "neo-hookean"
+c10 = 3.0
+[[support]]
+surface = "wall_ends"
+fixed = ["normal"]
+[load]
+pressure = PRESSURE
+[monolithic]
+newton_tolerance = 1e-9
+[output]
+fields = ["displacement", "von_mises_stress"]
 """
 CASE = """
 [mesh]
@@ -193,6 +225,41 @@ class MeshThicken(FolderTest):
             self.assertIn(said, process.stdout)
             self.assertEqual(process.stderr, "")
         self.assertIn("are made straight, as --order 1 asks", self.thicken(*layers, "--order", 1).stdout)
+
+    def test_stresses_of_a_grown_quadratic_wall(self):
+        """One cell through the wall, 30 degrees around: against a thick tube of incompressible neo-Hookean material, whose
+        radii grow by r^2 = R^2 + k and whose stress is c10 (F F^T) less a pressure (docs/theory.md, section 13.1). The
+        straight cells of --order 1 are a polygon that bends: 11 % too low in the mean."""
+        inner, outer, c10, k = 1.43, 1.69, 3.0, 1.43**2 * (1.1**2 - 1)
+        a, b = math.sqrt(inner**2 + k), math.sqrt(outer**2 + k)
+        pressure = c10 * (math.log(outer * a / (inner * b)) + 0.5 * k * (a**-2 - b**-2))
+        self.geo(QUARTER)
+        means = {}
+        for order in (1, 2):
+            self.volumes(self.thicken("--layer", f"media={outer - inner:g}", "--order", order))
+            (self.base / "rest.toml").write_text(AT_REST.replace("PRESSURE", repr(pressure)))
+            folder = run(MONOLITHIC, self.base / "rest.toml", self.base / f"rest{order}")
+            with h5py.File(folder / "fields.h5") as file:
+                wall = file["wall"]
+                points, cells = wall["points"][:], wall["cells"][:]
+                found = wall["von_mises_stress"][max(wall["von_mises_stress"])][:]
+            radius = np.hypot(points[:, 0], points[:, 1])
+            used = np.isin(np.arange(len(points)), cells)
+            face = used & (np.abs(radius - inner) < (3e-3 if order == 2 else 0.06))
+            stretch = 1 + k / inner**2  # squared, around
+            principal = np.array([1 / stretch, stretch, 1.0])
+            exact = c10 * math.sqrt(1.5 * ((principal - principal.mean()) ** 2).sum())
+            error = found[face] / exact - 1
+            means[order] = error.mean()
+            print(
+                f"order {order}: von Mises stress at {face.sum()} nodes of the inner face, mean {means[order]:+.4f}, "
+                f"worst {np.abs(error).max():.4f}"
+            )
+            if order == 2:
+                self.assertGreater(face.sum(), 20)
+                self.assertLess(abs(means[2]), 0.01)
+                self.assertLess(np.abs(error).max(), 0.03)
+        self.assertLess(means[1], -0.05)
 
     def test_both_drivers_run_on_what_was_grown(self):
         self.geo(TUBE)
