@@ -129,9 +129,8 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
     std::vector<SurfaceForce> forces;
     for (const Set& set : sets_) {
       SurfaceForce force;
-      std::vector<char> on;
+      std::vector<char> on(set.by_equations ? part_.nodes.size() : 0, 0);
       if (set.by_equations) {
-        on.assign(part_.nodes.size(), 0);
         for (const int node : set.nodes) {
           on[node] = 1;
           for (int k = 0; k < n && part_.owns(node); ++k)

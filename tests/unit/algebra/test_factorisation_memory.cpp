@@ -103,7 +103,7 @@ constexpr bool sanitized = false;
 
 TEST(FactorisationMemory, SolverRefusesWarnsOrIsSilent) {
   if (sanitized) GTEST_SKIP() << "a sanitizer takes terabytes of addresses, which no limit of data allows";
-  EXPECT_EXIT(factorise_in(16 * mib), testing::ExitedWithCode(3),
+  EXPECT_EXIT(factorise_in(14 * mib), testing::ExitedWithCode(3),
               "refused: out of memory \\(factorising a matrix\\): the factors of 10648 unknowns take about .* MiB");
   EXPECT_EXIT(factorise_in(2000 * mib), testing::ExitedWithCode(0), "done: \n");
   EXPECT_EXIT(factorise_in(200 * mib), testing::ExitedWithCode(0), "done: \n");

@@ -25,7 +25,7 @@ TEST(CaseReader, AxisymmetricTwinsDifferFromThePapersCasesInDiscretisationAlone)
     EXPECT_EQ(twin.geometry, Geometry::axisymmetric);
     EXPECT_EQ(twin.element, ElementPair::p2p1);
     EXPECT_EQ(twin.structure->layer_pressure, LayerPressure::separate);
-    EXPECT_EQ(twin.mesh.error, 1);
+    EXPECT_EQ(twin.mesh.error, 2);
     EXPECT_EQ(twin.fluid->density, tube.fluid->density);
     EXPECT_EQ(twin.fluid->viscosity, tube.fluid->viscosity);
     EXPECT_EQ(twin.structure->density, tube.structure->density);
