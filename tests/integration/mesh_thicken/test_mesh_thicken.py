@@ -47,15 +47,15 @@ Physical Surface("outlet") = {outlet()};
 """
 QUARTER = """
 SetFactory("OpenCASCADE");
-Cylinder(1) = {0, 0, 0, 0, 0, 1.5, 1.43, Pi/2};
+Cylinder(1) = {0, 0, 0, 0, 0, 3, 1.43, Pi/2};
 Mesh.MeshSizeMax = 0.75;
 Mesh.MeshSizeMin = 0.75;
 Physical Volume("fluid") = {1};
 e = 0.001;
 s() = Surface In BoundingBox{-e, -e, -e, 2, 2, e}; Physical Surface("inlet") = {s()};
-s() = Surface In BoundingBox{-e, -e, 1.5 - e, 2, 2, 1.5 + e}; Physical Surface("outlet") = {s()};
-s() = Surface In BoundingBox{-e, -e, -e, e, 2, 1.5 + e}; Physical Surface("symmetry_x") = {s()};
-s() = Surface In BoundingBox{-e, -e, -e, 2, e, 1.5 + e}; Physical Surface("symmetry_y") = {s()};
+s() = Surface In BoundingBox{-e, -e, 3 - e, 2, 2, 3 + e}; Physical Surface("outlet") = {s()};
+s() = Surface In BoundingBox{-e, -e, -e, e, 2, 3 + e}; Physical Surface("symmetry_x") = {s()};
+s() = Surface In BoundingBox{-e, -e, -e, 2, e, 3 + e}; Physical Surface("symmetry_y") = {s()};
 """
 AT_REST = """
 element = "p2p1"
@@ -72,9 +72,12 @@ surface = "wall_ends"
 fixed = ["normal"]
 [load]
 pressure = PRESSURE
+[static]
+load_steps = 4
 [monolithic]
 newton_tolerance = 1e-9
 [output]
+every = 4
 fields = ["displacement", "von_mises_stress"]
 """
 CASE = """
