@@ -33,6 +33,13 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
 template <int n>
 CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup,
                                     const CouplingScheme& scheme)
+    : CouplingStepper(scene, loads, setup, scheme, nullptr) {
+  make_problem(scene, loads, setup);
+}
+
+template <int n>
+CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup,
+                                    const CouplingScheme& scheme, std::unique_ptr<InterfaceProblem<n>> problem)
     : scene_(scene),
       loads_(loads),
       options_(setup.partitioned),
@@ -44,9 +51,16 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
       fluid_volumes_(owned_volumes<n>(scene.fluid->space(), scene.fluid->nodes())),
       wall_volumes_(owned_volumes<n>(scene.wall->space(), scene.wall->nodes())),
       accelerator_(scheme_.make_accelerator(options_, space_)),
+      problem_(std::move(problem)),
       march_(scheme_, options_.velocity_gap),
-      loose_march_(scheme_) {
-  make_problem(scene, loads, setup);
+      loose_march_(scheme_) {}
+
+template <int n>
+std::optional<CouplingMethod> CouplingStepper<n>::coupling_method() const {
+  return CouplingMethod{
+      "interface", scheme_.one_pass ? "a step is one pass: fluid and wall, each solved by itself, nothing iterated"
+                                    : "a pass solves the fluid and then the wall, each by itself to a hundredth of "
+                                      "the interface's residual; traces alone cross the interface"};
 }
 
 template <int n>
@@ -143,8 +157,7 @@ template <int n>
 void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
   std::vector<double> x = start_stage(state, data);
   GoodPass good;
-  PassAccuracy accuracy{agreement_.first_tolerance(coupling_), starts_far_};
-  if (one_pass()) accuracy = {agreement_.final_tolerance(coupling_), false};
+  PassAccuracy accuracy = first_accuracy();
   bool first = true;
   for (passes_ = 1; passes_ <= options_.max_iterations; ++passes_) {
     ++report_.outer_iterations;
@@ -159,7 +172,7 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
     if (std::exchange(first, false)) starts_far_ = coupling_.displacement_residual > far;
     if (scheme_.one_pass && scheme_.loose == Loose::no)
       march_.check(state.step + 1, data.time, coupling_, problem_->movement());
-    if (one_pass() || agreement_.met_by(coupling_)) {
+    if (one_pass() || agrees(state, data, good)) {
       if (scheme_.loose != Loose::no) loose_march_.add(coupling_.displacement_gap, problem_->movement());
       coupling_.domain_gap = problem_->domain_gap();
       if (scheme_.extrapolates_domain) domain_gap_ = std::max(domain_gap_, coupling_.domain_gap);
@@ -191,7 +204,7 @@ template <int n>
 Pass CouplingStepper<n>::measured_pass(const std::vector<double>& x, const PassAccuracy& accuracy) {
   Pass pass = problem_->pass(x, accuracy);
   measure(pass);
-  if (one_pass() || !agreement_.met_by(coupling_)) return pass;
+  if (one_pass() || !refines() || !agreement_.met_by(coupling_)) return pass;
   if (!accuracy.linearised_wall && !agreement_.needs_tighter(accuracy.tolerance, coupling_)) return pass;
   pass = problem_->refine({agreement_.final_tolerance(coupling_), false});
   measure(pass);
@@ -200,11 +213,37 @@ Pass CouplingStepper<n>::measured_pass(const std::vector<double>& x, const PassA
 
 template <int n>
 void CouplingStepper<n>::correct(const Pass& pass, std::vector<double>& x, PassAccuracy& accuracy) {
+  {
+    const Stopwatch watch(coupling_.algebra_seconds);
+    accelerator_->aim(agreement_.demand(coupling_) * space_.norm(pass.displacement));
+    accelerator_->correct(x, pass.residual);
+  }
+  next_accuracy(accuracy);
+}
+
+template <int n>
+PassAccuracy CouplingStepper<n>::first_accuracy() {
+  if (one_pass()) return {agreement_.final_tolerance(coupling_), false};
+  return {agreement_.first_tolerance(coupling_), starts_far_};
+}
+
+template <int n>
+void CouplingStepper<n>::next_accuracy(PassAccuracy& accuracy) {
   accuracy.tolerance = agreement_.next_tolerance(coupling_);
-  const Stopwatch watch(coupling_.algebra_seconds);
-  accelerator_->aim(agreement_.demand(coupling_) * space_.norm(pass.displacement));
-  accelerator_->correct(x, pass.residual);
   if (accelerator_->allows_change()) accuracy.linearised_wall = coupling_.displacement_residual > far;
+}
+
+template <int n>
+bool CouplingStepper<n>::agrees(const State&, const StepData&, const GoodPass&) {
+  return agreement_.met_by(coupling_);
+}
+
+template <int n>
+double CouplingStepper<n>::change_since(const State& state, const StepData& data, const GoodPass& good) const {
+  std::vector<double> fluid = state.now.fluid, wall = state.now.wall;
+  axpy(-1, good.fields.fluid, fluid);
+  axpy(-1, good.fields.wall, wall);
+  return relative_to_step<n>(state, data, {fluid_volumes_, fluid}, {wall_volumes_, wall}, scene_.processes());
 }
 
 template <int n>
@@ -218,9 +257,13 @@ void CouplingStepper<n>::keep(Memory& memory) {
   if (scheme_.extrapolates_domain) memory.number_if_there("domain_gap", domain_gap_);
   if (scheme_.loose != Loose::no) {
     loose_march_.keep(memory);
+  }
+  if (scheme_.loose != Loose::no || !refines()) {
     double jumped = after_jump_ ? 1 : 0;
     memory.number_if_there("after_jump", jumped);
     after_jump_ = jumped != 0;
+  }
+  if (scheme_.loose != Loose::no) {
     if (prediction_) prediction_->keep(memory);
   } else if (scheme_.one_pass || memory.recalls())
     march_.keep(memory);
@@ -267,7 +310,8 @@ void CouplingStepper<n>::measure(const Pass& pass) {
   coupling_.displacement_residual = size > 0
                                         ? coupling_.displacement_gap / size
                                         : (coupling_.displacement_gap > 0 ? std::numeric_limits<double>::max() : 0.0);
-  coupling_.force_residual = problem_->force_residual();
+  // It takes a residual of the fluid: where nobody demands it, and passes are cheap, it is left to the accepted one.
+  if (refines() || options_.force_tolerance > 0) coupling_.force_residual = problem_->force_residual();
   coupling_.pressure_residual = problem_->pressure_residual(pass.residual);
   coupling_.gap_pressure = problem_->gap_pressure(pass.residual);
   coupling_.traction_gap = problem_->traction_gap();
@@ -338,25 +382,20 @@ void CouplingStepper<n>::retreat(const PassFailure& failure, State& state, StepD
 
 template <int n>
 double CouplingStepper<n>::estimated_error(const State& state, const StepData& data, const GoodPass& good) const {
-  std::vector<double> fluid = state.now.fluid, wall = state.now.wall;
-  const auto relative = [&] {
-    return relative_to_step<n>(state, data, {fluid_volumes_, fluid}, {wall_volumes_, wall}, scene_.processes());
-  };
   const double left = good.found ? coupling_.displacement_gap / good.gap : 1;
   if (left < 1) {
-    axpy(-1, good.fields.fluid, fluid);
-    axpy(-1, good.fields.wall, wall);
     // A quasi-Newton method knows more with each pass: the next gains at least as much as one that halves.
     const double slowest = accelerator_->status().columns > 0 ? 0.5 : 1;
     const double ratio = std::min(left, slowest);
-    return relative() * ratio / (1 - ratio);
+    return change_since(state, data, good) * ratio / (1 - ratio);
   }
+  std::vector<double> fluid = state.now.fluid, wall = state.now.wall;
   // As large as itself at most: the interface may bear no load, or not move, and has no relative residual then.
   const double displacement = std::min(coupling_.displacement_residual, 1.0);
   const double pressure = std::min(coupling_.pressure_residual, 1.0);
   for (std::size_t i = 0; i < fluid.size(); ++i) fluid[i] *= static_cast<int>(i % (n + 1)) == n ? pressure : 0;
   for (std::size_t i = 0; i < wall.size(); ++i) wall[i] *= static_cast<int>(i % (n + 1)) == n ? pressure : displacement;
-  return relative();
+  return relative_to_step<n>(state, data, {fluid_volumes_, fluid}, {wall_volumes_, wall}, scene_.processes());
 }
 
 template <int n>
@@ -365,6 +404,7 @@ void CouplingStepper<n>::accept(const std::vector<double>& x, const Pass& pass) 
     const Stopwatch watch(coupling_.algebra_seconds);
     accelerator_->accept(x, pass.residual);
   }
+  if (!refines()) coupling_.force_residual = problem_->force_residual();
   problem_->accept();
   if (scheme_.one_pass) problem_->follow_wall();
   const CouplingCost& cost = problem_->cost;

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "case/case.hpp"
@@ -41,6 +42,7 @@ class CouplingStepper : public Stepper {
 
   ~CouplingStepper() override;
 
+  std::optional<CouplingMethod> coupling_method() const override;
   bool reports_coupling() const override { return true; }
   std::vector<StepperChoice> choices() const override { return choices_; }
 
@@ -62,6 +64,40 @@ class CouplingStepper : public Stepper {
 
   void keep(Memory& memory) override;
 
+ protected:
+  /// With passes of another kind than those the scheme's row tells of.
+  CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme,
+                  std::unique_ptr<InterfaceProblem<n>> problem);
+
+  /// The last pass of a stage that succeeded.
+  struct GoodPass {
+    bool found = false;
+    std::vector<double> x;
+    Solution fields;
+    double gap = 0;  ///< |r(x)|, mm
+  };
+
+  /// How well the media are solved in the first pass of a stage,
+  virtual PassAccuracy first_accuracy();
+  /// and in the one that follows the last.
+  virtual void next_accuracy(PassAccuracy& accuracy);
+  /// Whether the last pass ends the stage.
+  virtual bool agrees(const State& state, const StepData& data, const GoodPass& good);
+  /// Whether a pass that agrees is taken as far as the final tolerance of the sub-problems.
+  virtual bool refines() const { return true; }
+  /// What the accepted pass lacks, relative to what the step changes: with rho the ratio of its residual and that of
+  /// the pass before, rho / (1 - rho) times what the fields have changed since, as NewtonReport::error has it. Of a pass
+  /// without one before, or with a larger residual, the interface's relative residuals, of displacement and pressures.
+  virtual double estimated_error(const State& state, const StepData& data, const GoodPass& good) const;
+  /// What fluid and wall differ by between the fields of that pass and now, relative to what the step changes.
+  double change_since(const State& state, const StepData& data, const GoodPass& good) const;
+
+  const CouplingReport& coupling() const { return coupling_; }
+  int passes() const { return passes_; }
+  /// Whether the load has jumped before the step, or nothing was before it.
+  bool after_jump() const { return after_jump_; }
+  void add_choice(StepperChoice choice) { choices_.push_back(std::move(choice)); }
+
  private:
   static constexpr int most_retreats = 10;        ///< failed passes of one step
   static constexpr double retreat_factor = 0.25;  ///< of the way from the last good iterate, after a failed pass
@@ -77,14 +113,6 @@ class CouplingStepper : public Stepper {
   /// Iterations are the fewer the closer they start. Without them a step is its extrapolation, and the second order
   /// makes it unstable at three times the wall's mass (docs/coupling.md).
   int first_order() const { return predictor_.value_or(scheme_.one_pass ? 1 : 2); }
-
-  /// The last pass of a stage that succeeded.
-  struct GoodPass {
-    bool found = false;
-    std::vector<double> x;
-    Solution fields;
-    double gap = 0;  ///< |r(x)|, mm
-  };
 
   void make_problem(Scene<n>& scene, const Loads& loads, const Case& setup);
 
@@ -111,11 +139,6 @@ class CouplingStepper : public Stepper {
   /// After a pass without an answer: back to the last good iterate and a part of the way again; without one, back to
   /// the last time level. \throws ConvergenceError when that has been tried often enough
   void retreat(const PassFailure& failure, State& state, StepData& data, std::vector<double>& x, const GoodPass& good);
-
-  /// What the accepted pass lacks, relative to what the step changes: with rho the ratio of its residual and that of
-  /// the pass before, rho / (1 - rho) times what the fields have changed since, as NewtonReport::error has it. Of a pass
-  /// without one before, or with a larger residual, the interface's relative residuals, of displacement and pressures.
-  double estimated_error(const State& state, const StepData& data, const GoodPass& good) const;
 
   void accept(const std::vector<double>& x, const Pass& pass);
 

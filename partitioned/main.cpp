@@ -1,6 +1,5 @@
 #include "linear_solvers/general_solvers.hpp"
-#include "partitioned/block_newton/block_newton_stepper.hpp"
-#include "partitioned/coupling_stepper.hpp"
+#include "partitioned/registry.hpp"
 #include "run/driver.hpp"
 #include "system/newton_stepper.hpp"
 
@@ -9,11 +8,7 @@ namespace {
 
 template <int n>
 std::unique_ptr<Stepper> stepper(Scene<n>& scene, const Loads& loads, const Case& setup) {
-  if (scene.coupled()) {
-    if (const auto choice = chosen_scheme(setup); choice.name == "block-newton")
-      return std::make_unique<BlockNewtonStepper<n>>(scene, loads, setup, choice);
-    return std::make_unique<CouplingStepper<n>>(scene, loads, setup);
-  }
+  if (scene.coupled()) return make_coupling_stepper(scene, loads, setup);
   // Nothing to couple: the part that there is, by Newton's method.
   return std::make_unique<NewtonStepper<n>>(scene, loads, setup.monolithic.newton, number_single_medium(scene),
                                             [&setup](const JacobianBlocks<n>& blocks) {
@@ -27,6 +22,8 @@ std::unique_ptr<Stepper> stepper(Scene<n>& scene, const Loads& loads, const Case
 int main(int argc, char** argv) {
   using namespace fsi;
   return run_driver(
-      "fsi-partitioned", "Solves fluid and wall in turn until they agree on the interface.", argc, argv,
+      "fsi-partitioned",
+      "Couples fluid and wall, each solved by itself: by default an interface iteration, which exchanges traces alone.",
+      argc, argv,
       StepperMakerOf([](auto& scene, const Loads& loads, const Case& setup) { return stepper(scene, loads, setup); }));
 }

@@ -89,6 +89,33 @@ void require_time(const CouplingScheme& scheme, const Case& setup) {
 
 }  // namespace
 
+void note_foreign_options(const std::string& scheme, const Case& setup, std::vector<std::string>& notices) {
+  const PartitionedData& given = setup.partitioned;
+  const PartitionedData standard;
+  const bool block = scheme == "block-newton", inexact = scheme == "robin-neumann-inexact";
+  const bool robin_robin = scheme.rfind("robin-robin", 0) == 0, by_error = block || inexact;
+  const bool keeps_differences = scheme.find("iqn") != std::string::npos || scheme == "robin-neumann-imvj" ||
+                                 scheme == "newton-krylov" || scheme == "semi-implicit" || robin_robin || by_error;
+  const auto note = [&](bool foreign, const char* key, const char* whose) {
+    if (foreign)
+      notices.push_back(fmt::format("{}: partitioned.{} has no effect with partitioned.scheme = \"{}\": it is {}",
+                                    setup.path.string(), key, scheme, whose));
+  };
+  note(by_error && given.tolerance_of != standard.tolerance_of, "tolerance_of",
+       "for schemes that end by the gap between fluid and wall, and this one ends by the error of a step");
+  note(by_error && given.absolute_tolerance != standard.absolute_tolerance, "absolute_tolerance",
+       "for schemes that end by the gap between fluid and wall, and this one ends by the error of a step");
+  note(block && given.force_tolerance != standard.force_tolerance, "force_tolerance",
+       "for interface schemes; here the balance is a part of the residual");
+  note(scheme != "explicit" && given.velocity_gap != standard.velocity_gap, "velocity_gap", "for \"explicit\"");
+  note(!robin_robin && given.robin_coefficient, "robin_coefficient", "for the schemes that begin with robin-robin");
+  note(block && given.relaxation, "relaxation", "for interface schemes");
+  note((inexact || !keeps_differences) && given.quasi_newton.filter != standard.quasi_newton.filter, "filter",
+       "for quasi-Newton schemes that drop differences");
+  note(!keeps_differences && given.quasi_newton.columns != standard.quasi_newton.columns, "columns",
+       "for quasi-Newton schemes");
+}
+
 template <int n>
 void check_scheme(const CouplingScheme& scheme, const Case& setup, int order, Scene<n>& scene) {
   if (scheme.loose != Loose::no) require_for_loose(scheme, setup, scene);

@@ -5,6 +5,7 @@
 #include "partitioned/accelerators/iqn_ils.hpp"
 #include "partitioned/accelerators/iqn_imvj.hpp"
 #include "partitioned/accelerators/newton_krylov.hpp"
+#include "partitioned/accelerators/regularised_iqn.hpp"
 #include "partitioned/accelerators/relaxation.hpp"
 
 namespace fsi {
@@ -60,13 +61,16 @@ Made robin(const Options& o, const Space&) {
 Made robin_iqn(const Options& o, const Space& space) {
   return std::make_unique<IqnIls>(robin_quasi_newton(o), space);
 }
+Made regularised(const Options& o, const Space& space) {
+  return std::make_unique<RegularisedIqn>(robin_quasi_newton(o), space);
+}
 Made robin_imvj(const Options& o, const Space& space) {
   return std::make_unique<IqnImvj>(robin_quasi_newton(o), space);
 }
 
 constexpr auto other = "a larger partitioned.max_iterations, a smaller time.step, or the monolithic driver";
 constexpr auto loose_advice = "a smaller time.step, or a scheme that iterates: partitioned.scheme = \"block-newton\"";
-constexpr std::array<CouplingScheme, 14> coupling_schemes{{
+constexpr std::array<CouplingScheme, 15> coupling_schemes{{
     {"aitken", false, false, false, Loose::no, aitken,
      "partitioned.scheme = \"iqn-ils\", or a larger partitioned.max_iterations"},
     {"block-newton", true, false, false, Loose::no, robin_iqn, "a smaller time.step or load, or the monolithic driver"},
@@ -80,6 +84,10 @@ constexpr std::array<CouplingScheme, 14> coupling_schemes{{
     {"newton-krylov", false, false, false, Loose::no, newton_krylov, other},
     {"robin-neumann", true, false, false, Loose::no, robin,
      "partitioned.scheme = \"robin-neumann-iqn\", or a smaller time.step"},
+    {"robin-neumann-inexact", true, false, false, Loose::no, regularised,
+     "a smaller time.step, partitioned.scheme = \"block-newton\", which needs both media's Jacobians, or the "
+     "monolithic "
+     "driver"},
     {"robin-neumann-iqn", true, false, false, Loose::no, robin_iqn, other},
     {"robin-neumann-imvj", true, false, false, Loose::no, robin_imvj, other},
     {"robin-robin", false, false, true, Loose::in_turn, robin_iqn, loose_advice},

@@ -195,8 +195,8 @@ struct MonolithicData {
 /// [partitioned]
 struct PartitionedData {
   std::optional<std::string> scheme;  ///< one of coupling_scheme_names(); empty: by the scene
-  /// ||d~ - d|| <= tolerance ||d~|| on the interface; of block-newton the error of a step that is demanded, in place of
-  /// what [monolithic] demands
+  /// ||d~ - d|| <= tolerance ||d~|| on the interface; of robin-neumann-inexact and block-newton
+  /// the error of a step that is demanded, in place of what [monolithic] demands
   std::optional<double> tolerance;
   static constexpr double standard_tolerance = 1e-6;  ///< of the gap
   ToleranceOf tolerance_of = ToleranceOf::pressure;   ///< pressure: alike for what the gap is worth as a pressure

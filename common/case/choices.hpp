@@ -24,7 +24,7 @@ inline constexpr std::array<std::string_view, 16> coupled_solver_list{
     "ssor_exact", "ilu_exact", "amg",   "amg_gmres", "amg_fgmres", "amli",           "amli_gmres",  "amli_fgmres"};
 
 /// partitioned.scheme. Their table: partitioned/schemes.cpp.
-inline constexpr std::array<std::string_view, 14> coupling_scheme_list{"aitken",
+inline constexpr std::array<std::string_view, 15> coupling_scheme_list{"aitken",
                                                                        "block-newton",
                                                                        "constant",
                                                                        "explicit",
@@ -32,6 +32,7 @@ inline constexpr std::array<std::string_view, 14> coupling_scheme_list{"aitken",
                                                                        "iqn-imvj",
                                                                        "newton-krylov",
                                                                        "robin-neumann",
+                                                                       "robin-neumann-inexact",
                                                                        "robin-neumann-iqn",
                                                                        "robin-neumann-imvj",
                                                                        "robin-robin",

@@ -121,13 +121,15 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
   using P = PartitionedData;
   using QuasiNewton = QuasiNewtonOptions;
   return {
-      leaf("scheme", optional, "coupling: {}; default block-newton",
+      leaf("scheme", optional, "coupling: {}; default robin-neumann-inexact",
            name_from(at(&P::scheme), coupling_scheme_names())),
-      leaf("tolerance", optional,
-           fmt::format("gap between fluid and wall relative to the interface's displacement, default {}; block-newton: "
-                       "error_tolerance of its Newton iteration, without it those of [monolithic] hold",
-                       text_for_people(P::standard_tolerance)),
-           number(at(&P::tolerance), tolerance)),
+      leaf(
+          "tolerance", optional,
+          fmt::format("gap between fluid and wall relative to the interface's displacement, default {}; "
+                      "robin-neumann-inexact and "
+                      "block-newton: error of a step relative to what it changes, without it what [monolithic] demands",
+                      text_for_people(P::standard_tolerance)),
+          number(at(&P::tolerance), tolerance)),
       leaf("tolerance_of", optional,
            "{}; pressure: the tolerance holds, besides, for the pressure that the gap is worth in one step relative to "
            "that on the interface; displacement: for the displacement alone, as the paper has it",
@@ -162,9 +164,10 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
       leaf("linear_solver", optional, "of the sub-problems: {}",
            name_from(at(&P::linear_solver), general_solver_names())),
       leaf("direct_below", optional,
-           "unknowns of a sub-problem, of block-newton those of both together, below which fast factorises the "
-           "matrix, " +
-               direct_below_standards() + ", but with block-newton " + where_the_wall_judges(),
+           "unknowns of a sub-problem, of robin-neumann-inexact and block-newton those of both together, below which "
+           "fast "
+           "factorises the matrix, " +
+               direct_below_standards() + ", but with these two " + where_the_wall_judges(),
            whole(at(&P::fast, &FastOptions::direct_below), 0, most_unknowns)),
   };
 }

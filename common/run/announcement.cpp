@@ -66,6 +66,11 @@ void announce(RunParts<n>& parts, const RunCheckpoints<n>& checkpoints, Console&
                                     : fmt::format("{} steps", parts.loads.steps()));
   console.line(text);
   log.info(text);
+  if (const auto coupling = parts.stepper->coupling_method()) {
+    log.info(fmt::format("coupling kind: {}; {}", coupling->kind, coupling->does));
+    summary["coupling_kind"] = coupling->kind;
+    summary["coupling_pass"] = coupling->does;
+  }
   if (const std::string numbers = text_of_numbers(parts.loaded.numbers); !numbers.empty()) log.info(numbers);
   log.info(fmt::format("threads: {}, {}", parts.threads.count, parts.threads.reason));
   announce_steps(parts, log);

@@ -201,6 +201,10 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     if (const double change = problem.relative_increment(); options.error_tolerance > 0 && std::isfinite(change))
       accurate =
           watch.estimate(change, new_residual / residual, renew) <= options.error_tolerance && (accurate || !grown);
+    if (iteration.step == 1 && new_residual <= options.enough * report.first_residual) {
+      report.converged = true;
+      return report;
+    }
     const bool outdated = problem.outdated();
     if (outdated) ++switches;
     const bool tiny = problem.negligible(increment, tiny_increment);

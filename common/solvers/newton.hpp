@@ -64,6 +64,8 @@ struct NewtonOptions {
   double tolerance = 1e-8;
   double reference = 0;           ///< 0: the norm of the first increment ([Langer2018], algorithm 1)
   double residual_tolerance = 0;  ///< further demand on the residual relative to the first one; 0: none
+  double enough =
+      0;  ///< converged when the residual is at most this part of the first one, whatever the increment; 0: never
   int max_iterations = 30;
   double keep_contraction = 0;   ///< a kept Jacobian is renewed when an iteration contracts the residual less (0: as
                                  ///< the problem advises),

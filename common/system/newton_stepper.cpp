@@ -230,6 +230,13 @@ NewtonStepper<n>::NewtonStepper(Scene<n>& scene, const Loads& loads, NewtonOptio
     : NewtonMarch<n>(scene, loads, std::move(options)), system_("coupled", scene, std::move(numbering), make_solver) {}
 
 template <int n>
+std::optional<CouplingMethod> NewtonStepper<n>::coupling_method() const {
+  if (!this->scene_.coupled()) return std::nullopt;
+  return CouplingMethod{"monolithic",
+                        "one Newton iteration for fluid, wall and mesh, whose linear systems hold all of them"};
+}
+
+template <int n>
 std::vector<StepperChoice> NewtonStepper<n>::choices() const {
   std::vector<StepperChoice> all = this->stopping();
   if (const std::string decides = system_.solver().decides(); !decides.empty())

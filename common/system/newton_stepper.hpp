@@ -74,6 +74,7 @@ class NewtonStepper : public NewtonMarch<n> {
   const System<n>& system() const { return system_; }
 
   std::vector<StepperChoice> choices() const override;
+  std::optional<CouplingMethod> coupling_method() const override;
   void keep(Memory& memory) override;
   void forget() override { system_.forget_jacobian(); }
 

@@ -68,13 +68,19 @@ void System<n>::work_on(State& state, const StepData& data) {
   data_ = &data;
   if (numbering_.follow(data.rates.interface)) norms_.follow_factors();
   if (rates_differ(data.rates)) usable_ = false;
+  has_rows_ = keeps_rows_ = false;
 }
 
 template <int n>
 double System<n>::evaluate() {
-  if (numbering_.has_mesh()) scene_.renew_constant_operators();
-  const auto phase = scene_.profile.phase("assembly: " + name_ + " residual");
-  const AssemblyResult result = assemble(false);
+  AssemblyResult result;
+  if (std::exchange(keeps_rows_, false)) {
+    gather_residual();
+  } else {
+    if (numbering_.has_mesh()) scene_.renew_constant_operators();
+    const auto phase = scene_.profile.phase("assembly: " + name_ + " residual");
+    result = assemble(false);
+  }
   double sum = 0;
   for (double r : residual_) sum += r * r;
   if (const double forces = openings_.compare(*state_, *data_); processes().is_first()) sum += forces;
@@ -230,6 +236,7 @@ Direction<n> System<n>::increment_at(int node) const {
 
 template <int n>
 void System<n>::move(double step) {
+  has_rows_ = keeps_rows_ = false;
   if (numbering_.has_mesh()) add_increment<Vector>(numbering_.mesh, scene_.fluid_frames, step, state_->now.mesh);
   if (numbering_.has_fluid()) add_increment<Mixed>(numbering_.fluid, scene_.fluid_frames, step, state_->now.fluid);
   if (numbering_.has_wall()) add_increment<Mixed>(numbering_.wall, scene_.wall_frames, step, state_->now.wall);
@@ -285,7 +292,7 @@ std::vector<InterfacePair> System<n>::interface_pairs(const Scene<n>& scene) {
 template <int n>
 AssemblyResult System<n>::assemble(bool derivatives) {
   AssemblyResult result;
-  residual_.assign(static_cast<std::size_t>(numbering_.size), 0.0);
+  has_rows_ = keeps_rows_ = false;
   if (numbering_.has_mesh()) {
     mesh_residual_.resize(state_->now.mesh.size());
     if (scene_.nonlinear_mesh_motion) {
@@ -295,78 +302,110 @@ AssemblyResult System<n>::assemble(bool derivatives) {
     } else {
       multiply_mesh_motion<n>(scene_.mesh_motion, state_->now.mesh, mesh_residual_);
     }
-    add_rows<Vector>(numbering_.mesh_rows, scene_.fluid_frames, mesh_residual_, residual_);
   }
   if (numbering_.has_fluid()) {
     assert(scene_.fluid);
     result.include(scene_.assemble_fluid(state_->now, *data_, fluid_residual_,
                                          derivatives ? derivatives_ : FluidDerivatives::none));
-    add_rows<Mixed>(numbering_.fluid_rows, scene_.fluid_frames, fluid_residual_, residual_);
     if (derivatives) {
       auto& jacobian = scene_.fluid->jacobian(derivatives_);
       scene_.fluid_frames.turn_blocks(jacobian.fluid);
       if (derivatives_ == FluidDerivatives::fluid_and_domain)
         scene_.fluid_frames.turn_blocks(jacobian.shape_derivatives);
+      openings_.linearise(state_->now, data_->rates, !numbering_.mesh.empty());
+      if (impedance_ && impedance_->medium == InterfaceImpedance::Medium::fluid) add_impedance_derivatives();
     }
-    if (derivatives) openings_.linearise(state_->now, data_->rates, !numbering_.mesh.empty());
-    if (impedance_ && impedance_->medium == InterfaceImpedance::Medium::fluid) add_impedance(derivatives);
   }
   if (numbering_.has_wall()) {
     assert(scene_.wall);
     result.include(scene_.wall->assemble(scene_.wall_input(state_->now, *data_), data_->wall_pressure, state_->now.wall,
                                          wall_residual_, derivatives));
-    if (!data_->interface_load.empty())
-      for (std::size_t i = 0; i < wall_residual_.size(); ++i) wall_residual_[i] += data_->interface_load[i];
-    add_rows<Mixed>(numbering_.wall_rows, scene_.wall_frames, wall_residual_, residual_);
     if (derivatives) scene_.wall_frames.turn_blocks(scene_.wall->jacobian());
-    if (impedance_ && impedance_->medium == InterfaceImpedance::Medium::wall) add_wall_impedance(derivatives);
+    if (derivatives && impedance_ && impedance_->medium == InterfaceImpedance::Medium::wall)
+      add_wall_impedance_derivatives();
   }
+  gather_residual();
+  has_rows_ = !result.inverted();
   return result;
 }
 
 template <int n>
-void System<n>::add_impedance(bool derivatives) {
+void System<n>::gather_residual() {
+  residual_.assign(static_cast<std::size_t>(numbering_.size), 0.0);
+  if (numbering_.has_mesh()) add_rows<Vector>(numbering_.mesh_rows, scene_.fluid_frames, mesh_residual_, residual_);
+  if (numbering_.has_fluid()) {
+    add_rows<Mixed>(numbering_.fluid_rows, scene_.fluid_frames, fluid_residual_, residual_);
+    if (impedance_ && impedance_->medium == InterfaceImpedance::Medium::fluid) add_impedance();
+  }
+  if (numbering_.has_wall()) {
+    if (data_->interface_load.empty()) {
+      add_rows<Mixed>(numbering_.wall_rows, scene_.wall_frames, wall_residual_, residual_);
+    } else {
+      loaded_rows_ = wall_residual_;
+      axpy(1, data_->interface_load, loaded_rows_);
+      add_rows<Mixed>(numbering_.wall_rows, scene_.wall_frames, loaded_rows_, residual_);
+    }
+    if (impedance_ && impedance_->medium == InterfaceImpedance::Medium::wall) add_wall_impedance();
+  }
+}
+
+template <int n>
+void System<n>::add_impedance() {
   assert(impedance_->balanced || impedance_->velocity.size() == impedance_->nodes.size() * n);
   for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
     const int node = impedance_->nodes[i];
-    const double c = impedance_->impedance[i];
     Direction<n> slip{};
     if (!impedance_->balanced)
       for (int k = 0; k < n; ++k) slip[k] = state_->now.fluid[Mixed::vector(node, k)] - impedance_->velocity[i * n + k];
     if (const auto* axes = scene_.fluid_frames.at(node)) NodalFrames<n>::to_frame(*axes, slip.data());
     for (int k = 0; k < n; ++k) {
-      const std::size_t entry = Mixed::vector(node, k);
-      const Unknown& row = numbering_.fluid_rows[entry];
+      const Unknown& row = numbering_.fluid_rows[Mixed::vector(node, k)];
       if (row.index < 0) continue;
       if (impedance_->balanced)
         residual_[row.index] = 0;
       else
-        residual_[row.index] += row.factor * c * slip[k];
-      if (!derivatives) continue;
-      auto& fluid = scene_.fluid->jacobian(derivatives_).fluid;
-      fluid.block(fluid.graph->find(node, node))[k * Mixed::entries + k] += c;
+        residual_[row.index] += row.factor * impedance_->impedance[i] * slip[k];
     }
   }
 }
 
 template <int n>
-void System<n>::add_wall_impedance(bool derivatives) {
+void System<n>::add_impedance_derivatives() {
+  auto& fluid = scene_.fluid->jacobian(derivatives_).fluid;
+  for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
+    const int node = impedance_->nodes[i];
+    for (int k = 0; k < n; ++k) {
+      if (numbering_.fluid_rows[Mixed::vector(node, k)].index < 0) continue;
+      fluid.block(fluid.graph->find(node, node))[k * Mixed::entries + k] += impedance_->impedance[i];
+    }
+  }
+}
+
+template <int n>
+void System<n>::add_wall_impedance() {
   assert(!impedance_->balanced && impedance_->displacement.size() == impedance_->nodes.size() * n);
   const double rate = data_->rates.interface.rate();
   for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
     const int node = impedance_->nodes[i];
-    const double c = impedance_->impedance[i] * rate;
     Direction<n> beyond{};
     for (int k = 0; k < n; ++k)
       beyond[k] = state_->now.wall[Mixed::vector(node, k)] - impedance_->displacement[i * n + k];
     if (const auto* axes = scene_.wall_frames.at(node)) NodalFrames<n>::to_frame(*axes, beyond.data());
+    for (int k = 0; k < n; ++k)
+      if (const Unknown& row = numbering_.wall_rows[Mixed::vector(node, k)]; row.index >= 0)
+        residual_[row.index] += row.factor * (impedance_->impedance[i] * rate) * beyond[k];
+  }
+}
+
+template <int n>
+void System<n>::add_wall_impedance_derivatives() {
+  const double rate = data_->rates.interface.rate();
+  auto& wall = scene_.wall->jacobian();
+  for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
+    const int node = impedance_->nodes[i];
     for (int k = 0; k < n; ++k) {
-      const Unknown& row = numbering_.wall_rows[Mixed::vector(node, k)];
-      if (row.index < 0) continue;
-      residual_[row.index] += row.factor * c * beyond[k];
-      if (!derivatives) continue;
-      auto& wall = scene_.wall->jacobian();
-      wall.block(wall.graph->find(node, node))[k * Mixed::entries + k] += c;
+      if (numbering_.wall_rows[Mixed::vector(node, k)].index < 0) continue;
+      wall.block(wall.graph->find(node, node))[k * Mixed::entries + k] += impedance_->impedance[i] * rate;
     }
   }
 }

@@ -62,6 +62,9 @@ class System : public NewtonProblem {
   void work_on(State& state, const StepData& data);
 
   double evaluate() override;
+  /// The iterate is that of the last evaluate(), and no more than the interface's load or datum is another: the next
+  /// evaluate() takes the media's rows from there.
+  void keep_rows() { keeps_rows_ = has_rows_; }
 
   void linearise() override;
   bool linearised() const override { return usable_ && solver_->ready(); }
@@ -116,9 +119,13 @@ class System : public NewtonProblem {
   static std::vector<InterfacePair> interface_pairs(const Scene<n>& scene);
 
   AssemblyResult assemble(bool derivatives);
+  /// The residual of the media's rows as they are, with the interface's load and impedance.
+  void gather_residual();
 
-  void add_impedance(bool derivatives);
-  void add_wall_impedance(bool derivatives);
+  void add_impedance();
+  void add_wall_impedance();
+  void add_impedance_derivatives();
+  void add_wall_impedance_derivatives();
 
   /// field += step * (the increment of its unknowns)
   template <class Layout>
@@ -157,8 +164,11 @@ class System : public NewtonProblem {
   LinearisationPoint point_;
   bool usable_ = false;  ///< the solver's Jacobian belongs to the step's rates
   bool increment_is_zero_ = false;
+  bool has_rows_ = false;    ///< those of the media are of the state as it is
+  bool keeps_rows_ = false;  ///< and serve once more
   std::vector<double> residual_, increment_, mesh_residual_, fluid_residual_, wall_residual_;
   std::vector<double> rows_;            ///< of a part in its frames
+  std::vector<double> loaded_rows_;     ///< the wall's, with the interface's load
   std::vector<double> other_, answer_;  ///< storage of answer()
 };
 

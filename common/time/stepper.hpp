@@ -60,6 +60,12 @@ struct StepperChoice {
   std::string reason;  ///< a clause
 };
 
+/// What of fluid and wall a method brings together, for log and summary.
+struct CouplingMethod {
+  const char* kind;  ///< "monolithic", "block" or "interface"
+  std::string does;  ///< a clause: what it does in a pass, and with what
+};
+
 /// One way to advance a scene by a time step. The two drivers differ in this.
 class Stepper {
  public:
@@ -87,6 +93,8 @@ class Stepper {
   const StepReport& report() const { return report_; }
   /// For log and summary.
   virtual std::vector<StepperChoice> choices() const { return {}; }
+  /// How fluid and wall are coupled; empty where there is nothing to couple.
+  virtual std::optional<CouplingMethod> coupling_method() const { return std::nullopt; }
   /// What it needs of the steps before besides the state.
   virtual void keep(Memory& memory) = 0;
 

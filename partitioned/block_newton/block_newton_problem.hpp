@@ -8,6 +8,7 @@
 #include "partitioned/block_newton/joint_iteration.hpp"
 #include "partitioned/interface/membrane.hpp"
 #include "partitioned/interface_space.hpp"
+#include "partitioned/medium_solvers.hpp"
 #include "scene/scene.hpp"
 #include "solvers/newton.hpp"
 #include "system/system.hpp"
@@ -16,7 +17,8 @@ namespace fsi {
 
 /// What the passes of block Newton took so far.
 struct BlockNewtonCost {
-  int passes = 0;                         ///< each one linear solve of either medium
+  int newton_iterations = 0;              ///< of both media together
+  int passes = 0;                         ///< each one cycle, or linear solve, of either medium
   int fluid_linear = 0, wall_linear = 0;  ///< Krylov iterations; 0 with direct solvers
   double fluid_seconds = 0, wall_seconds = 0, algebra_seconds = 0;
 };
@@ -71,6 +73,8 @@ class BlockNewtonProblem : public NewtonProblem {
   double relative_residual() const;
   /// LinearSolver::decides() of the media, which decide alike.
   std::string linear_decision() const { return wall_.solver().decides(); }
+  /// Whether a pass is one cycle of either medium's preconditioner, in place of a linear solve.
+  bool cycles() const { return fluid_.cycles() && wall_.cycles(); }
   /// Pairs and rank that corrections of the datum are made of.
   int columns() const { return map_.columns(); }
   void keep(Memory& memory);
@@ -90,14 +94,8 @@ class BlockNewtonProblem : public NewtonProblem {
     CycledMedium *fluid, *wall;
   };
 
-  /// Of the media's linearised equations.
-  struct Solvers {
-    LinearSolverFactory<n> fluid, wall;
-  };
-
-  BlockNewtonProblem(Scene<n>& scene, const PartitionedData& options, double stiffness, const Solvers& solvers);
-  /// As the options ask.
-  static Solvers solvers(const Scene<n>& scene, const PartitionedData& options);
+  BlockNewtonProblem(Scene<n>& scene, const PartitionedData& options, double stiffness,
+                     const MediumSolvers<n>& solvers);
   std::vector<double> impedance_of(const StepRates& rates) const;
   std::vector<double> interface_gap() const;
   /// The membrane's impedance times velocities that displacements of the interface are worth, Euclidean norm: the force that

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <utility>
 
 #include "fem/dimensions.hpp"
@@ -34,6 +35,14 @@ BlockNewtonStepper<n>::BlockNewtonStepper(Scene<n>& scene, const Loads& loads, c
 }
 
 template <int n>
+std::optional<CouplingMethod> BlockNewtonStepper<n>::coupling_method() const {
+  return CouplingMethod{
+      "block", "one Newton iteration for both media, which needs both Jacobians; a pass, of its linear systems, is " +
+                   std::string(problem_.cycles() ? "one cycle of each medium's preconditioner"
+                                                 : "one linear solve of each medium")};
+}
+
+template <int n>
 StepReport BlockNewtonStepper<n>::advance(State& state) {
   problem_.cost = {};
   return NewtonMarch<n>::advance(state);
@@ -55,7 +64,7 @@ void BlockNewtonStepper<n>::finish_stage(const State&, const StepData&) {
   coupling.force_residual = problem_.relative_residual();
   coupling.pressure_residual = problem_.relative_pressure();
   coupling.gap_pressure = problem_.gap_pressure();
-  coupling.fluid_newton_iterations = coupling.wall_newton_iterations = cost.passes;
+  coupling.fluid_newton_iterations = coupling.wall_newton_iterations = cost.newton_iterations;
   coupling.fluid_linear_iterations = cost.fluid_linear;
   coupling.wall_linear_iterations = cost.wall_linear;
   coupling.fluid_seconds = cost.fluid_seconds;

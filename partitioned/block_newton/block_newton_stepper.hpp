@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "partitioned/block_newton/block_newton_problem.hpp"
@@ -8,12 +9,16 @@
 
 namespace fsi {
 
-/// Advances fluid and wall by Newton's method for both, its linear systems solved by passes between the two.
+/// Advances fluid and wall by Newton's method for both, its linear systems solved by passes between the two: coupling of
+/// the kind "block", which needs the Jacobians of both media.
 template <int n>
 class BlockNewtonStepper : public NewtonMarch<n> {
  public:
+  BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup)
+      : BlockNewtonStepper(scene, loads, setup, chosen_scheme(setup)) {}
   BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const SchemeChoice& choice);
 
+  std::optional<CouplingMethod> coupling_method() const override;
   bool reports_coupling() const override { return true; }
   std::vector<StepperChoice> choices() const override { return choices_; }
   StepReport advance(State& state) override;

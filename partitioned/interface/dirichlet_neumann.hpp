@@ -24,7 +24,7 @@ class DirichletNeumann : public InterfaceProblem<n> {
     fluid_.work_on(state, data);
   }
 
-  std::vector<double> first_guess(int) const override { return Base::wall_displacement(state_->now); }
+  std::vector<double> first_guess(int) override { return Base::wall_displacement(state_->now); }
 
   Pass pass(const std::vector<double>& d, const PassAccuracy& accuracy) override {
     d_ = d;
@@ -45,7 +45,7 @@ class DirichletNeumann : public InterfaceProblem<n> {
   Pass refine(const PassAccuracy& accuracy) override {
     {
       const Stopwatch watch(cost.fluid_seconds);
-      solve_sub_problem("fluid", fluid_, accuracy.tolerance, {}, cost.fluid_newton, cost.fluid_linear);
+      Base::solve_medium("fluid", fluid_, accuracy, {}, cost.fluid_newton, cost.fluid_linear);
     }
     Base::solve_wall(fluid_.fluid_residual(), accuracy);
     Pass pass;

@@ -28,8 +28,10 @@ struct Pass {
 
 /// How well the sub-problems are solved in a pass.
 struct PassAccuracy {
-  double tolerance;      ///< of their Newton iterations, relative to their iterates
-  bool linearised_wall;  ///< the wall answers by one linearised step from the step's first guess
+  double tolerance;           ///< of their Newton iterations, relative to their iterates
+  bool linearised_wall;       ///< the wall answers by one linearised step from the step's first guess
+  int newton_iterations = 0;  ///< of each medium at most, whatever it leaves; 0: until the tolerance
+  double enough = 0;          ///< part of its residual that ends them sooner
 };
 
 /// One time step as an equation r(x) = 0 for an interface vector x, evaluated by one pass through the sub-problems. At
@@ -39,9 +41,13 @@ class InterfaceProblem {
  public:
   /// \param wall_impedance  joins the wall's equations (System), and is made later; null: nothing
   InterfaceProblem(Scene<n>& scene, const PartitionedData& options, const InterfaceImpedance* wall_impedance = nullptr)
+      : InterfaceProblem(scene, solver_factory(options), wall_impedance) {}
+  /// \param wall_solver  of the wall's linearised equations
+  InterfaceProblem(Scene<n>& scene, const LinearSolverFactory<n>& wall_solver,
+                   const InterfaceImpedance* wall_impedance = nullptr)
       : scene_(scene),
         membrane_(membrane_of(scene)),
-        wall_("wall", scene, number_wall(scene), solver_factory(options), SystemNorm::volumes, wall_impedance) {}
+        wall_("wall", scene, number_wall(scene), wall_solver, SystemNorm::volumes, wall_impedance) {}
   virtual ~InterfaceProblem() = default;
 
   /// Starts a step, or a stage of it: state.now holds the first guess of all fields.
@@ -64,7 +70,7 @@ class InterfaceProblem {
   /// Of schemes that do not iterate: whether the next step is iterated all the same, x being what its passes are a function of.
   virtual void iterate(bool /*on*/) {}
   /// x of the first guess, extrapolated by `order`.
-  virtual std::vector<double> first_guess(int order) const = 0;
+  virtual std::vector<double> first_guess(int order) = 0;
   /// r(x), the sub-problems solved as `accuracy` says; leaves their fields in the state. \throws PassFailure
   virtual Pass pass(const std::vector<double>& x, const PassAccuracy& accuracy) = 0;
   /// The same x again, solved tighter from where pass() left the fields.
@@ -211,6 +217,16 @@ class InterfaceProblem {
     solve_loaded_wall(accuracy);
   }
 
+  /// A medium, as far as `accuracy` asks.
+  static void solve_medium(const std::string& name, System<n>& medium, const PassAccuracy& accuracy,
+                           const NewtonOptions& options, int& newton_iterations, int& linear_iterations) {
+    if (accuracy.newton_iterations > 0)
+      improve_sub_problem(name, medium, accuracy.newton_iterations, accuracy.enough, options, newton_iterations,
+                          linear_iterations);
+    else
+      solve_sub_problem(name, medium, accuracy.tolerance, options, newton_iterations, linear_iterations);
+  }
+
   /// Solves the wall under the interface load of the step's data.
   void solve_loaded_wall(const PassAccuracy& accuracy) {
     const Stopwatch watch(cost.wall_seconds);
@@ -224,7 +240,7 @@ class InterfaceProblem {
     last_was_linearised_ = false;
     NewtonOptions options;
     options.keep_contraction = wall_contraction;
-    solve_sub_problem("wall", wall_, accuracy.tolerance, options, cost.wall_newton, cost.wall_linear);
+    solve_medium("wall", wall_, accuracy, options, cost.wall_newton, cost.wall_linear);
   }
 
   Scene<n>& scene_;

@@ -29,6 +29,13 @@ struct Membrane {
     return acceleration_factor * density * thickness + stiffness();
   }
 
+  /// Traction per normal velocity, kPa/(mm/ms), within a step: dt (a rho_s h + E h / ((1 - nu^2) R^2)), z_n below. With it
+  /// as coefficient Robin-Neumann passes leave long waves of the normal velocity to nobody, and others, for which it is
+  /// too large, to the quasi-Newton method: best by trial there, by a factor of 1.2 either way (docs/coupling.md).
+  double normal_impedance(double acceleration_factor, double step) const {
+    return step * push_stiffness(acceleration_factor);
+  }
+
   static constexpr double smallest_depth = 0.05;  ///< l / h in impedance()
 
   /// Traction per interface velocity, kPa/(mm/ms), with which the wall answers within a step whose acceleration is

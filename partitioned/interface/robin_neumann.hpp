@@ -9,6 +9,7 @@
 #include "algebra/vector_operations.hpp"
 #include "partitioned/interface/interface_problem.hpp"
 #include "partitioned/interface/membrane.hpp"
+#include "partitioned/medium_solvers.hpp"
 #include "time/predictor.hpp"
 
 namespace fsi {
@@ -23,7 +24,9 @@ namespace fsi {
 template <int n>
 class RobinNeumann : public InterfaceProblem<n> {
   using Base = InterfaceProblem<n>;
-  using Base::cost, Base::scene_, Base::membrane_, Base::state_, Base::data_;
+
+ protected:
+  using Base::cost, Base::scene_, Base::membrane_, Base::state_, Base::data_, Base::wall_;
 
  public:
   RobinNeumann(Scene<n>& scene, const PartitionedData& options)
@@ -32,8 +35,10 @@ class RobinNeumann : public InterfaceProblem<n> {
  protected:
   /// \param fluid  unknowns of the fluid, its velocity free on the interface
   RobinNeumann(Scene<n>& scene, const PartitionedData& options, Numbering fluid)
-      : Base(scene, options),
-        fluid_("fluid", scene, std::move(fluid), Base::solver_factory(options), SystemNorm::entries, &robin_) {
+      : RobinNeumann(scene, std::move(fluid), {Base::solver_factory(options), Base::solver_factory(options)}) {}
+  RobinNeumann(Scene<n>& scene, Numbering fluid, const MediumSolvers<n>& solvers)
+      : Base(scene, solvers.wall),
+        fluid_("fluid", scene, std::move(fluid), solvers.fluid, SystemNorm::entries, &robin_) {
     for (const auto& node : scene.interface) robin_.nodes.push_back(node.fluid);
     robin_.velocity.assign(Base::interface_size(), 0.0);
     for (auto& load : loads_) load.assign(Base::interface_size(), 0.0);
@@ -48,41 +53,21 @@ class RobinNeumann : public InterfaceProblem<n> {
   }
 
   /// The extrapolated displacement, and the load extrapolated alike.
-  std::vector<double> first_guess(int order) const override {
-    const auto weights = scene_.integrator->balance_weights(*state_, order, *data_);
-    std::vector<double> x = Base::wall_displacement(state_->now);
-    for (std::size_t i = 0; i < scene_.interface.size(); ++i) {
-      if (robin_.impedance[i] == 0) continue;
-      const auto& node = scene_.interface[i];
-      const auto* axes = scene_.fluid_frames.at(node.fluid);  // in which some components are free, and others held
-      Direction<n> further{};
-      for (int k = 0; k < n; ++k)
-        for (std::size_t level = 0; level < 3; ++level) further[k] += weights[level] * load_before(level)[i * n + k];
-      if (axes) NodalFrames<n>::to_frame(*axes, further.data());
-      for (int k = 0; k < n; ++k) {
-        const bool held = fluid_.numbering().fluid[Base::fluid_entry(node, k)].index < 0;
-        further[k] = held ? 0 : data_->rates.interface.displacement(further[k] / robin_.impedance[i], 0.0);
-      }
-      if (axes) NodalFrames<n>::to_space(*axes, further.data());
-      for (int k = 0; k < n; ++k) x[i * n + k] += further[k];
-    }
-    return x;
+  std::vector<double> first_guess(int order) override {
+    return datum(Base::wall_displacement(state_->now), extrapolated_load(order));
   }
 
   Pass pass(const std::vector<double>& x, const PassAccuracy& accuracy) override {
-    for (std::size_t i = 0; i < x.size(); ++i)
-      robin_.velocity[i] = data_->rates.interface.velocity(
-          x[i], data_->rates.wall_reference[Base::wall_entry(scene_.interface[i / n], static_cast<int>(i % n))]);
-    if (this->domain_follows()) follow_fluid(*state_);
+    begin_pass(x);
     return refine(accuracy);
   }
 
   Pass refine(const PassAccuracy& accuracy) override {
     {
       const Stopwatch watch(cost.fluid_seconds);
-      solve_sub_problem("fluid", fluid_, accuracy.tolerance, {}, cost.fluid_newton, cost.fluid_linear);
+      Base::solve_medium("fluid", fluid_, accuracy, {}, cost.fluid_newton, cost.fluid_linear);
     }
-    Base::solve_wall(fluid_.fluid_residual(), accuracy);
+    answer_of_wall(accuracy);
     Pass pass;
     pass.displacement = Base::wall_displacement(state_->now);
     pass.residual = pass.displacement;
@@ -127,6 +112,54 @@ class RobinNeumann : public InterfaceProblem<n> {
       memory.array("load" + std::to_string(level), ArrayKind::interface, loads_[level]);
   }
 
+ protected:
+  /// The load of the interface, lambda, extrapolated by `order`: n numbers per node of the interface, kPa mm^2.
+  std::vector<double> extrapolated_load(int order) const {
+    const auto weights = scene_.integrator->balance_weights(*state_, order, *data_);
+    std::vector<double> load(Base::interface_size(), 0.0);
+    for (std::size_t level = 0; level < 3; ++level) axpy(weights[level], load_before(level), load);
+    return load;
+  }
+  /// The datum of a displacement and a load of the wall: d + dt lambda / c.
+  std::vector<double> datum(std::vector<double> x, const std::vector<double>& load) const {
+    for (std::size_t i = 0; i < scene_.interface.size(); ++i) {
+      if (robin_.impedance[i] == 0) continue;
+      const auto& node = scene_.interface[i];
+      const auto* axes = scene_.fluid_frames.at(node.fluid);  // in which some components are free, and others held
+      Direction<n> further{};
+      for (int k = 0; k < n; ++k) further[k] = load[i * n + k];
+      if (axes) NodalFrames<n>::to_frame(*axes, further.data());
+      for (int k = 0; k < n; ++k) {
+        const bool held = fluid_.numbering().fluid[Base::fluid_entry(node, k)].index < 0;
+        further[k] = held ? 0 : data_->rates.interface.displacement(further[k] / robin_.impedance[i], 0.0);
+      }
+      if (axes) NodalFrames<n>::to_space(*axes, further.data());
+      for (int k = 0; k < n; ++k) x[i * n + k] += further[k];
+    }
+    return x;
+  }
+
+  /// alpha, kPa/(mm/ms).
+  virtual double coefficient(const StepRates& rates) const {
+    return membrane_.impedance(rates.acceleration_factor, rates.interface.period);
+  }
+
+  /// The wall under the fluid's momentum rows.
+  virtual void answer_of_wall(const PassAccuracy& accuracy) { Base::solve_wall(fluid_.fluid_residual(), accuracy); }
+
+  void set_datum(const std::vector<double>& x) {
+    for (std::size_t i = 0; i < x.size(); ++i)
+      robin_.velocity[i] = data_->rates.interface.velocity(
+          x[i], data_->rates.wall_reference[Base::wall_entry(scene_.interface[i / n], static_cast<int>(i % n))]);
+  }
+  void begin_pass(const std::vector<double>& x) {
+    set_datum(x);
+    if (this->domain_follows()) follow_fluid(*state_);
+  }
+
+  InterfaceImpedance robin_;  ///< R_f + c (u - v), v being g / c
+  System<n> fluid_;
+
  private:
   /// Where elements are small the membrane's impedance may let the interface go so far in a step that they fold. Four
   /// times as much costs few passes, if any: 6 to 11 a step on a graded quarter of the artery, where the membrane's own
@@ -135,7 +168,7 @@ class RobinNeumann : public InterfaceProblem<n> {
 
   std::vector<double> impedance_of(const StepRates& rates) const {
     std::vector<double> impedance = membrane_.node_areas;
-    scale(stiffening_ * membrane_.impedance(rates.acceleration_factor, rates.interface.period), impedance);
+    scale(stiffening_ * coefficient(rates), impedance);
     return impedance;
   }
 
@@ -154,9 +187,7 @@ class RobinNeumann : public InterfaceProblem<n> {
             state.now.fluid[Base::fluid_entry(node, k)], data_->rates.wall_reference[Base::wall_entry(node, k)]);
   }
 
-  double stiffening_ = 1;     ///< of the membrane's impedance
-  InterfaceImpedance robin_;  ///< R_f + c (u - v), v being g / c
-  System<n> fluid_;
+  double stiffening_ = 1;                         ///< of the coefficient
   std::vector<double> whole_rows_;                ///< the fluid's, ghosts too
   std::array<std::vector<double>, 3> loads_;      ///< lambda of the last stages of finished steps, the latest first
   std::vector<std::vector<double>> stage_loads_;  ///< lambda of the stages of the step in progress

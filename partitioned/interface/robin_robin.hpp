@@ -64,7 +64,7 @@ class RobinRobin : private RobinSides, public InterfaceProblem<n> {
 
   void iterate(bool on) override { iterates_ = on; }
 
-  std::vector<double> first_guess(int) const override {
+  std::vector<double> first_guess(int) override {
     std::vector<double> x = Base::wall_displacement(state_->now);
     if (!iterates_) return x;
     const std::vector<double> w = velocity_of_wall(x);

@@ -86,6 +86,32 @@ inline void solve_sub_problem(const std::string& name, NewtonProblem& problem, d
                     std::move(history));
 }
 
+/// A few iterations of Newton's method, whatever they leave: the coupling goes on with what it has. A Jacobian that
+/// contracts too little is not kept.
+/// \param most    iterations
+/// \param enough  part of the residual that ends them sooner
+/// \throws PassFailure where no step lowers the residual
+template <class Problem>
+void improve_sub_problem(const std::string& name, Problem& problem, int most, double enough, NewtonOptions options,
+                         int& newton_iterations, int& linear_iterations) {
+  options.tolerance = 0;  // rounding ends them, or these limits
+  options.reference = problem.size();
+  options.max_iterations = most;
+  options.enough = enough;
+  options.stop_at_rounding = false;
+  const NewtonReport report = newton(problem, options);
+  newton_iterations += report.count();
+  linear_iterations += report.linear_iterations();
+  if (report.count() < most && !report.converged)
+    throw PassFailure(fmt::format("the {} sub-problem: Newton's method stopped after {} iterations: {}", name,
+                                  report.count(), report.failure),
+                      {});
+  const double contraction = options.keep_contraction > 0 ? options.keep_contraction : problem.keep_contraction();
+  if (report.count() == 0) return;
+  const double before = report.count() > 1 ? report.iterations[report.count() - 2].residual : report.first_residual;
+  if (!report.converged && report.iterations.back().residual > contraction * before) problem.forget_jacobian();
+}
+
 /// One linearised step with the Jacobian at hand, whatever it does to the residual.
 inline void solve_linearised(const std::string& name, NewtonProblem& problem, double tolerance, int& newton_iterations,
                              int& linear_iterations) {

@@ -1,0 +1,99 @@
+#include "partitioned/inexact_stepper.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "fem/dimensions.hpp"
+#include "partitioned/interface/inexact_robin_neumann.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr const char* scheme_name = "robin-neumann-inexact";
+
+/// Newton iterations of each medium in a pass at most, and the part of its residual that ends them sooner: of the first
+/// pass, which finds the fields far from where they go, of later ones, and of those that come late.
+constexpr PassAccuracy first_pass{0, false, 3, 0.01}, later_passes{0, false, 1, 0.15}, late_passes{0, false, 4, 0.02};
+constexpr int late = 15;  // passes: more than nearly all steps take
+/// The estimate is one of the last pass, which an iteration of first order meets, while one of Newton's method is left
+/// behind by its last iteration: with this part of the monolithic driver's demand both leave errors of one size.
+constexpr double share_of_demand = 1;
+/// The same where the load has jumped, or nothing was before: later steps change less than that one, and what it leaves is
+/// large beside them.
+constexpr double share_after_jump = 0.1;
+constexpr double slowest = 0.9;     // of the factors by which passes are taken to gain
+constexpr double unknown = 0.5;     // such a factor, of a first change
+constexpr double rounding = 1e-13;  // of the displacement: no pass makes less of a gap
+
+/// By which the last of some numbers have fallen, each, in the mean of two.
+double rate(const std::vector<double>& of) {
+  const std::size_t last = of.size() - 1, back = std::min<std::size_t>(2, last);
+  if (back == 0 || !(of[last - back] > 0)) return 0;
+  return std::pow(of[last] / of[last - back], 1.0 / static_cast<double>(back));
+}
+
+double demand(const Case& setup) {
+  if (setup.partitioned.tolerance) return *setup.partitioned.tolerance;
+  const NewtonOptions& newton = setup.monolithic.newton;
+  return share_of_demand * (newton.error_tolerance > 0 ? newton.error_tolerance : newton.tolerance);
+}
+
+}  // namespace
+
+template <int n>
+InexactStepper<n>::InexactStepper(Scene<n>& scene, const Loads& loads, const Case& setup)
+    : Base(scene, loads, setup, coupling_scheme(scheme_name),
+           std::make_unique<InexactRobinNeumann<n>>(scene, setup.partitioned)),
+      demand_(demand(setup)),
+      force_tolerance_(setup.partitioned.force_tolerance) {
+  if (!setup.partitioned.tolerance)
+    Base::add_choice({"partitioned.tolerance", fmt::format("{:g}", demand_),
+                      "a step is solved when its error is estimated to be that part of what the step changes: half of "
+                      "what [monolithic] demands, whose Newton iteration does better than it must"});
+}
+
+template <int n>
+std::optional<CouplingMethod> InexactStepper<n>::coupling_method() const {
+  return CouplingMethod{
+      "interface",
+      "a pass improves the fluid and then the wall, each by its own solver and by one Newton iteration "
+      "as a rule; traces alone cross the interface"};
+}
+
+template <int n>
+PassAccuracy InexactStepper<n>::first_accuracy() {
+  gaps_.clear();
+  changes_.clear();
+  return first_pass;
+}
+
+template <int n>
+void InexactStepper<n>::next_accuracy(PassAccuracy& accuracy) {
+  accuracy = Base::passes() < late ? later_passes : late_passes;
+}
+
+template <int n>
+bool InexactStepper<n>::agrees(const State& state, const StepData& data, const GoodPass& good) {
+  const CouplingReport& pass = Base::coupling();
+  gaps_.push_back(pass.displacement_gap);
+  error_ = 1;
+  if (!good.found) return pass.displacement_gap == 0;
+  changes_.push_back(Base::change_since(state, data, good));
+  if (!std::isfinite(changes_.back()))
+    changes_.back() = pass.displacement_residual;  // nobody knows what a step changes
+  const double factor = std::min(slowest, std::max(rate(gaps_), changes_.size() > 1 ? rate(changes_) : unknown));
+  error_ = changes_.back() * factor / (1 - factor);
+  const bool balanced = force_tolerance_ == 0 || pass.force_residual <= force_tolerance_;
+  return balanced &&
+         (error_ <= (Base::after_jump() ? share_after_jump : 1) * demand_ || pass.displacement_residual <= rounding);
+}
+
+#define FSI_INSTANTIATE(n) template class InexactStepper<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "partitioned/coupling_stepper.hpp"
+
+namespace fsi {
+
+/// Interface iteration by passes that solve each medium inexactly (docs/theory.md, section 10.2a; inexact_robin_neumann.hpp,
+/// regularised_iqn.hpp). A step is solved when what is left of it is estimated to be a part of what it changes, as in the
+/// monolithic driver: change and residual of the last passes fall by some factor rho, and rho / (1 - rho) of the last
+/// change is to come.
+template <int n>
+class InexactStepper : public CouplingStepper<n> {
+  using Base = CouplingStepper<n>;
+
+ public:
+  InexactStepper(Scene<n>& scene, const Loads& loads, const Case& setup);
+
+  std::optional<CouplingMethod> coupling_method() const override;
+
+ private:
+  using GoodPass = typename Base::GoodPass;
+
+  PassAccuracy first_accuracy() override;
+  void next_accuracy(PassAccuracy& accuracy) override;
+  bool agrees(const State& state, const StepData& data, const GoodPass& good) override;
+  bool refines() const override { return false; }
+  double estimated_error(const State&, const StepData&, const GoodPass&) const override { return error_; }
+
+  double demand_;                       ///< part of what a step changes that may be left
+  double force_tolerance_;              ///< PartitionedData::force_tolerance
+  double error_ = 0;                    ///< estimated, of the last pass
+  std::vector<double> gaps_, changes_;  ///< of the passes of the stage in progress
+};
+
+}  // namespace fsi

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <vector>
+
+#include "partitioned/interface/robin_neumann.hpp"
+#include "partitioned/interface/wetted_sides.hpp"
+#include "partitioned/medium_solvers.hpp"
+#include "partitioned/scheme_choice.hpp"
+
+namespace fsi {
+
+/// Robin-Neumann whose passes cost about one linear solve and one residual of each medium (docs/theory.md, section 10.2a).
+/// - Media go on from the fields and the rows that the last pass left, the datum and the load alone being others.
+/// - The wall's load is what the Robin condition says it is, lambda~ = g - c u: the fluid's rows are off by all that an
+///   inexact solve has left.
+/// - The coefficient is the wall's impedance across, z_n (Membrane::normal_impedance()). Of a wall that stands in the fluid,
+///   which is no membrane, it is so large that the fluid is all but given its velocity.
+/// - The first guess is the wall's answer to the extrapolated load, in place of the extrapolated displacement: an error e of
+///   a displacement is a rho_f R e / 2 as a pressure, 1/a being the square of the step, while one of a load stays what it is.
+template <int n>
+class InexactRobinNeumann : public RobinNeumann<n> {
+  using Base = RobinNeumann<n>;
+  using Base::state_, Base::data_, Base::scene_, Base::membrane_, Base::fluid_, Base::wall_, Base::robin_;
+
+ public:
+  InexactRobinNeumann(Scene<n>& scene, const PartitionedData& options)
+      : InexactRobinNeumann(scene, medium_solvers(scene, options)) {}
+
+  void start(State& state, StepData& data) override {
+    Base::start(state, data);
+    keeps_rows_ = false;
+    if (!wall_decides_ || wall_.linearised()) return;
+    wall_.evaluate();  // the first Jacobian is the wall's, by which the fluid's solver is chosen
+    wall_.linearise();
+  }
+
+  std::vector<double> first_guess(int order) override {
+    const std::vector<double> load = Base::extrapolated_load(order);
+    if (order > 0 && state_->step > 0) {
+      put_load(load);
+      Base::solve_loaded_wall(of_first_guess);
+    }
+    return Base::datum(Base::wall_displacement(state_->now), load);
+  }
+
+  Pass pass(const std::vector<double>& x, const PassAccuracy& accuracy) override {
+    if (keeps_rows_)
+      Base::set_datum(x);
+    else
+      Base::begin_pass(x);
+    return refine(accuracy);
+  }
+
+  Pass refine(const PassAccuracy& accuracy) override {
+    if (keeps_rows_) {
+      fluid_.keep_rows();
+      wall_.keep_rows();
+    }
+    keeps_rows_ = false;  // unless the pass comes to its end: else the fields are put back
+    Pass pass = Base::refine(accuracy);
+    keeps_rows_ = true;
+    return pass;
+  }
+
+ protected:
+  double coefficient(const StepRates& rates) const override {
+    if (stands_in_the_fluid_) return robin_stiffness_in_the_fluid * Base::coefficient(rates);
+    return membrane_.normal_impedance(rates.acceleration_factor, rates.interface.period);
+  }
+
+  void answer_of_wall(const PassAccuracy& accuracy) override {
+    std::vector<double> load(Base::interface_size());
+    for (std::size_t i = 0; i < load.size(); ++i) {
+      const double u = state_->now.fluid[Base::fluid_entry(scene_.interface[i / n], static_cast<int>(i % n))];
+      load[i] = robin_.impedance[i / n] * (robin_.velocity[i] - u);
+    }
+    put_load(load);
+    Base::solve_loaded_wall(accuracy);
+  }
+
+ private:
+  static constexpr PassAccuracy of_first_guess{0, false, 3, 0.01};
+
+  InexactRobinNeumann(Scene<n>& scene, const MediumSolvers<n>& solvers)
+      : Base(scene, number_fluid_and_domain(scene), solvers),
+        wall_decides_(solvers.wall_decides),
+        stands_in_the_fluid_(wetted_sides_of(scene).stands_in_the_fluid()) {}
+
+  void put_load(const std::vector<double>& load) {
+    data_->interface_load.assign(state_->now.wall.size(), 0.0);
+    for (std::size_t i = 0; i < load.size(); ++i)
+      data_->interface_load[Base::wall_entry(scene_.interface[i / n], static_cast<int>(i % n))] = load[i];
+  }
+
+  bool wall_decides_, stands_in_the_fluid_;
+  bool keeps_rows_ = false;  ///< of the media, which nobody has touched since the last pass
+};
+
+}  // namespace fsi
