@@ -180,6 +180,17 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
       accept(x, pass);
       return;
     }
+    if (leads_nowhere() && problem_->soften()) {
+      report_.history.push_back("the passes lead nowhere: the stage begins anew with a softer Robin condition");
+      accelerator_->abandon();
+      problem_->start_from_prediction(state, data, order_);
+      accelerator_->start();
+      monitor_.start();
+      x = problem_->first_guess(order_);
+      good = {};
+      accuracy = first_accuracy();
+      continue;
+    }
     if (monitor_.diverges(coupling_.displacement_gap)) give_up(state, data, "diverges");
     good = {true, x, state.now, coupling_.displacement_gap};
     correct(pass, x, accuracy);
@@ -286,7 +297,7 @@ void CouplingStepper<n>::note_period(double period) {
   if (period_ > 0 && period <= likeness * period_ && period_ <= likeness * period) return;
   if (period_ > 0) accelerator_->change(period > period_);
   period_ = period;
-  if (!agreement_.weighs_pressure()) return;
+  if (!agreement_.weighs_pressure() || !refines()) return;
   report_.history.push_back(
       fmt::format("interface: velocities over {:g} ms, where a gap between fluid and wall is worth {:.4g} kPa/mm; "
                   "tolerance {:g} of "
@@ -333,15 +344,19 @@ template <int n>
 void CouplingStepper<n>::give_up(const State& state, const StepData& data, const char* what) const {
   const std::string valve = scene_.openings.joined().complaint();
   throw ConvergenceError(
-      fmt::format("step {} (to t = {:g} ms): the {} coupling {} in {} iterations, |d~ - d| / |d~| = "
-                  "{:.2e}, wanted {:g}; pressure {:.2e}{}; force {:.2e}{}",
-                  state.step + 1, data.time, scheme_.name, what, passes_, coupling_.displacement_residual,
-                  options_.gap_tolerance(), coupling_.pressure_residual,
-                  agreement_.weighs_pressure() ? fmt::format(", wanted {:g}", options_.gap_tolerance()) : "",
-                  coupling_.force_residual,
-                  options_.force_tolerance > 0 ? fmt::format(", wanted {:g}", options_.force_tolerance) : "") +
+      fmt::format("step {} (to t = {:g} ms): the {} coupling {} in {} iterations, {}", state.step + 1, data.time,
+                  scheme_.name, what, passes_, distance_from_demand()) +
           (valve.empty() ? "" : "; " + valve),
       valve.empty() ? scheme_.advice : std::string(scheme_.advice) + ", or " + JoinedOpenings<n>::remedy);
+}
+
+template <int n>
+std::string CouplingStepper<n>::distance_from_demand() const {
+  return fmt::format("|d~ - d| / |d~| = {:.2e}, wanted {:g}; pressure {:.2e}{}; force {:.2e}{}",
+                     coupling_.displacement_residual, options_.gap_tolerance(), coupling_.pressure_residual,
+                     agreement_.weighs_pressure() ? fmt::format(", wanted {:g}", options_.gap_tolerance()) : "",
+                     coupling_.force_residual,
+                     options_.force_tolerance > 0 ? fmt::format(", wanted {:g}", options_.force_tolerance) : "");
 }
 
 template <int n>

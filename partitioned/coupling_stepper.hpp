@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -83,6 +84,10 @@ class CouplingStepper : public Stepper {
   virtual void next_accuracy(PassAccuracy& accuracy);
   /// Whether the last pass ends the stage.
   virtual bool agrees(const State& state, const StepData& data, const GoodPass& good);
+  /// Whether passes lead nowhere, so that the stage should begin anew in another way.
+  virtual bool leads_nowhere() const { return false; }
+  /// How far the last pass is from what is demanded, for the message of a failure.
+  virtual std::string distance_from_demand() const;
   /// Whether a pass that agrees is taken as far as the final tolerance of the sub-problems.
   virtual bool refines() const { return true; }
   /// What the accepted pass lacks, relative to what the step changes: with rho the ratio of its residual and that of

@@ -19,15 +19,14 @@ constexpr const char* scheme_name = "robin-neumann-inexact";
 /// pass, which finds the fields far from where they go, of later ones, and of those that come late.
 constexpr PassAccuracy first_pass{0, false, 3, 0.01}, later_passes{0, false, 1, 0.15}, late_passes{0, false, 4, 0.02};
 constexpr int late = 15;  // passes: more than nearly all steps take
-/// The estimate is one of the last pass, which an iteration of first order meets, while one of Newton's method is left
-/// behind by its last iteration: with this part of the monolithic driver's demand both leave errors of one size.
-constexpr double share_of_demand = 1;
-/// The same where the load has jumped, or nothing was before: later steps change less than that one, and what it leaves is
-/// large beside them.
+/// Of what is demanded, where the load has jumped, or nothing was before: later steps change less than that one, and what
+/// it leaves is large beside them.
 constexpr double share_after_jump = 0.1;
-constexpr double slowest = 0.9;     // of the factors by which passes are taken to gain
-constexpr double unknown = 0.5;     // such a factor, of a first change
-constexpr double rounding = 1e-13;  // of the displacement: no pass makes less of a gap
+constexpr std::size_t patience = 12;  // passes in which the gap should have fallen
+constexpr double progress = 0.5;      // to that part of the first one
+constexpr double slowest = 0.9;       // of the factors by which passes are taken to gain
+constexpr double unknown = 0.5;       // such a factor, of a first change
+constexpr double rounding = 1e-13;    // of the displacement: no pass makes less of a gap
 
 /// By which the last of some numbers have fallen, each, in the mean of two.
 double rate(const std::vector<double>& of) {
@@ -39,7 +38,7 @@ double rate(const std::vector<double>& of) {
 double demand(const Case& setup) {
   if (setup.partitioned.tolerance) return *setup.partitioned.tolerance;
   const NewtonOptions& newton = setup.monolithic.newton;
-  return share_of_demand * (newton.error_tolerance > 0 ? newton.error_tolerance : newton.tolerance);
+  return newton.error_tolerance > 0 ? newton.error_tolerance : newton.tolerance;
 }
 
 }  // namespace
@@ -52,8 +51,8 @@ InexactStepper<n>::InexactStepper(Scene<n>& scene, const Loads& loads, const Cas
       force_tolerance_(setup.partitioned.force_tolerance) {
   if (!setup.partitioned.tolerance)
     Base::add_choice({"partitioned.tolerance", fmt::format("{:g}", demand_),
-                      "a step is solved when its error is estimated to be that part of what the step changes: half of "
-                      "what [monolithic] demands, whose Newton iteration does better than it must"});
+                      "a step is solved when its error is estimated to be that part of what the step changes, as "
+                      "[monolithic] demands it"});
 }
 
 template <int n>
@@ -90,6 +89,17 @@ bool InexactStepper<n>::agrees(const State& state, const StepData& data, const G
   const bool balanced = force_tolerance_ == 0 || pass.force_residual <= force_tolerance_;
   return balanced &&
          (error_ <= (Base::after_jump() ? share_after_jump : 1) * demand_ || pass.displacement_residual <= rounding);
+}
+
+template <int n>
+bool InexactStepper<n>::leads_nowhere() const {
+  return Base::passes() >= patience && gaps_.size() == patience && !(gaps_.back() <= progress * gaps_.front());
+}
+
+template <int n>
+std::string InexactStepper<n>::distance_from_demand() const {
+  return fmt::format("estimated error of the step {:.2e}, wanted {:g}; |d~ - d| / |d~| = {:.2e}", error_, demand_,
+                     Base::coupling().displacement_residual);
 }
 
 #define FSI_INSTANTIATE(n) template class InexactStepper<n>;

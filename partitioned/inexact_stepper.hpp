@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "partitioned/coupling_stepper.hpp"
@@ -26,6 +27,8 @@ class InexactStepper : public CouplingStepper<n> {
   void next_accuracy(PassAccuracy& accuracy) override;
   bool agrees(const State& state, const StepData& data, const GoodPass& good) override;
   bool refines() const override { return false; }
+  bool leads_nowhere() const override;
+  std::string distance_from_demand() const override;
   double estimated_error(const State&, const StepData&, const GoodPass&) const override { return error_; }
 
   double demand_;                       ///< part of what a step changes that may be left

@@ -122,7 +122,7 @@ def drivers_why(rows: List[Row]) -> str:
     cost = [pair.ratio("processor_s") / more[pair.title] for pair in counted]
     most = max(counted, key=lambda pair: more[pair.title])
     return (
-        f"**Why.** Every pass solves fluid and wall anew. So the partitioned driver makes {min(more.values()):.1f} to "
+        f"**Why.** Every pass of an interface scheme solves fluid and wall anew. So the partitioned driver makes {min(more.values()):.1f} to "
         f"{max(more.values()):.0f} times as many\nNewton iterations, of one medium each, and such an iteration takes {min(cost):.2f} to "
         f"{max(cost):.2f} of the seconds of a coupled one. The\nfirst number decides: it is highest in {most.title}, with "
         f"{_a_step(most.partitioned, 'passes')} passes a step."

@@ -14,7 +14,8 @@ namespace fsi {
 /// - The wall's load is what the Robin condition says it is, lambda~ = g - c u: the fluid's rows are off by all that an
 ///   inexact solve has left.
 /// - The coefficient is the wall's impedance across, z_n (Membrane::normal_impedance()). Of a wall that stands in the fluid,
-///   which is no membrane, it is so large that the fluid is all but given its velocity.
+///   which is no membrane, it is so large that the fluid is all but given its velocity. Where passes lead nowhere the stage
+///   begins anew with that of RobinNeumann.
 /// - The first guess is the wall's answer to the extrapolated load, in place of the extrapolated displacement: an error e of
 ///   a displacement is a rho_f R e / 2 as a pressure, 1/a being the square of the step, while one of a load stays what it is.
 template <int n>
@@ -43,6 +44,22 @@ class InexactRobinNeumann : public RobinNeumann<n> {
     return Base::datum(Base::wall_displacement(state_->now), load);
   }
 
+  /// Where the wall is light beside the fluid z_n is no good guess of what most modes meet.
+  bool soften() override {
+    if (softened_ || stands_in_the_fluid_) return false;
+    softened_ = true;
+    fluid_.forget_jacobian();
+    scene_.profile.count("softer Robin conditions");
+    return true;
+  }
+
+  void keep(Memory& memory) override {
+    double softened = softened_ ? 1 : 0;
+    memory.number_if_there("softened", softened);
+    softened_ = softened != 0;
+    Base::keep(memory);
+  }
+
   Pass pass(const std::vector<double>& x, const PassAccuracy& accuracy) override {
     if (keeps_rows_)
       Base::set_datum(x);
@@ -64,6 +81,7 @@ class InexactRobinNeumann : public RobinNeumann<n> {
 
  protected:
   double coefficient(const StepRates& rates) const override {
+    if (softened_) return Base::coefficient(rates);
     if (stands_in_the_fluid_) return robin_stiffness_in_the_fluid * Base::coefficient(rates);
     return membrane_.normal_impedance(rates.acceleration_factor, rates.interface.period);
   }
@@ -93,6 +111,7 @@ class InexactRobinNeumann : public RobinNeumann<n> {
   }
 
   bool wall_decides_, stands_in_the_fluid_;
+  bool softened_ = false;    ///< the coefficient is the harmonic mean of both impedances
   bool keeps_rows_ = false;  ///< of the media, which nobody has touched since the last pass
 };
 

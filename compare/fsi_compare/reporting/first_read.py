@@ -408,9 +408,15 @@ def _each_step(run: RunResults, name: str) -> Optional[float]:
     return total / steps if total is not None and steps else None
 
 
+def _kind(run: RunResults) -> bool:
+    """Whether it says how it coupled fluid and wall, as results of earlier versions do not."""
+    return "coupling_kind" in run.summary and "coupling_pass" in run.summary
+
+
 COST: Sequence[Column[Labelled]] = (
     Column("run", "run", lambda r: r[0], left=True),
     Column("program", "program", lambda r: r[1].program, left=True),
+    Column("kind of coupling", "coupling_kind", lambda r: r[1].summary.get("coupling_kind"), left=True),
     Column("seconds", "wall", lambda r: _total(r[1], "wall_s"), ".1f", "s"),
     Column(
         "coupling passes",
@@ -426,13 +432,7 @@ COST: Sequence[Column[Labelled]] = (
 )
 
 
-CYCLES = "solve: fluid and wall"  # phase of `fsi-partitioned` in which a pass is a cycle
-
-
 def cost_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
-    notes = ["`fsi-compare cost` says more."]
-    if any(CYCLES in run.summary.get("phases", {}) for run in runs):
-        notes.insert(
-            0, "A coupling pass of `block-newton` is one cycle of each medium's preconditioner here, not a solve."
-        )
+    does = {str(run.summary["coupling_kind"]): str(run.summary["coupling_pass"]) for run in runs if _kind(run)}
+    notes = [f"`{kind}`: {text}." for kind, text in does.items()] + ["`fsi-compare cost` says more."]
     return Table("seconds", "What it cost", COST, list(zip(labels, runs)), notes=notes)

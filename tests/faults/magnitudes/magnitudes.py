@@ -82,6 +82,7 @@ SCHEMES = (
     "iqn-imvj",
     "newton-krylov",
     "robin-neumann",
+    "robin-neumann-inexact",
     "robin-neumann-iqn",
     "robin-neumann-imvj",
 )

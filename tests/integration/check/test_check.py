@@ -68,7 +68,9 @@ class Check(FolderTest):
                     self.assertRegex(said["first step"], r"\d+ Newton, \d+ linear iterations, .* s$")
                     self.assertRegex(said["run"], r"^about \d+ .* all 20 steps")
                     if program == PARTITIONED:
-                        self.assertTrue(said["partitioned.scheme"].startswith("block-newton: the case names none"))
+                        self.assertTrue(
+                            said["partitioned.scheme"].startswith("robin-neumann-inexact: the case names none")
+                        )
                         self.assertRegex(said["first step"], r"^\d+ coupling, ")
                     else:
                         self.assertNotIn("partitioned.scheme", said)

@@ -264,7 +264,7 @@ class Tolerances(unittest.TestCase):
         )
 
     def test_tolerance_that_a_case_names_is_the_partitioned_driver_s(self):
-        for coupling in ({}, {"scheme": "block-newton"}):
+        for coupling in ({}, {"scheme": "robin-neumann-inexact"}, {"scheme": "block-newton"}):
             entries = {"partitioned": {**coupling, "tolerance": 1e-7}, "monolithic": {"newton_tolerance": 1e-5}}
             self.assertEqual(governing("fsi-partitioned", entries), {"partitioned.tolerance": 1e-7})
             self.assertEqual(governing("fsi-monolithic", entries), {"monolithic.newton_tolerance": 1e-5})

@@ -333,37 +333,61 @@ class SchemeByTheScene(FolderTest):
         self.assertIn(f"partitioned.scheme = {choice['value']}: {choice['reason']}", log)
         return choice["value"], choice["reason"]
 
-    def test_short_and_long_steps(self):
-        name, reason = self.chosen("short", self.case, *self.settings, "time.step=0.125", "time.end=0.25")
-        self.assertEqual(name, "block-newton")
+    def test_unnamed_is_an_interface_iteration(self):
+        for name, step, end in (("short", 0.125, 0.25), ("long", 2, 8)):
+            settings = (*self.settings, f"time.step={step}", f"time.end={end}")
+            self.assertEqual(self.chosen(name, self.case, *settings), ("robin-neumann-inexact", "the case names none"))
+            self.assertEqual(summary(self.base / name)["coupling_kind"], "interface")
+            log = (self.base / name / "run.log").read_text().splitlines()
+            self.assertIn("coupling kind: interface; ", log[1])
+            passes = table(self.base / name, "iterations.csv")[:, 2]
+            print(f"passes a step, {name}: {passes.tolist()}")
+            self.assertLess(passes.max(), 30)
+
+    def test_block_newton_in_short_and_long_steps(self):
+        block = scheme("block-newton")
+        _, reason = self.chosen("block", self.case, *self.settings, *block, "time.step=0.125", "time.end=0.25")
         self.assertIn("is 1 times the membrane's, as a step of 0.125 ms is, as its time scheme solves it, 0.", reason)
-        long = (*self.settings, "time.step=2", "time.end=8")
-        name, reason = self.chosen("long", self.case, *long)
-        self.assertEqual(name, "block-newton")
+        _, reason = self.chosen("block_long", self.case, *self.settings, *block, "time.step=2", "time.end=8")
         self.assertIn(
             "is 10 times the membrane's, as a step of 2 ms is, as its time scheme solves it, 4.3 times", reason
         )
-        for folder in ("short", "long"):
+        for folder in ("block", "block_long"):
+            self.assertEqual(summary(self.base / folder)["coupling_kind"], "block")
             passes = table(self.base / folder, "iterations.csv")[:, 2]
             print(f"linear passes a step, {folder}: {passes.tolist()}")
             self.assertLess(passes.max(), 60)
+
+    def test_options_of_another_scheme_are_said(self):
+        process = attempt(
+            PARTITIONED,
+            self.case,
+            "-q",
+            folder=self.base / "foreign",
+            settings=(*self.settings, "time.end=0.125", "partitioned.robin_coefficient=3"),
+        )
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertEqual(process.stderr.count("partitioned.robin_coefficient has no effect"), 1, process.stderr)
 
     def test_what_the_case_names_is_kept(self):
         settings = (*self.settings, "time.end=0.25", *scheme("iqn-imvj"))
         self.assertEqual(self.chosen("named", self.case, *settings), ("iqn-imvj", "named by the case"))
 
     def test_adaptive_steps_go_by_the_longest(self):
-        adaptive = (*self.settings, "time.step=adaptive", "time.end=1")
+        block = scheme("block-newton")
+        adaptive = (*self.settings, *block, "time.step=adaptive", "time.end=1")
         self.assertIn("is 1 times the membrane's", self.chosen("adaptive", self.case, *adaptive)[1])
         _, reason = self.chosen(
-            "longest", self.case, *self.settings, "time.step=adaptive", "time.end=4", "time.largest_step=4"
+            "longest", self.case, *self.settings, *block, "time.step=adaptive", "time.end=4", "time.largest_step=4"
         )
         self.assertIn("is 10 times the membrane's, as the longest step of 4 ms", reason)
 
     def test_a_wall_in_the_fluid(self):
         flag = GALLERY / "turek-hron-fsi3" / "turek-hron-fsi3.toml"
-        name, reason = self.chosen("flag", flag, f"mesh.file={flag_mesh(self.base)}", "time.end=2")
-        self.assertEqual(name, "block-newton")
+        mesh = f"mesh.file={flag_mesh(self.base)}"
+        self.chosen("flag", flag, mesh, "time.end=2")
+        self.assertLess(table(self.base / "flag", "iterations.csv")[:, 2].max(), 30)
+        _, reason = self.chosen("block_flag", flag, mesh, *scheme("block-newton"), "time.end=2")
         self.assertIn("is 10000 times the membrane's, as the wall stands in the fluid", reason)
 
     def test_goes_on_bit_for_bit(self):

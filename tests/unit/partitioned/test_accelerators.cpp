@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 #include "base/error.hpp"
@@ -8,6 +9,7 @@
 #include "partitioned/accelerators/iqn_ils.hpp"
 #include "partitioned/accelerators/iqn_imvj.hpp"
 #include "partitioned/accelerators/newton_krylov.hpp"
+#include "partitioned/accelerators/regularised_iqn.hpp"
 #include "partitioned/accelerators/relaxation.hpp"
 #include "partitioned/schemes.hpp"
 
@@ -209,6 +211,86 @@ TEST(IqnIls, AnAbandonedStepTeachesNothing) {
   accelerator.abandon();
   ASSERT_FALSE(ages().empty());
   for (const double age : ages()) EXPECT_GT(age, 0);
+}
+
+/// Corrections for residuals that carry an error: a tenth of what the last change of x did, times a cosine, as a sub-problem
+/// leaves it that is solved by one iteration; `limit` if they do not get there.
+int corrections_with_errors(Accelerator& accelerator, const AddedMassMap& map, std::vector<double>& x, int limit) {
+  accelerator.start();
+  std::vector<double> last = map.residual(x);
+  double first = 0;
+  for (int k = 0; k < limit; ++k) {
+    const std::vector<double> exact = map.residual(x);
+    std::vector<double> r = exact;
+    for (std::size_t i = 0; i < r.size(); ++i)
+      r[i] += 0.1 * std::cos(7.0 * static_cast<double>(i) + k) * (exact[i] - last[i]);
+    last = exact;
+    if (k == 0) first = norm(r);
+    if (norm(r) <= 1e-8 * first) {
+      accelerator.accept(x, r);
+      return k;
+    }
+    accelerator.correct(x, r);
+  }
+  return limit;
+}
+
+TEST(RegularisedIqn, ConvergesWithErrorsInItsColumns) {
+  QuasiNewtonOptions options;
+  options.mixing = 0.5;
+  RegularisedIqn regularised(options);
+  AddedMassMap map{20};
+  auto x = zero(map);
+  const int first = corrections_with_errors(regularised, map, x, 200);
+  EXPECT_LT(first, 60);
+  map.shift = 0.05;
+  EXPECT_LT(corrections_with_errors(regularised, map, x, 200), first) << "with the columns of the last step";
+}
+
+TEST(RegularisedIqn, SurvivesZeroAndRepeatedDifferences) {
+  RegularisedIqn accelerator{QuasiNewtonOptions{}};
+  accelerator.start();
+  std::vector<double> x{1, 2, 3};
+  accelerator.correct(x, {0.1, 0.2, 0.3});
+  accelerator.correct(x, {0.1, 0.2, 0.3});                                          // zero difference of residuals
+  for (int k = 2; k < 6; ++k) accelerator.correct(x, {0.1 * k, 0.2 * k, 0.3 * k});  // parallel ones
+  accelerator.correct(x, {0, 0, 0});
+  EXPECT_TRUE(all_finite(x));
+}
+
+TEST(RegularisedIqn, ForgetsOldStepsAndAbandonedOnes) {
+  const AddedMassMap map{8};
+  QuasiNewtonOptions options;
+  options.reused_steps = 2;
+  options.columns = 5;
+  RegularisedIqn accelerator(options);
+  auto x = zero(map);
+  corrections(accelerator, map, x, 1e-8);
+  const auto ages = [&] { return memory_of(accelerator).arrays.at("regularised_iqn.age"); };
+  EXPECT_EQ(ages().size(), 5u) << "the limit";
+  accelerator.start();
+  for (int k = 0; k < 3; ++k) accelerator.correct(x, map.residual(x));
+  EXPECT_EQ(ages().back(), 0);
+  accelerator.abandon();
+  ASSERT_FALSE(ages().empty());
+  EXPECT_EQ(ages().back(), 1);
+  for (int step = 0; step < 2; ++step) accelerator.start();
+  EXPECT_TRUE(ages().empty()) << "older than two steps";
+}
+
+TEST(RegularisedIqn, GoesOnBitForBitFromItsMemory) {
+  const AddedMassMap map{12, 10.0};
+  RegularisedIqn accelerator{QuasiNewtonOptions{}}, restarted{QuasiNewtonOptions{}};
+  auto x = zero(map);
+  corrections(accelerator, map, x, 1e-6);
+  WrittenMemory memory = memory_of(accelerator);
+  restarted.keep(memory.turn());
+  const AddedMassMap next{12, 10.0, 0.3};
+  auto y = x;
+  corrections(accelerator, next, x, 1e-6);
+  corrections(restarted, next, y, 1e-6);
+  EXPECT_EQ(x, y);
+  EXPECT_EQ(memory_of(accelerator).arrays, memory_of(restarted).arrays);
 }
 
 TEST(NewtonKrylov, NeedsABaseAndADirectionPerDimensionOnALinearProblem) {

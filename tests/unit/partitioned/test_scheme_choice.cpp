@@ -75,9 +75,9 @@ TEST(SchemeChoice, KeepsWhatTheCaseNames) {
   EXPECT_TRUE(choice.named);
 }
 
-TEST(SchemeChoice, IsBlockNewtonWhereTheCaseNamesNone) {
+TEST(SchemeChoice, IsAnInterfaceIterationWhereTheCaseNamesNone) {
   const SchemeChoice choice = chosen_scheme(unnamed_case());
-  EXPECT_EQ(choice.name, "block-newton");
+  EXPECT_EQ(choice.name, "robin-neumann-inexact");
   EXPECT_FALSE(choice.named);
 }
 

@@ -67,6 +67,31 @@ TEST(InterfaceImpedance, AddsItsRowsToTheResidualAndNotToTheFluids) {
   EXPECT_LT(largest(difference(tied->residual(), expected)), 1e-14);
 }
 
+TEST(InterfaceImpedance, TakesANewDatumWithTheRowsThatItKeeps) {
+  FreeFluid fluid;
+  const auto tied = fluid.system(&fluid.impedance);
+  tied->evaluate();
+  const auto before = tied->residual();
+  for (double& v : fluid.impedance.velocity) v += 0.5;
+  tied->keep_rows();
+  const double norm = tied->evaluate();
+  const auto kept = tied->residual();
+  EXPECT_GT(largest(difference(kept, before)), 0.1);
+  EXPECT_EQ(tied->evaluate(), norm);
+  EXPECT_EQ(tied->residual(), kept) << "bit for bit what a whole evaluation gives";
+  // Rows that are kept serve once, and those of another iterate never.
+  tied->linearise();
+  tied->keep_rows();
+  tied->solve(1e-8);
+  tied->move(1);
+  tied->evaluate();
+  const auto moved = tied->residual();
+  EXPECT_GT(largest(difference(moved, kept)), 1e-6);
+  tied->work_on(fluid.state, fluid.data);
+  tied->evaluate();
+  EXPECT_EQ(tied->residual(), moved);
+}
+
 TEST(InterfaceImpedance, IsTheDerivativeOfItsRows) {
   FreeFluid fluid;
   const auto tied = fluid.system(&fluid.impedance), plain = fluid.system(nullptr);

@@ -3,7 +3,8 @@
 | driver and scheme | stops by |
 |---|---|
 | monolithic | `monolithic.error_tolerance` where demanded, else `newton_tolerance` where named; where neither is, the former in runs of fixed steps, else the latter; `residual_tolerance` besides, where demanded |
-| partitioned, `block-newton` (its default) | `partitioned.tolerance` where the case names it, else as the monolithic driver |
+| partitioned, `robin-neumann-inexact` (its default) | `partitioned.tolerance` where the case names it, else as the monolithic driver; `force_tolerance` besides, where demanded |
+| partitioned, `block-newton` | `partitioned.tolerance` where the case names it, else as the monolithic driver |
 | partitioned, any other scheme | `partitioned.tolerance`; `force_tolerance` besides, where demanded |
 """
 
@@ -13,7 +14,8 @@ ERROR_TOLERANCE = 3e-3  # unless a case names one: as common/case/case.hpp has i
 WALL_ERROR_TOLERANCE = 3e-4  # likewise, without fluid
 NEWTON_TOLERANCE = 1e-3  # the same
 GAP_TOLERANCE = 1e-6  # the same
-DEFAULT_SCHEME = "block-newton"
+DEFAULT_SCHEME = "robin-neumann-inexact"
+BY_ERROR = (DEFAULT_SCHEME, "block-newton")  # schemes that end by the error of a step, others by the interface's gap
 
 
 def governing(program: str, entries: Mapping[str, Any]) -> Dict[str, float]:
@@ -21,18 +23,28 @@ def governing(program: str, entries: Mapping[str, Any]) -> Dict[str, float]:
     for numbers are not checked here."""
     newton, coupling = _section(entries, "monolithic"), _section(entries, "partitioned")
     if program == "fsi-partitioned":
-        if coupling.get("scheme", DEFAULT_SCHEME) != DEFAULT_SCHEME:
+        scheme = coupling.get("scheme", DEFAULT_SCHEME)
+        if scheme not in BY_ERROR:
             gap = {"partitioned.tolerance": float(coupling.get("tolerance", GAP_TOLERANCE))}
             return {**gap, **_demanded("partitioned", coupling, "force_tolerance")}
         if "tolerance" in coupling:
             error = {"partitioned.tolerance": float(coupling["tolerance"])}
-            return {**error, **_demanded("monolithic", newton, "residual_tolerance")}
+            return {**error, **_beside(program, scheme, coupling, newton)}
+    else:
+        scheme = ""
     found = _demanded("monolithic", newton, "error_tolerance")
     if not found and not {"error_tolerance", "newton_tolerance"} & set(newton) and _has_fixed_steps(entries):
         found = {"monolithic.error_tolerance": ERROR_TOLERANCE if "fluid" in entries else WALL_ERROR_TOLERANCE}
     if not found:
         found = {"monolithic.newton_tolerance": float(newton.get("newton_tolerance", NEWTON_TOLERANCE))}
-    return {**found, **_demanded("monolithic", newton, "residual_tolerance")}
+    return {**found, **_beside(program, scheme, coupling, newton)}
+
+
+def _beside(program: str, scheme: str, coupling: Mapping[str, Any], newton: Mapping[str, Any]) -> Dict[str, float]:
+    """What is demanded besides: an interface iteration has no residual of both media."""
+    if program == "fsi-partitioned" and scheme == DEFAULT_SCHEME:
+        return _demanded("partitioned", coupling, "force_tolerance")
+    return _demanded("monolithic", newton, "residual_tolerance")
 
 
 def _has_fixed_steps(entries: Mapping[str, Any]) -> bool:
