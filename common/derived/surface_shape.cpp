@@ -10,12 +10,12 @@
 
 #include "mesh/facets.hpp"
 #include "mesh/point_math.hpp"
+#include "mesh/smooth_surface.hpp"
 
 namespace fsi {
 
 namespace {
 
-constexpr double smooth_edge = 0.6;        // cosine of the angle between normals of one smooth surface
 constexpr double near_centre = 0.3;        // of the radius of curvature
 constexpr double least_bend = 1e-6;        // of curvature times length
 constexpr double left_by_bending = 0.5;    // what bending leaves of the heights of a curved surface
@@ -172,7 +172,7 @@ std::vector<std::vector<int>> smooth_surfaces(const std::vector<OutsideFacet>& f
   for (const auto& [ridge, meet] : at_ridge)
     for (std::size_t i = 1; i < meet.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        if (dot(facets[meet[i]].normal, facets[meet[j]].normal) > smooth_edge) {
+        if (dot(facets[meet[i]].normal, facets[meet[j]].normal) > smooth_surface_cosine) {
           const int a = find(meet[i]), b = find(meet[j]);
           root[std::max(a, b)] = std::min(a, b);
         }
@@ -214,7 +214,7 @@ struct Surface {
       RecoveryMirror here{mirror.normal, {}};
       const auto smooth = [&](const Point& normal) {  // with its image
         const double across = dot(normal, mirror.normal);
-        return 1 - 2 * across * across > smooth_edge;
+        return 1 - 2 * across * across > smooth_surface_cosine;
       };
       for (const int node : mirror.nodes)
         if (const int a = number[node]; a >= 0 && std::all_of(normals_at[a].begin(), normals_at[a].end(), smooth))
