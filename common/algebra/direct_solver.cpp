@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdlib>
+#include <iterator>
 
 #include "algebra/factorisation_memory.hpp"
 #include "algebra/single_factors.hpp"
@@ -16,6 +18,12 @@
 namespace fsi {
 
 namespace {
+
+/// What elimination may leave of a column's largest entry, rows scaled, for factors to be trusted. Less is left of singular
+/// matrices, and of others whose rows differ much in size.
+constexpr double trusted_pivot = 1e-12;
+/// What may be wrong of a solution, relative to its largest unknown, columns scaled.
+constexpr double largest_solution_error = 1e-3;
 
 thread_local bool refused = false;  // an allocation for UMFPACK has failed
 
@@ -64,6 +72,7 @@ struct DirectSolver::Implementation {
   mutable std::vector<double> work;
   bool wants_single = false;
   SingleFactors single;
+  SparseMatrix doubtful;  ///< the matrix factorised where a known solution does not come back; else empty
 
   explicit Implementation(const Options& options) : wants_single(options.single_precision) {
     umfpack_dl_defaults(control);
@@ -102,6 +111,14 @@ struct DirectSolver::Implementation {
 
   /// Factors in single precision in place of UMFPACK's, unless they do not serve.
   void shorten(const SparseMatrix& a);
+  /// x = A^-1 b by the factors, once.
+  void solve_once(const SparseMatrix& a, const std::vector<double>& b, std::vector<double>& x) const;
+  /// The least that elimination has left of a column's largest entry, rows scaled.
+  double least_pivot(const SparseMatrix& a) const;
+  /// Whether a known solution comes back from its right-hand side.
+  bool solves_known(const SparseMatrix& a) const;
+  /// \throws ConvergenceError where x, that the factors of `doubtful` gave, is not determined by b
+  void require_determined(const std::vector<double>& b, const std::vector<double>& x) const;
 
   ~Implementation() {
     if (numeric) umfpack_dl_free_numeric(&numeric);
@@ -157,6 +174,89 @@ void DirectSolver::Implementation::shorten(const SparseMatrix& a) {
   single = {};
 }
 
+namespace {
+
+/// Largest amounts in columns, after rows are divided by theirs: unknowns times these are of one size, whatever their units.
+std::vector<double> column_scales(const SparseMatrix& a) {
+  std::vector<double> rows(static_cast<std::size_t>(a.size()), 0.0), columns(rows);
+  for (std::size_t k = 0; k < a.rows.size(); ++k) rows[a.rows[k]] = std::max(rows[a.rows[k]], std::abs(a.values[k]));
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    for (auto k = a.offsets[c]; k < a.offsets[c + 1]; ++k)
+      if (a.values[k] != 0) columns[c] = std::max(columns[c], std::abs(a.values[k]) / rows[a.rows[k]]);
+  return columns;
+}
+
+double largest(const std::vector<double>& x, const std::vector<double>& scales) {
+  double found = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (const double size = scales[i] * std::abs(x[i]); !(size <= found)) found = size;  // NaN stays
+  return found;
+}
+
+}  // namespace
+
+void DirectSolver::Implementation::solve_once(const SparseMatrix& a, const std::vector<double>& b,
+                                              std::vector<double>& x) const {
+  x.resize(b.size());
+  work.resize(b.size() * 5);
+  start_dense_threads();
+  double info[UMFPACK_INFO];
+  const auto status = umfpack_dl_wsolve(UMFPACK_A, indices(a.offsets), indices(a.rows), a.values.data(), x.data(),
+                                        b.data(), numeric, control, info, integer_work.data(), work.data());
+  if (status != UMFPACK_OK)
+    throw ConvergenceError(fmt::format("sparse solve failed (UMFPACK status {})", status), "a smaller time step");
+}
+
+double DirectSolver::Implementation::least_pivot(const SparseMatrix& a) const {
+  const auto size = static_cast<std::size_t>(a.size());
+  std::vector<std::int64_t> column_order(size);
+  std::vector<double> pivots(size), row_scale(size);
+  SuiteSparse_long multiplies = 0;  // else divides
+  if (umfpack_dl_get_numeric(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, indices(column_order),
+                             pivots.data(), &multiplies, row_scale.data(), numeric) != UMFPACK_OK)
+    return 0;
+  if (multiplies != 0)
+    for (double& scale : row_scale) scale = 1 / scale;
+  double least = 1;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::int64_t c = column_order[i];
+    double largest = 0;
+    for (auto k = a.offsets[c]; k < a.offsets[c + 1]; ++k)
+      largest = std::max(largest, std::abs(a.values[k]) / row_scale[a.rows[k]]);
+    if (const double left = std::abs(pivots[i]) / largest; !(left >= least)) least = left;  // NaN stays
+  }
+  return least;
+}
+
+// Factors are those of A + E, E of the size of rounding, so that x comes back as x - (A + E)^-1 E x. Where A is singular and n in
+// its kernel, (A + E) n = E n, and what is lost is of the size of x.
+bool DirectSolver::Implementation::solves_known(const SparseMatrix& a) const {
+  const std::vector<double> scales = column_scales(a);
+  std::vector<double> known(scales.size()), x;
+  // 0.5 to 1.5 in a sequence without a period: what is lost of equal numbers may cancel.
+  for (std::size_t i = 0; i < known.size(); ++i)
+    known[i] = (0.5 + std::fmod(0.6180339887498949 * static_cast<double>(i + 1), 1.0)) / scales[i];
+  solve_once(a, product(a, known), x);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= known[i];
+  return largest(x, scales) <= largest_solution_error;  // false for NaN
+}
+
+// A second solve, of what rounding has left of the right-hand side, changes x by about what the first one has lost of it.
+void DirectSolver::Implementation::require_determined(const std::vector<double>& b,
+                                                      const std::vector<double>& x) const {
+  const std::vector<double> scales = column_scales(doubtful);
+  std::vector<double> left = product(doubtful, x), lost;
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] = b[i] - left[i];
+  solve_once(doubtful, left, lost);
+  const double wrong = largest(lost, scales), size = largest(x, scales);
+  if (wrong <= largest_solution_error * size) return;
+  throw ConvergenceError(
+      fmt::format("sparse factorisation: the matrix is singular to working precision, since a second solve changes the "
+                  "first one's solution by {:.1e} of it",
+                  wrong / size),
+      "a smaller time step, and check the materials");
+}
+
 DirectSolver::DirectSolver() : DirectSolver(Options{}) {}
 DirectSolver::DirectSolver(const Options& options) : implementation_(std::make_unique<Implementation>(options)) {}
 DirectSolver::~DirectSolver() = default;
@@ -168,6 +268,7 @@ bool DirectSolver::factorised() const {
 }
 
 void DirectSolver::discard() {
+  implementation_->doubtful = {};
   if (implementation_->numeric) umfpack_dl_free_numeric(&implementation_->numeric);
   implementation_->single = {};
 }
@@ -212,7 +313,8 @@ void DirectSolver::factorise(const SparseMatrix& a) {
   my.lower = info[UMFPACK_LNZ];
   my.upper = info[UMFPACK_UNZ];
   my.integer_work.resize(static_cast<std::size_t>(a.size()));
-  if (my.wants_single) my.shorten(a);
+  if (!(my.least_pivot(a) >= trusted_pivot) && !my.solves_known(a)) my.doubtful = a;
+  if (my.wants_single && my.doubtful.offsets.empty()) my.shorten(a);
   if (my.numeric) my.work.resize(static_cast<std::size_t>(a.size()) * 5);
 }
 
@@ -222,13 +324,8 @@ void DirectSolver::solve(const SparseMatrix& a, const std::vector<double>& b, st
   const auto& my = *implementation_;
   assert(factorised() && static_cast<std::int64_t>(b.size()) == a.size());
   if (!my.single.empty()) return my.single.solve(b, tolerance, x);
-  x.resize(b.size());
-  start_dense_threads();
-  double info[UMFPACK_INFO];
-  const auto status = umfpack_dl_wsolve(UMFPACK_A, indices(a.offsets), indices(a.rows), a.values.data(), x.data(),
-                                        b.data(), my.numeric, my.control, info, my.integer_work.data(), my.work.data());
-  if (status != UMFPACK_OK)
-    throw ConvergenceError(fmt::format("sparse solve failed (UMFPACK status {})", status), "a smaller time step");
+  my.solve_once(a, b, x);
+  if (!my.doubtful.offsets.empty()) my.require_determined(b, x);
 }
 
 long long DirectSolver::factor_nonzeros() const {

@@ -29,13 +29,15 @@ class DirectSolver {
   DirectSolver(DirectSolver&&) noexcept;
   DirectSolver& operator=(DirectSolver&&) noexcept;
 
-  /// \throws ConvergenceError when the matrix is singular to working precision, OutOfMemory before what will not fit
+  /// \throws ConvergenceError where a pivot is zero or no number, OutOfMemory before what will not fit
   void factorise(const SparseMatrix& a);
   bool factorised() const;
   void discard();
 
   /// x = A^-1 b with the last factorised matrix; `a` is read only for iterative refinement and must have its pattern.
   /// \param tolerance  demanded |b - A x| / |b|; factors in double precision solve to rounding
+  /// \throws ConvergenceError where rounding alone decides a thousandth of x: the matrix is singular to working precision. Which
+  /// pivot of a singular matrix is zero, and which is rounding, depends on the processor.
   void solve(const SparseMatrix& a, const std::vector<double>& b, std::vector<double>& x, double tolerance = 0) const;
 
   /// Entries of both factors, for reports.
