@@ -13,12 +13,15 @@
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
 #include "base/threads.hpp"
+#include "mesh/edge_curves.hpp"
 #include "mesh/flat_parts.hpp"
+#include "mesh/group_names.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/surface/lumen_mesh.hpp"
 #include "mesh/surface/sound_surface.hpp"
 #include "mesh/surface/surface_file.hpp"
 #include "meshes/converted.hpp"
+#include "meshes/curved_lumen.hpp"
 #include "meshes/mesh_report.hpp"
 #include "meshes/options.hpp"
 #include "run/program.hpp"
@@ -31,6 +34,7 @@ struct LumenOptions {
   std::string surface, unit;
   std::vector<std::string> openings, closed, cuts, extensions;
   bool list = false, largest_shell = false;
+  int order = 1;
   LumenRequest request;
   MeshOutput output;
 };
@@ -85,6 +89,14 @@ void require_layers(const LumenRequest& request) {
     throw InputError(mesh_program, "--layers", "is not given", "say how many: --layers 4, for one");
 }
 
+/// The same mesh, edges along its wall curved.
+SimplexMesh<3, 2> quadratic(const LumenMesh& made, std::string& said, MeshWarnings& warnings) {
+  auto mesh = with_curves(made.mesh, curves_of_lumen(made.mesh, "", made.layers, said, warnings));
+  said += changed_volume("straight", straight_volume(made.mesh), "curved",
+                         volume_of(mesh, mesh.region_index(group::fluid)));
+  return mesh;
+}
+
 void make(LumenOptions& options) {
   std::vector<std::string> done;
   auto& request = options.request;
@@ -111,7 +123,16 @@ void make(LumenOptions& options) {
   done.insert(done.end(), made.done.begin(), made.done.end());
   std::string foreword;
   for (const auto& sentence : done) foreword += sentence + "\n";
-  write_and_report(made.mesh, options.output, TriangleGeometry::plane, foreword, request.layers.count == 0);
+  const bool flat_cells_count = request.layers.count == 0;
+  if (options.order == 1) {
+    write_and_report(made.mesh, options.output, TriangleGeometry::plane, foreword, flat_cells_count);
+    return;
+  }
+  MeshWarnings warnings;
+  const auto mesh = quadratic(made, foreword, warnings);
+  write_and_report(mesh, options.output, TriangleGeometry::plane, foreword, flat_cells_count);
+  if (options.output.quiet) return;
+  for (const auto& warning : warnings) warn(mesh_program, warning);
 }
 
 void add_layer_options(CLI::App& command, LumenRequest& request) {
@@ -171,6 +192,12 @@ MeshCommand lumen_command(CLI::App& app) {
   command->add_option("--extension", options->extensions,
                       "NAME=DIAMETERS: draw this opening out by so many of its diameters, to a circle");
   add_layer_options(*command, options->request);
+  command
+      ->add_option("--order", options->order,
+                   "1: straight edges; 2: quadratic cells, edges along the wall curved by the normals of its surface, "
+                   "for the element p2p1")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 2));
   add_output_options(*command, options->output, false);
   options->output.advise = true;
   return {command, [options] { make(*options); }};

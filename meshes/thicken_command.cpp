@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -20,10 +19,9 @@
 #include "mesh/group_names.hpp"
 #include "mesh/lumen_volume.hpp"
 #include "mesh/mid_edge_nodes.hpp"
-#include "mesh/point_math.hpp"
 #include "mesh/surface/remeshing.hpp"
-#include "mesh/surface/smooth_edges.hpp"
 #include "mesh/wall_growth.hpp"
+#include "meshes/curved_lumen.hpp"
 #include "meshes/mesh_report.hpp"
 #include "meshes/options.hpp"
 #include "meshes/thickness_options.hpp"
@@ -92,42 +90,11 @@ Lumen lumen_of(const ThickenRequest& request) {
   return lumen;
 }
 
-/// What a user is told behind the report.
-using Warnings = std::vector<std::string>;
-
-void add_straightened(const std::vector<Point>& middles, const std::string& whose, Warnings& warnings) {
-  constexpr std::size_t most = 4;
-  if (middles.empty()) return;
-  std::string places;
-  for (std::size_t i = 0; i < std::min(most, middles.size()); ++i)
-    places += (i > 0 ? ", " : "") + fsi::place_of(middles[i]);
-  if (middles.size() > most) places += fmt::format(" and {} more", middles.size() - most);
-  warnings.push_back(
-      fmt::format("{} edges of {} are left straight, since curved ones fold cells: at {}; give smaller facets there",
-                  middles.size(), whose, places));
-}
-
-/// How the shape of the lumen changed.
-std::string volumes(const std::string& before_text, double before, const std::string& after_text, double after) {
-  return fmt::format("The lumen's volume is {:.5g} mm^3 with {} edges and {:.5g} with {} ones ({:+.2f} %).\n", before,
-                     before_text, after, after_text, 100 * (after / before - 1));
-}
-
-double straight_volume(const TetrahedralMesh& lumen) {
-  double volume = 0;
-  for (const auto& cell : lumen.cells) {
-    std::array<Point, 4> x;
-    for (std::size_t k = 0; k < x.size(); ++k) x[k] = lumen.nodes[cell[k]];
-    volume += simplex_volume<3>(x.data());
-  }
-  return volume;
-}
-
 double curved_volume(const TetrahedralMesh& lumen, const EdgeCurves& curves) {
   return volume_of(with_curves(lumen, curves), lumen.region_index(group::fluid));
 }
 
-void report(const AnyMesh& mesh, const ThickenRequest& request, const std::string& said, Warnings warnings,
+void report(const AnyMesh& mesh, const ThickenRequest& request, const std::string& said, MeshWarnings warnings,
             const ReachedThickness& reached = {}) {
   write_and_report(mesh, request.output, TriangleGeometry::plane, said);
   if (request.output.quiet) return;
@@ -151,7 +118,7 @@ void make_linear(const ThickenRequest& request, const Lumen& lumen) {
   std::string said;
   if (lumen.curves)
     said = "The lumen's curved edges are made straight, as --order 1 asks. " +
-           volumes("curved", curved_volume(lumen.mesh, *lumen.curves), "straight", straight_volume(lumen.mesh));
+           changed_volume("curved", curved_volume(lumen.mesh, *lumen.curves), "straight", straight_volume(lumen.mesh));
   if (request.growth.layers.empty()) {
     report(lumen.mesh, request, said, {});
     return;
@@ -163,24 +130,16 @@ void make_linear(const ThickenRequest& request, const Lumen& lumen) {
   report(grown.mesh, request, said, {}, grown.reached);
 }
 
-/// The curves of a lumen of straight edges: of its surface, as its nodes show it.
-EdgeCurves smooth_curves(const ThickenRequest& request, const TetrahedralMesh& lumen, std::string& said,
-                         Warnings& warnings) {
-  const auto facets = facets_to_grow_on(lumen, request.growth.on);
-  auto smooth = smooth_edges(lumen.nodes, facets, normals_to_grow_along(lumen, facets, 0));
-  said += to_text(smooth);
-  add_straightened(straighten_folded(lumen, smooth.curves), "the lumen's surface", warnings);
-  return std::move(smooth.curves);
-}
-
 void make_quadratic(const ThickenRequest& request, Lumen& lumen) {
   std::string said;
-  Warnings warnings;
+  MeshWarnings warnings;
   const double before = straight_volume(lumen.mesh);
-  EdgeCurves curves = lumen.curves ? std::move(*lumen.curves) : smooth_curves(request, lumen.mesh, said, warnings);
+  EdgeCurves curves =
+      lumen.curves ? std::move(*lumen.curves) : curves_of_lumen(lumen.mesh, request.growth.on, {}, said, warnings);
   const auto say_volume = [&](const SimplexMesh<3, 2>& mesh) {
-    said += lumen.curves ? "The lumen's edges are curved as in its mesh.\n"
-                         : volumes("straight", before, "curved", volume_of(mesh, mesh.region_index(group::fluid)));
+    said += lumen.curves
+                ? "The lumen's edges are curved as in its mesh.\n"
+                : changed_volume("straight", before, "curved", volume_of(mesh, mesh.region_index(group::fluid)));
   };
   if (request.growth.layers.empty()) {
     const auto mesh = with_curves(lumen.mesh, curves);

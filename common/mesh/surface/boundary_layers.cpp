@@ -82,8 +82,8 @@ TriangleSurface moved_inwards(const TriangleSurface& wall, const BoundaryLayers&
   return inner;
 }
 
-void grow_layers(TetrahedralMesh& lumen, const TriangleSurface& wall, const TriangleSurface& inner,
-                 const BoundaryLayers& layers) {
+Levels grow_layers(TetrahedralMesh& lumen, const TriangleSurface& wall, const TriangleSurface& inner,
+                   const BoundaryLayers& layers) {
   std::map<Point, int> number;
   for (std::size_t i = 0; i < lumen.nodes.size(); ++i) number[lumen.nodes[i]] = static_cast<int>(i);
   std::map<int, Point> ways;
@@ -94,7 +94,7 @@ void grow_layers(TetrahedralMesh& lumen, const TriangleSurface& wall, const Tria
     facets.push_back(triangle);
   }
   const std::size_t first = lumen.cells.size();
-  const Levels levels = raise_levels(levels_of(layers, lumen.cell_region.front()), ways, lumen);
+  Levels levels = raise_levels(levels_of(layers, lumen.cell_region.front()), ways, lumen);
   fill_with_prisms(facets, levels, lumen);
   for (std::size_t c = first; c < lumen.cells.size(); ++c) {
     std::array<Point, 4> corners;
@@ -103,6 +103,7 @@ void grow_layers(TetrahedralMesh& lumen, const TriangleSurface& wall, const Tria
   }
   const auto rim = offset_normals(lumen.nodes, facets, 0).rim;
   add_to_openings(lumen, sides_of_columns(lumen, rim, levels), levels);
+  return levels;
 }
 
 }  // namespace fsi

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/prism_columns.hpp"
 #include "mesh/surface/triangle_surface.hpp"
 
 namespace fsi {
@@ -25,8 +26,9 @@ TriangleSurface moved_inwards(const TriangleSurface& wall, const BoundaryLayers&
 /// Grows the layers from a lumen that was filled inside of the moved wall back to the wall. Their cells are in the volume
 /// `fluid`, their ends in the surfaces of the openings.
 /// \param inner  the wall moved inwards, whose nodes are among the mesh's
+/// \return the layers' nodes, from the inner wall outwards
 /// \throws InputError naming `--layers`, with the place of a cell that is folded
-void grow_layers(TetrahedralMesh& lumen, const TriangleSurface& wall, const TriangleSurface& inner,
-                 const BoundaryLayers& layers);
+Levels grow_layers(TetrahedralMesh& lumen, const TriangleSurface& wall, const TriangleSurface& inner,
+                   const BoundaryLayers& layers);
 
 }  // namespace fsi

@@ -146,19 +146,19 @@ BoundaryLayers layers_of(const LumenRequest& request, const std::vector<LumenOpe
 }
 
 /// Tetrahedra inside the wall, with layers of thin ones along it where they are asked for.
-TetrahedralMesh filled(const TriangleSurface& wall, std::vector<LumenOpening>& openings, const LumenRequest& request,
-                       std::vector<std::string>& done) {
+void fill(const TriangleSurface& wall, std::vector<LumenOpening>& openings, const LumenRequest& request,
+          LumenMesh& made) {
   const BoundaryLayers layers = layers_of(request, openings);
   const TriangleSurface inner = layers.count > 0 ? moved_inwards(wall, layers) : wall;
   TriangleSurface closed = inner;
   const auto groups = capped(closed, openings, request.file);
-  TetrahedralMesh mesh = fill_surface(closed.nodes, groups, request.file);
-  if (layers.count == 0) return mesh;
+  auto& mesh = made.mesh;
+  mesh = fill_surface(closed.nodes, groups, request.file);
+  if (layers.count == 0) return;
   const auto flat = mesh.cells.size();
-  grow_layers(mesh, wall, inner, layers);
-  done.push_back(fmt::format("{} layers along the wall: {:.3g} mm at the wall, {:.3g} mm together, {} tetrahedra.",
-                             layers.count, layers.first, layers.thickness(), mesh.cells.size() - flat));
-  return mesh;
+  made.layers = grow_layers(mesh, wall, inner, layers);
+  made.done.push_back(fmt::format("{} layers along the wall: {:.3g} mm at the wall, {:.3g} mm together, {} tetrahedra.",
+                                  layers.count, layers.first, layers.thickness(), mesh.cells.size() - flat));
 }
 
 }  // namespace
@@ -190,7 +190,7 @@ LumenMesh mesh_lumen(OpenedLumen lumen, const LumenRequest& request) {
   const std::size_t triangles = surface.triangles.size();
   made.done.push_back(fmt::format("Remeshed to {}: {} triangles, volume {:.5g} mm^3 before, {:.5g} after ({:+.2f} %).",
                                   edges, triangles, before, after, 100 * (after / before - 1)));
-  made.mesh = filled(surface, lumen.openings, request, made.done);
+  fill(surface, lumen.openings, request, made);
   made.openings = std::move(lumen.openings);
   return made;
 }

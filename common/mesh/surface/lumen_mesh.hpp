@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/prism_columns.hpp"
 #include "mesh/surface/boundary_layers.hpp"
 #include "mesh/surface/lumen_openings.hpp"
 
@@ -30,6 +31,7 @@ struct LumenRequest {
 /// A lumen's volume mesh, what was done in sentences for the user, and its openings as they are now.
 struct LumenMesh {
   TetrahedralMesh mesh;  ///< volume `fluid`; a surface for each opening; the wall has no name
+  Levels layers;         ///< nodes of the layers along the wall, from within; empty where there are none
   std::vector<std::string> done;
   std::vector<LumenOpening> openings;
 };

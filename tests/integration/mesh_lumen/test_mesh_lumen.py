@@ -6,9 +6,10 @@ import sys
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy as np
 
-from programs import MESH, MONOLITHIC, FolderTest, attempt, execute
+from programs import MESH, MONOLITHIC, FolderTest, attempt, execute, run
 from vtp_files import write_vtp
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "gallery" / "carotid-from-stl"))
@@ -40,6 +41,32 @@ pressure = 0.0
 [time]
 step = 0.5
 end = 0.5
+"""
+AT_REST = """
+element = "p2p1"
+[mesh]
+file = "wall.msh"
+[structure]
+density = 1.2
+bulk_modulus = 1e7
+[structure.layers.media]
+material = "neo-hookean"
+c10 = 3.0
+[[support]]
+surface = "wall_ends"
+fixed = ["normal"]
+[[support]]
+surface = "outer"
+spring = 1e-6   # kPa/mm: against motions as a whole
+[load]
+pressure = PRESSURE
+[static]
+load_steps = 4
+[monolithic]
+newton_tolerance = 1e-9
+[output]
+every = 4
+fields = ["displacement", "von_mises_stress"]
 """
 
 
@@ -215,6 +242,42 @@ class MeshLumen(FolderTest):
             ),
         ):
             self.expect(self.lumen(*named, *options), *words)
+
+    def test_quadratic_layers_and_the_wall_on_them(self):
+        """Edges of the wall and of layers thinner than their sagitta are curved: the volume is the cylinder's, no cell folds, and a
+        wall that grows on it bears the stress of a thick tube (as in mesh_thicken, docs/theory.md, section 13.1)."""
+        inner, outer, length, c10, k = 1.43, 1.69, 1.4, 3.0, 1.43**2 * (1.1**2 - 1)
+        self.write(*tube(inner, length, around=160))
+        options = ("--opening=in=0,0,0", f"--opening=out=0,0,{length}", "--smoothing=0", "--edge-length=0.7")
+        layers = ("--layers=3", "--first-thickness=0.03")
+        volume = length * math.pi * inner**2
+        self.assertLess(self.done(self.lumen(*options, *layers))[0], 0.98 * volume)
+        for extra in ((), layers):
+            process = self.lumen(*options, *extra, "--order=2")
+            self.assertAlmostEqual(self.done(process)[0] / volume, 1, delta=2e-3)
+            self.assertIn("edges of the lumen's surface are curved", process.stdout)
+        self.assertIn("Edges in the layers follow them.", process.stdout)
+        media = f"media={outer - inner:g}"
+        process = execute(MESH, "thicken", self.base / "lumen.msh", "-o", self.base / "wall.msh", "--layer", media)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertNotIn("left straight", process.stderr)  # that cells are thin is warned of
+        self.assertIn("The lumen's edges are curved as in its mesh.", process.stdout)
+        a, b = math.sqrt(inner**2 + k), math.sqrt(outer**2 + k)
+        pressure = c10 * (math.log(outer * a / (inner * b)) + 0.5 * k * (a**-2 - b**-2))
+        (self.base / "rest.toml").write_text(AT_REST.replace("PRESSURE", repr(pressure)))
+        with h5py.File(run(MONOLITHIC, self.base / "rest.toml", self.base / "rest") / "fields.h5") as file:
+            wall = file["wall"]
+            points, cells = wall["points"][:], wall["cells"][:]
+            found = wall["von_mises_stress"][max(wall["von_mises_stress"])][:]
+        radius = np.hypot(points[:, 0], points[:, 1])
+        face = np.isin(np.arange(len(points)), cells) & (np.abs(radius - inner) < 3e-3)
+        self.assertGreater(face.sum(), 100)
+        stretch = 1 + k / inner**2  # squared, around
+        principal = np.array([1 / stretch, stretch, 1.0])
+        error = found[face] / (c10 * math.sqrt(1.5 * ((principal - principal.mean()) ** 2).sum())) - 1
+        print(f"von Mises stress at {face.sum()} nodes: mean {error.mean():+.4f}, worst {np.abs(error).max():.4f}")
+        self.assertLess(abs(error.mean()), 0.01)
+        self.assertLess(np.abs(error).max(), 0.03)
 
     def test_every_format_gives_the_same(self):
         nodes, triangles = tube()

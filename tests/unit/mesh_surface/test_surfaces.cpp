@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
+#include "mesh/curved_columns.hpp"
+#include "mesh/edge_curves.hpp"
 #include "mesh/point_distance.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/surface/boundary_layers.hpp"
@@ -332,6 +336,64 @@ TEST(WallThickness, RefusesAHoleWithItsPlace) {
 }
 
 /// The layers' inner end was at 0.71 of their thickness on the rim of an opening that is cut at 45 degrees.
+/// Layers inside a tube of radius 1 and its wall's curves, its own circles'.
+struct LayersOfATube {
+  TetrahedralMesh mesh;
+  Levels levels;
+  EdgeCurves curves;
+
+  LayersOfATube() {
+    const auto wall = turned(12, 4, [](double u, double v) { return Point{std::cos(u), std::sin(u), 2 * v}; });
+    BoundaryLayers layers;
+    layers.count = 3;
+    layers.first = 0.02;
+    const auto inner = moved_inwards(wall, layers);
+    mesh.nodes = inner.nodes;
+    mesh.regions = {"fluid"};
+    mesh.cell_region = {0};
+    levels = grow_layers(mesh, wall, inner, layers);
+    for (const auto& [a, b, c] : wall.triangles)
+      for (const auto& [one, other] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+        const Point half = 0.5 * (wall.nodes[one] + wall.nodes[other]);
+        const double r = std::hypot(half[0], half[1]);
+        curves[std::minmax(levels.nodes.back().at(one), levels.nodes.back().at(other))] = {half[0] / r, half[1] / r,
+                                                                                           half[2]};
+      }
+    mesh.cell_region.erase(mesh.cell_region.begin());
+  }
+  double radius(const Point& x) const { return std::hypot(x[0], x[1]); }
+};
+
+TEST(CurvedColumns, OfATubeAreConcentric) {
+  const LayersOfATube tube;
+  const auto all = with_columns(tube.mesh, tube.levels, tube.curves);
+  std::size_t found = 0;
+  for (const auto& level : tube.levels.nodes) {
+    std::set<int> nodes;
+    for (const auto& [bottom, node] : level) nodes.insert(node);
+    for (const auto& [edge, middle] : all)
+      if (nodes.count(edge.first) + nodes.count(edge.second) == 2) {
+        EXPECT_NEAR(tube.radius(middle), tube.radius(tube.mesh.nodes[edge.first]), 1e-12);
+        EXPECT_NEAR(middle[2], 0.5 * (tube.mesh.nodes[edge.first][2] + tube.mesh.nodes[edge.second][2]), 1e-12);
+        ++found;
+      }
+  }
+  EXPECT_EQ(found, 4 * tube.curves.size());
+  EXPECT_TRUE(folded_cells(with_curves(tube.mesh, all)).empty());
+}
+
+TEST(CurvedColumns, AreStraightAsAWholeWhereTheyFold) {
+  LayersOfATube tube;
+  auto& [edge, middle] = *std::next(tube.curves.begin(), 20);
+  const Point wrong = middle = middle + 0.4 * (tube.mesh.nodes[edge.second] - tube.mesh.nodes[edge.first]);
+  const auto kept = tube.curves.size();
+  const auto straightened = straighten_folded_columns(tube.mesh, tube.levels, tube.curves);
+  EXPECT_NE(std::find(straightened.begin(), straightened.end(), wrong), straightened.end());
+  EXPECT_EQ(tube.curves.size() + straightened.size(), kept);
+  EXPECT_LT(straightened.size(), 12U) << "around that edge alone";
+  EXPECT_TRUE(folded_cells(with_curves(tube.mesh, with_columns(tube.mesh, tube.levels, tube.curves))).empty());
+}
+
 TEST(BoundaryLayers, AreAsThickAtSlantedOpenings) {
   const auto wall = turned(24, 24, [](double u, double v) {
     return Point{std::cos(u), std::sin(u), v * (6 + std::cos(u))};
