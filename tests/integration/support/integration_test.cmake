@@ -1,8 +1,8 @@
-# fsi_integration_test([QUICK] [CLASS...]): registers the tests of test_FOLDER.py in the calling folder as FOLDER, or those
+# fsi_integration_test([QUICK] [STARTS] [CLASS...]): registers the tests of test_FOLDER.py in the calling folder as FOLDER, or those
 # of each class as FOLDER.CLASS, so that they can run beside each other. QUICK: among the quick tests, which is for what
-# takes a few seconds.
+# takes a few seconds. STARTS: is about the environment in which programs start, and begins without their settings.
 function(fsi_integration_test)
-  cmake_parse_arguments(arg "QUICK" "" "" ${ARGN})
+  cmake_parse_arguments(arg "QUICK;STARTS" "" "" ${ARGN})
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   set(tests ${folder})
   if(arg_UNPARSED_ARGUMENTS)
@@ -16,9 +16,13 @@ function(fsi_integration_test)
   if(arg_QUICK)
     list(APPEND labels quick)
   endif()
+  set(settings ${FSI_WITH_SETTINGS})
+  if(arg_STARTS)
+    set(settings)
+  endif()
   foreach(test IN LISTS tests)
     add_test(NAME ${test}
-      COMMAND ${FSI_PYTHON} -E -B ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/run_tests.py test_${test}
+      COMMAND ${settings} ${FSI_PYTHON} -E -B ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/run_tests.py test_${test}
       WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
     set(environment
       FSI_MESH=$<TARGET_FILE:fsi-mesh>
