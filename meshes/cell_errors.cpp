@@ -20,7 +20,7 @@ namespace {
 
 /// Where a vertex is, whichever plane a mesh of triangles was drawn in.
 template <int Dim>
-std::array<double, Dim> place_of(const Point& x) {
+std::array<double, Dim> coordinates_of(const Point& x) {
   if constexpr (Dim == 3)
     return x;
   else
@@ -33,10 +33,10 @@ class CellFinder {
  public:
   explicit CellFinder(const SimplexMesh<Dim, Order>& mesh) {
     for (const auto& cell : mesh.cells)
-      for (int i = 0; i <= Dim; ++i) vertex_.try_emplace(place_of<Dim>(mesh.nodes[cell[i]]), cell[i]);
+      for (int i = 0; i <= Dim; ++i) vertex_.try_emplace(coordinates_of<Dim>(mesh.nodes[cell[i]]), cell[i]);
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
       Key key;
-      for (int i = 0; i <= Dim; ++i) key[i] = vertex_.at(place_of<Dim>(mesh.nodes[mesh.cells[c][i]]));
+      for (int i = 0; i <= Dim; ++i) key[i] = vertex_.at(coordinates_of<Dim>(mesh.nodes[mesh.cells[c][i]]));
       std::sort(key.begin(), key.end());
       cell_[key] = static_cast<int>(c);
     }
@@ -45,7 +45,7 @@ class CellFinder {
   int find(const std::array<Point, Dim + 1>& corners) const {
     Key key;
     for (int i = 0; i <= Dim; ++i) {
-      const auto found = vertex_.find(place_of<Dim>(corners[i]));
+      const auto found = vertex_.find(coordinates_of<Dim>(corners[i]));
       if (found == vertex_.end()) return -1;
       key[i] = found->second;
     }
