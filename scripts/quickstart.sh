@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# From a fresh clone to a report: builds the programs, runs the paper's neo-Hookean artery with both drivers on the coarse
-# mesh, compares the pressure waves, and makes the short form of the paper's study: three materials, the paper's tables and
-# figures beside ours. May be run again; it replaces its own results only.
+# From a fresh clone to reports. Builds the mesh tool and the monolithic driver, runs the paper's neo-Hookean artery on the
+# coarse mesh and reports on that run. Then builds the partitioned driver, runs the same case, compares the pressure waves,
+# and makes the short form of the paper's study: three materials, the paper's tables and figures beside ours. May be run
+# again; it replaces its own results only.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -22,21 +23,26 @@ stage() {
   stages+=("$(printf '%-24s %6d.%d s' "$name" $((ms / 1000)) $((ms % 1000 / 100)))")
 }
 
-# The programs only. A folder that scripts/test.sh has configured keeps its tests; a new one does without the packages
-# that they need.
-configure_and_build() {
+# build_programs NAME...: these only. A folder that scripts/test.sh has configured keeps its tests; a new one does without
+# the packages that they need.
+build_programs() {
   local options=()
   [ -f "$build/CMakeCache.txt" ] || options=(-DFSI_TESTS=OFF)
   cmake --preset release "${options[@]}"
-  cmake --build "$build" --target fsi-mesh fsi-monolithic fsi-partitioned
+  cmake --build "$build" --target "$@"
 }
 
 rm -rf "$results"
 mkdir -p "$results"
 stage "packages" scripts/install_packages.sh
-stage "build" configure_and_build
+stage "build" build_programs fsi-mesh fsi-monolithic
 stage "mesh" "$build/bin/fsi-mesh" artery --level coarse -o "$mesh"
 stage "monolithic run" "$build/bin/fsi-monolithic" "$case_file" --set mesh.file="${mesh##*/}" -o "$results/monolithic"
+stage "report" "$build/bin/fsi-compare" report "$results/monolithic" -o "$results/report"
+echo
+echo "The first report: $PWD/$results/report/report.html. The other driver and the paper's study follow."
+echo
+stage "build, partitioned" build_programs fsi-partitioned
 stage "partitioned run" "$build/bin/fsi-partitioned" "$case_file" --set mesh.file="${mesh##*/}" -o "$results/partitioned"
 stage "comparison" "$build/bin/fsi-compare" pressure "$results/monolithic" "$results/partitioned" -o "$results/compare"
 stage "study of the paper" "$build/bin/fsi-compare" study paper --quick -o "$results/paper"

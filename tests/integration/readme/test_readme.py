@@ -138,6 +138,7 @@ class Readme(FolderTest):
         commands = [
             self.stage("mesh"),
             self.stage("monolithic run"),
+            self.stage("report"),
             self.stage("partitioned run"),
             self.stage("comparison"),
             *self.next,
