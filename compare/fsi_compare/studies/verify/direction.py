@@ -10,6 +10,7 @@ A sequence that swings is not extrapolated, neither is one whose differences do 
 cannot cancel, and what one member moves where another does not is in them, too. See docs/verification.md.
 """
 
+import functools
 from dataclasses import dataclass, replace
 from typing import Any, Callable, Optional, Sequence, Tuple
 
@@ -175,11 +176,19 @@ def observed(x: np.ndarray, y: np.ndarray) -> Tuple[Optional[float], float]:
 
 def fit(x: np.ndarray, y: np.ndarray, order: float) -> Tuple[np.ndarray, float]:
     """(y0, a) of y0 + a x^order, and the weighted standard deviation of what is left."""
-    weights = 1.0 / x
-    weights = weights / weights.sum()
-    matrix = np.column_stack([np.ones_like(x), x**order])
-    root = np.sqrt(weights)[:, None]
-    found = np.linalg.lstsq(matrix * root, y * root[:, 0], rcond=None)[0]
+    weights, matrix, root, weighted = _equations(np.asarray(x, dtype=float).tobytes(), order)
+    found = np.linalg.lstsq(weighted, y * root, rcond=None)[0]
     left = y - matrix @ found
     freedom = max(len(x) - 3, 1)
     return found, float(np.sqrt(len(x) * np.sum(weights * left**2) / freedom))
+
+
+@functools.lru_cache(maxsize=4096)  # orders are tried for every quantity of a family, whose members are the same
+def _equations(x_bytes: bytes, order: float) -> Tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Of fit(): weights, columns, roots of the weights, weighted columns; not to be changed."""
+    x = np.frombuffer(x_bytes)
+    weights = 1.0 / x
+    weights = weights / weights.sum()
+    matrix = np.column_stack([np.ones_like(x), x**order])
+    root = np.sqrt(weights)
+    return weights, matrix, root, matrix * root[:, None]
