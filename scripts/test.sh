@@ -5,8 +5,10 @@
 #                           sanitizers in a build by clang, without MPI, for x86-64-v2; three sources that depend on the
 #                           width of vectors for another processor level; then the release build by gcc, for this machine,
 #                           with every other test and the unit tests that use MPI or vectors. A test program is then one
-#                           test of ctest, which spares its start for each case; the quick tests, and cmake
-#                           -DFSI_TEST_CASES=ON -DFSI_UNIT_TESTS=ON, run each case by itself
+#                           test of ctest, which spares its start for each case; cmake -DFSI_TEST_CASES=ON
+#                           makes each case one
+#   scripts/test.sh --long  what --all leaves out of the tests: all combinations of elements, materials, schemes, solvers and
+#                           drivers where --all takes them by turns, and the drivers with sanitizers
 #   scripts/test.sh --levels  all that depends on the width of vectors for the levels x86-64-v2, -v3 and -v4, with
 #                           warnings as errors, and its unit tests where this processor has the level
 # CONTRIBUTING.md says how many minutes that takes on which kind of machine.
@@ -22,8 +24,8 @@ fail() {
 what=quick
 for argument in "$@"; do
   case "$argument" in
-    --all | --levels) what=${argument#--} ;;
-    *) fail "unknown option '$argument'; those there are: --all, --levels" ;;
+    --all | --long | --levels) what=${argument#--} ;;
+    *) fail "unknown option '$argument'; those there are: --all, --long, --levels" ;;
   esac
 done
 
@@ -53,9 +55,8 @@ all)
   # Another compiler than the release build's: each warns of what the other does not.
   echo "== unit tests with sanitizers, by clang, and without MPI"
   cmake --preset sanitize -DCMAKE_CXX_COMPILER=clang++ -DFSI_TESTS=ON -DFSI_WARNINGS_AS_ERRORS=ON
-  cmake --build --preset sanitize --target unit_tests fsi-monolithic fsi-partitioned
+  cmake --build --preset sanitize --target unit_tests
   run_tests build/sanitize -L '^unit$'
-  run_tests build/sanitize -R '^partitions[.]WithoutMpi$'
 
   # The release build below is for this machine's level; here the other one that counts. x86-64-v2 has had its turn.
   if has_level x86-64-v4; then build_level x86-64-v3 level_sources; elif has_level x86-64-v2; then build_level x86-64-v4 level_sources; fi
@@ -65,6 +66,17 @@ all)
   cmake --build --preset release
   run_tests build/release
   ;;
+long)
+  echo "== drivers with sanitizers, by clang, and without MPI"
+  cmake --preset sanitize -DCMAKE_CXX_COMPILER=clang++ -DFSI_TESTS=ON -DFSI_WARNINGS_AS_ERRORS=ON
+  cmake --build --preset sanitize --target fsi-mesh fsi-monolithic fsi-partitioned fsi_with_settings
+  run_tests build/sanitize -R '^partitions[.]WithoutMpi$'
+
+  echo "== all combinations, release build"
+  cmake --preset release -DFSI_TESTS=ON -DFSI_TEST_CASES=OFF -DFSI_UNIT_TESTS=OFF
+  cmake --build --preset release
+  FSI_LONG_TESTS=1 run_tests build/release -L '^turns$'
+  ;;
 levels)
   for level in x86-64-v2 x86-64-v3 x86-64-v4; do
     build_level "$level" level_tests
@@ -72,7 +84,7 @@ levels)
   done
   ;;
 quick)
-  cmake --preset release -DFSI_TESTS=ON -DFSI_TEST_CASES=ON -DFSI_UNIT_TESTS=ON -DFSI_WARNINGS_AS_ERRORS=OFF
+  cmake --preset release -DFSI_TESTS=ON -DFSI_TEST_CASES=OFF -DFSI_UNIT_TESTS=ON -DFSI_WARNINGS_AS_ERRORS=OFF
   cmake --build --preset release --target quick_tests
   run_tests build/release -L '^quick$'
   ;;

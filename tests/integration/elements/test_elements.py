@@ -13,6 +13,7 @@ from programs import (
     NEO_HOOKEAN,
     PARTITIONED,
     FolderTest,
+    by_turns,
     energy,
     make_mesh,
     pressure,
@@ -60,22 +61,17 @@ class Agreement(Kinds):
     tight = ("monolithic.newton_tolerance=1e-11",)
 
     def test_partitioned_is_monolithic(self):
-        for kind in KINDS:
-            for case in CASES:
+        of_all = by_turns(KINDS, CASES, FAMILIES)
+        of_one = by_turns(KINDS, (NEO_HOOKEAN,), SCHEMES)
+        for kind, case, scheme in (*of_all, *of_one):
+            with self.subTest(kind=kind, case=case.stem, scheme=scheme):
                 exact = self.march(MONOLITHIC, case, kind, "monolithic", *self.tight)
-                for scheme in (*FAMILIES, *(SCHEMES if case == NEO_HOOKEAN else ())):
-                    with self.subTest(kind=kind, case=case.stem, scheme=scheme):
-                        folder = self.march(
-                            PARTITIONED,
-                            case,
-                            kind,
-                            scheme,
-                            f"partitioned.scheme={scheme}",
-                            "partitioned.tolerance=1e-10",
-                        )
-                        found = apart(folder, exact)
-                        print(f"{' '.join(kind)}, {case.stem}, {scheme}: apart by at most {found:.1e}")
-                        self.assertLess(found, 1e-7)
+                folder = self.march(
+                    PARTITIONED, case, kind, scheme, f"partitioned.scheme={scheme}", "partitioned.tolerance=1e-10"
+                )
+                found = apart(folder, exact)
+                print(f"{' '.join(kind)}, {case.stem}, {scheme}: apart by at most {found:.1e}")
+                self.assertLess(found, 1e-7)
 
     def test_constant_relaxation(self):
         """A factor that is small enough for walls as light as these."""
@@ -99,24 +95,23 @@ class Agreement(Kinds):
                 self.assertLess(found, 1e-5)
 
     def test_fast_is_direct(self):
-        for kind in KINDS:
-            for case in (NEO_HOOKEAN, ARTERY):
-                with self.subTest(kind=kind, case=case.stem):
-                    direct, fast = (
-                        self.march(
-                            MONOLITHIC,
-                            case,
-                            kind,
-                            solver,
-                            *self.tight,
-                            f"monolithic.linear_solver={solver}",
-                            "monolithic.direct_below=0",
-                        )
-                        for solver in ("direct", "fast")
+        for kind, case in by_turns(KINDS, (NEO_HOOKEAN, ARTERY)):
+            with self.subTest(kind=kind, case=case.stem):
+                direct, fast = (
+                    self.march(
+                        MONOLITHIC,
+                        case,
+                        kind,
+                        solver,
+                        *self.tight,
+                        f"monolithic.linear_solver={solver}",
+                        "monolithic.direct_below=0",
                     )
-                    self.assertEqual(table(direct, "iterations.csv")[:, 4].sum(), 0)
-                    self.assertGreater(table(fast, "iterations.csv")[:, 4].sum(), 0)
-                    self.assertLess(apart(fast, direct), 1e-8)
+                    for solver in ("direct", "fast")
+                )
+                self.assertEqual(table(direct, "iterations.csv")[:, 4].sum(), 0)
+                self.assertGreater(table(fast, "iterations.csv")[:, 4].sum(), 0)
+                self.assertLess(apart(fast, direct), 1e-8)
 
 
 class Twins(FolderTest):
@@ -144,63 +139,58 @@ class Twins(FolderTest):
 
 class Bits(Kinds):
     def test_do_not_depend_on_the_number_of_threads(self):
-        for kind in KINDS:
-            for program in DRIVERS:
-                with self.subTest(kind=kind, program=Path(program).name):
-                    folders = [
-                        self.march(
-                            program,
-                            ARTERY,
-                            kind,
-                            f"threads{threads}",
-                            "time.end=0.375",
-                            "partitioned.tolerance=1e-2",
-                            threads=threads,
-                        )
-                        for threads in (1, 2)
-                    ]
-                    self.assertSameResults(*folders)
-
-    def test_do_not_depend_on_a_restart(self):
-        for kind in KINDS:
-            for program in DRIVERS:
-                with self.subTest(kind=kind, program=Path(program).name):
-                    loose = ("partitioned.tolerance=1e-2",)
-                    whole = self.march(program, ARTERY, kind, "whole", *loose)
-                    stopped = self.march(program, ARTERY, kind, "stopped", *loose, "time.end=0.25")
-                    self.assertEqual(table(stopped, "iterations.csv")[:, 0].tolist(), [1, 2])
-                    restart(
+        for kind, program in by_turns(KINDS, DRIVERS):
+            with self.subTest(kind=kind, program=Path(program).name):
+                folders = [
+                    self.march(
                         program,
                         ARTERY,
-                        stopped,
-                        *scene(self.base, *kind),
-                        *forms(ARTERY),
-                        *loose,
-                        "time.end=0.75",
-                        "output.every=2",
+                        kind,
+                        f"threads{threads}",
+                        "time.end=0.375",
+                        "partitioned.tolerance=1e-2",
+                        threads=threads,
                     )
-                    self.assertSameResults(stopped, whole)
+                    for threads in (1, 2)
+                ]
+                self.assertSameResults(*folders)
+
+    def test_do_not_depend_on_a_restart(self):
+        for kind, program in by_turns(KINDS, DRIVERS[::-1]):
+            with self.subTest(kind=kind, program=Path(program).name):
+                loose = ("partitioned.tolerance=1e-2",)
+                whole = self.march(program, ARTERY, kind, "whole", *loose)
+                stopped = self.march(program, ARTERY, kind, "stopped", *loose, "time.end=0.25")
+                self.assertEqual(table(stopped, "iterations.csv")[:, 0].tolist(), [1, 2])
+                restart(
+                    program,
+                    ARTERY,
+                    stopped,
+                    *scene(self.base, *kind),
+                    *forms(ARTERY),
+                    *loose,
+                    "time.end=0.75",
+                    "output.every=2",
+                )
+                self.assertSameResults(stopped, whole)
 
 
 class Energy(Kinds):
     def test_nothing_is_left_over(self):
         """Taylor-Hood elements whose sides are curved or move do not integrate convection exactly; what they miss has a
         column."""
-        for kind in KINDS:
-            for case in CASES:
-                with self.subTest(kind=kind, case=case.stem):
-                    rows = energy(self.march(MONOLITHIC, case, kind, "energy", "monolithic.newton_tolerance=1e-10"))
-                    work = rows["inlet_work"].sum()
-                    left_over = np.abs(rows["remainder"]).max() / work
-                    missed = np.abs(rows.get("fluid_quadrature", 0)).max() / work
-                    print(f"{' '.join(kind)}, {case.stem}: left over {left_over:.1e}, by quadrature {missed:.1e}")
-                    self.assertGreater(work, 0)
-                    self.assertLess(left_over, 1e-8)
-                    self.assertEqual("fluid_quadrature" in rows, kind[0] == "p2p1")
-                    self.assertLess(missed, 2e-3)
-                    self.assertEqual(
-                        "fluid_stabilisation" in rows and rows["fluid_stabilisation"].any(), kind[0] == "p1"
-                    )
+        for kind, case in by_turns(KINDS, CASES):
+            with self.subTest(kind=kind, case=case.stem):
+                rows = energy(self.march(MONOLITHIC, case, kind, "energy", "monolithic.newton_tolerance=1e-10"))
+                work = rows["inlet_work"].sum()
+                left_over = np.abs(rows["remainder"]).max() / work
+                missed = np.abs(rows.get("fluid_quadrature", 0)).max() / work
+                print(f"{' '.join(kind)}, {case.stem}: left over {left_over:.1e}, by quadrature {missed:.1e}")
+                self.assertGreater(work, 0)
+                self.assertLess(left_over, 1e-8)
+                self.assertEqual("fluid_quadrature" in rows, kind[0] == "p2p1")
+                self.assertLess(missed, 2e-3)
+                self.assertEqual("fluid_stabilisation" in rows and rows["fluid_stabilisation"].any(), kind[0] == "p1")
 
 
 class Parts(Kinds):
@@ -219,12 +209,12 @@ class Parts(Kinds):
         """The runs of both drivers, which must agree: there is nothing to couple."""
         case = self.base / f"{name}.toml"
         case.write_text(text)
-        folders = [
-            run(program, case, self.base / f"{'-'.join(kind)}-{name}-{d}", *scene(self.base, *kind))
-            for d, program in enumerate(DRIVERS)
-        ]
-        self.assertNoNan(folders[0])
-        self.assertLess(apart(*folders), 1e-9)
+        folders = [self.base / f"{'-'.join(kind)}-{name}-{d}" for d in range(len(DRIVERS))]
+        if not folders[0].exists():  # one of the other tests has asked for it
+            for program, folder in zip(DRIVERS, folders):
+                run(program, case, folder, *scene(self.base, *kind))
+            self.assertNoNan(folders[0])
+            self.assertLess(apart(*folders), 1e-9)
         return folders[0]
 
     def test_fluid_between_rigid_walls(self):

@@ -1,5 +1,6 @@
 """fsi-mesh import: meshes of other programs, in formats that meshio reads."""
 
+import functools
 import math
 import re
 import unittest
@@ -20,12 +21,14 @@ Physical Surface("outlet") = {2};
 
 
 class MeshImport(FolderTest):
-    def lumen(self, order=1):
+    @classmethod
+    @functools.cache
+    def lumen(cls, order=1):
         """The tube's nodes in m, tetrahedra and the triangles of its surfaces, as meshio has them."""
-        (self.base / "tube.geo").write_text(TUBE)
-        file = self.base / "tube.msh"
-        process = execute(MESH, "geo", self.base / "tube.geo", "-o", file, "-q", "--order", order)
-        self.assertEqual(process.returncode, 0, process.stderr)
+        (cls.base / "tube.geo").write_text(TUBE)
+        file = cls.base / "tube.msh"
+        process = execute(MESH, "geo", cls.base / "tube.geo", "-o", file, "-q", "--order", order)
+        assert process.returncode == 0, process.stderr
         mesh = meshio.read(file)
         kinds = {1: ("tetra", "triangle"), 2: ("tetra10", "triangle6")}[order]
         solid = np.concatenate([block.data for block in mesh.cells if block.type == kinds[0]])

@@ -1,8 +1,9 @@
-# fsi_integration_test([QUICK] [STARTS] [CLASS...]): registers the tests of test_FOLDER.py in the calling folder as FOLDER, or those
+# fsi_integration_test([QUICK] [STARTS] [TURNS] [CLASS...]): registers the tests of test_FOLDER.py in the calling folder as FOLDER, or those
 # of each class as FOLDER.CLASS, so that they can run beside each other. QUICK: among the quick tests, which is for what
-# takes a few seconds. STARTS: is about the environment in which programs start, and begins without their settings.
+# takes a few seconds. STARTS: is about the environment in which programs start, and begins without their settings. TURNS:
+# takes choices by turns, all of them only in scripts/test.sh --long (by_turns in programs.py).
 function(fsi_integration_test)
-  cmake_parse_arguments(arg "QUICK;STARTS" "" "" ${ARGN})
+  cmake_parse_arguments(arg "QUICK;STARTS;TURNS" "" "" ${ARGN})
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   set(tests ${folder})
   if(arg_UNPARSED_ARGUMENTS)
@@ -19,6 +20,9 @@ function(fsi_integration_test)
   set(settings ${FSI_WITH_SETTINGS})
   if(arg_STARTS)
     set(settings)
+  endif()
+  if(arg_TURNS)
+    list(APPEND labels turns)
   endif()
   foreach(test IN LISTS tests)
     add_test(NAME ${test}

@@ -1,5 +1,6 @@
 """Runs the programs as a user would and reads the folders that they leave."""
 
+import itertools
 import json
 import os
 import re
@@ -18,10 +19,26 @@ CASES = Path(os.environ["FSI_CASES"])
 NEO_HOOKEAN, MOONEY_RIVLIN, ARTERY = (CASES / f"{name}.toml" for name in ("neo-hookean", "mooney-rivlin", "artery"))
 
 MPIRUN = Path(__file__).resolve().parents[2] / "support" / "mpirun.sh"
+# All combinations of what a test takes in turn: `scripts/test.sh --long`.
+LONG = bool(os.environ.get("FSI_LONG_TESTS"))
 SECONDS_OF_PROCESSES = 100  # that a run on several may take, on a machine that is busy with other tests
 
 POINTS = 181  # along the centre line and the wall
 TABLES = ("centerline_pressure.csv", "wall_displacement.csv", "flow.csv", "energy.csv")
+
+
+def by_turns(*choices):
+    """Combinations of one item of each of the choices: all in the long form, else so many that each item occurs, each
+    combination of the second and later choices too, and what goes together shifts from round to round."""
+    if LONG:
+        return list(itertools.product(*choices))
+    first, rest = choices[0], list(itertools.product(*choices[1:]))
+    count = max(len(first), len(rest))
+    if len(first) >= len(rest):
+        pairs = [(first[k], rest[(k + k // len(rest)) % len(rest)]) for k in range(count)]
+    else:
+        pairs = [(first[(k + k // len(first)) % len(first)], rest[k]) for k in range(count)]
+    return [(item, *others) for item, others in pairs]
 
 
 def execute(*command, **options):

@@ -15,6 +15,7 @@ from programs import (
     FolderTest,
     arrays,
     attempt,
+    by_turns,
     difference,
     differing_arrays,
     driver_command,
@@ -91,28 +92,28 @@ class Supports(FolderTest):
         return file
 
     def test_vessel_under_prestress_is_at_rest(self):
-        for element, geometry, scheme, outlet in (
+        scenes = (
             ("p2p1", "axisymmetric", "midpoint", None),
             ("p2p1", "axisymmetric", "generalised-alpha", "pressure = 0.2"),
             ("p2p1", "axisymmetric", "tr-bdf2", WINDKESSEL),
             ("p1", "axisymmetric", "euler", "pressure = 0.2"),
             ("p1", "3d", "bdf2", "pressure = 0.2"),
-        ):
+        )
+        for (element, geometry, scheme, outlet), program in by_turns(scenes, DRIVERS):
             settings = scene(self.base, element, geometry)
             case = self.case(
                 "rest", more=PRESTRESS + "\n" + TISSUE.replace("[0.25, 0.1]", "[0.25, 0.05]"), scheme=scheme
             )
             if outlet:
                 self.between_openings(case, outlet)
-            for program in DRIVERS:
-                with self.subTest(program=program, element=element, geometry=geometry, scheme=scheme):
-                    folder = run(program, case, self.base / "rest", *settings)
-                    moved = np.abs(wall(folder)[..., 2:]).max()
-                    off = np.abs(pressure(folder) - 200).max()
-                    print(f"{element} {geometry} {scheme}: moves {moved:.1e} mm, pressure off by {off:.1e} Pa")
-                    self.assertLess(moved, 1e-9)
-                    self.assertLess(off, 1e-5)
-                    self.assertTrue((folder / "prestress.h5").exists())
+            with self.subTest(program=program, element=element, geometry=geometry, scheme=scheme):
+                folder = run(program, case, self.base / "rest", *settings)
+                moved = np.abs(wall(folder)[..., 2:]).max()
+                off = np.abs(pressure(folder) - 200).max()
+                print(f"{element} {geometry} {scheme}: moves {moved:.1e} mm, pressure off by {off:.1e} Pa")
+                self.assertLess(moved, 1e-9)
+                self.assertLess(off, 1e-5)
+                self.assertTrue((folder / "prestress.h5").exists())
 
     def test_prestress_tells_how_far_it_is(self):
         settings = (*scene(self.base, "p2p1", "axisymmetric"), "time.end=0.125")
@@ -276,16 +277,15 @@ class Supports(FolderTest):
 
     def test_prestress_is_kept_and_used_again(self):
         settings = scene(self.base, "p2p1", "axisymmetric")
-        for scheme in ("midpoint", "generalised-alpha"):
+        for scheme, program in by_turns(("midpoint", "generalised-alpha"), DRIVERS):
             case = self.case("kept", inlet=0.3, more=PRESTRESS + "\n" + TISSUE, scheme=scheme)
-            for program in DRIVERS:
-                with self.subTest(program=program, scheme=scheme):
-                    whole = run(program, case, self.base / "whole", *settings)
-                    begun = run(program, case, self.base / "begun", *settings, "time.end=0.25")
-                    self.assertEqual(restart(program, case, begun, *settings), begun)
-                    self.assertEqual(differing_arrays(whole / "checkpoint.h5", begun / "checkpoint.h5"), [])
-                    again = run(program, case, self.base / "again", *settings, f"prestress.file={whole}/prestress.h5")
-                    self.assertEqual(differing_arrays(whole / "checkpoint.h5", again / "checkpoint.h5"), [])
+            with self.subTest(program=program, scheme=scheme):
+                whole = run(program, case, self.base / "whole", *settings)
+                begun = run(program, case, self.base / "begun", *settings, "time.end=0.25")
+                self.assertEqual(restart(program, case, begun, *settings), begun)
+                self.assertEqual(differing_arrays(whole / "checkpoint.h5", begun / "checkpoint.h5"), [])
+                again = run(program, case, self.base / "again", *settings, f"prestress.file={whole}/prestress.h5")
+                self.assertEqual(differing_arrays(whole / "checkpoint.h5", again / "checkpoint.h5"), [])
         kept = f"prestress.file={self.base}/whole/prestress.h5"
         for changes, said in (
             ((*settings, "prestress.pressure=0.1"), "belongs to another wall or load"),
