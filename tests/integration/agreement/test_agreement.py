@@ -13,6 +13,7 @@ from programs import (
     difference,
     pressure,
     run,
+    summary,
     table,
     wall,
 )
@@ -82,6 +83,28 @@ class NeoHookean(Agreement, FolderTest):
         self.assertGreater(apart[1e-1].max(), 0.1)
         self.assertGreater(apart[1e-2].max(), 0.005)
         self.assertGreater(apart[1e-2].max(), 1e4 * tight)
+
+
+class EachKind(FolderTest):
+    """Of coupling, each in a case that names no scheme unless the kind is to be named."""
+
+    def test_each_agrees_with_the_monolithic_driver(self):
+        case = NEO_HOOKEAN.parent / "axisymmetric" / NEO_HOOKEAN.name
+        assert "scheme" not in case.read_text()
+        monolithic = run(MONOLITHIC, case, self.base / "monolithic", *SETTINGS)
+        self.assertEqual(summary(monolithic)["coupling_kind"], "monolithic")
+        for name, kind, settings in (
+            ("unnamed", "interface", ()),
+            ("gap", "interface", ("partitioned.scheme=iqn-imvj",)),
+            ("block", "block", ("partitioned.scheme=block-newton",)),
+        ):
+            with self.subTest(kind=kind, scheme=name):
+                folder = run(PARTITIONED, case, self.base / name, "partitioned.tolerance=1e-8", *SETTINGS, *settings)
+                self.assertEqual(summary(folder)["coupling_kind"], kind)
+                self.assertIn(f"coupling kind: {kind}; ", (folder / "run.log").read_text())
+                apart = difference(pressure(folder), pressure(monolithic))
+                print(f"{name}: largest difference of pressure, relative, per step:", apart)
+                self.assertLess(apart.max(), 1e-6)
 
 
 class MooneyRivlin(Agreement, FolderTest):
