@@ -335,7 +335,6 @@ TEST(WallThickness, RefusesAHoleWithItsPlace) {
   }
 }
 
-/// The layers' inner end was at 0.71 of their thickness on the rim of an opening that is cut at 45 degrees.
 /// Layers inside a tube of radius 1 and its wall's curves, its own circles'.
 struct LayersOfATube {
   TetrahedralMesh mesh;
@@ -394,6 +393,7 @@ TEST(CurvedColumns, AreStraightAsAWholeWhereTheyFold) {
   EXPECT_TRUE(folded_cells(with_curves(tube.mesh, with_columns(tube.mesh, tube.levels, tube.curves))).empty());
 }
 
+/// The layers' inner end was at 0.71 of their thickness on the rim of an opening that is cut at 45 degrees.
 TEST(BoundaryLayers, AreAsThickAtSlantedOpenings) {
   const auto wall = turned(24, 24, [](double u, double v) {
     return Point{std::cos(u), std::sin(u), v * (6 + std::cos(u))};
