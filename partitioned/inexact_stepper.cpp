@@ -93,7 +93,7 @@ bool InexactStepper<n>::agrees(const State& state, const StepData& data, const G
 
 template <int n>
 bool InexactStepper<n>::leads_nowhere() const {
-  return Base::passes() >= patience && gaps_.size() == patience && !(gaps_.back() <= progress * gaps_.front());
+  return gaps_.size() == patience && !(gaps_.back() <= progress * gaps_.front());
 }
 
 template <int n>

@@ -108,7 +108,7 @@ def contents(harness, stand):
             )
             cases += [(name, path, what, data) for what, data in damages]
             cases += [(name, path, what, None) for what, _ in mutations.file_damages(path)]
-    for name, path, what, data in chosen(harness, cases, 24):
+    for name, path, what, data in chosen(harness, cases, 40):
         kept = path.read_bytes()
         if data is None:
             dict(mutations.file_damages(path))[what]()
@@ -132,7 +132,7 @@ def studies(harness, stand):
         cases = list(mutations.toml_damages(tree))
         file.write_text(mutations.toml_text(tree))
         cases += [(what, None) for what, _ in mutations.file_damages(file)]
-        for what, text in chosen(harness, cases, 8 if name == "plain" else 3, 500):
+        for what, text in chosen(harness, cases, 10 if name == "plain" else 5, 500):
             file.write_text(mutations.toml_text(tree) if text is None else text(), encoding="utf-8")
             if text is None:
                 dict(mutations.file_damages(file))[what]()

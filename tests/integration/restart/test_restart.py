@@ -37,7 +37,7 @@ STEP = 0.125  # ms, of the case files
 class Restart:
     """Tests of both drivers: the artery on a short mesh, fibres and kept Jacobians included."""
 
-    steps = 5
+    steps = 8
     settings = ()
     kills = 4
 
@@ -252,7 +252,7 @@ class Monolithic(Restart, FolderTest):
     program = MONOLITHIC
 
     def test_with_a_jacobian_renewed_in_the_run(self):
-        folder = self.march("renewed", steps=4)
+        folder = self.march("renewed", steps=5)
         renewed = [any(again for *_, again in step) for step in newton_history(folder)]
         self.assertTrue(any(renewed[1:]), "no Jacobian was renewed after the first step: the test shows nothing")
         self.assertSameTables(self.go_on(folder), self.whole)
@@ -274,6 +274,7 @@ class Monolithic(Restart, FolderTest):
 
 class Partitioned(Restart, FolderTest):
     program = PARTITIONED
+    steps = 5
     # To be quick; bits must agree at any tolerance. A pressure for each layer, other than in the monolithic runs.
     settings = ("partitioned.tolerance=1e-1", "structure.layer_pressure=separate")
     kills = 3

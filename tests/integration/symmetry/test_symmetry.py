@@ -73,7 +73,7 @@ class Symmetry(FolderTest):
             f"element={element}",
             *forms(case),
             f"mesh.file={mesh}",
-            "time.end=0.25",
+            "time.end=0.5",
             "output.every=0",
             "monolithic.newton_tolerance=1e-11",
             "partitioned.tolerance=1e-11",
@@ -175,7 +175,7 @@ class Symmetry(FolderTest):
             with self.subTest(driver=DRIVERS.index(program)):
                 mesh = self.meshes[1, 60, False]
                 whole = self.march(program, ARTERY, "p1", mesh)
-                half = self.march(program, ARTERY, "p1", mesh, "time.end=0.125")
+                half = self.march(program, ARTERY, "p1", mesh, "time.end=0.25")
                 restart(program, ARTERY, half, *self.settings(ARTERY, "p1", mesh))
                 self.assertEqual(differing_arrays(half / "checkpoint.h5", whole / "checkpoint.h5"), [])
 
