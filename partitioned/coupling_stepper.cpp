@@ -26,7 +26,7 @@ namespace fsi {
 
 template <int n>
 CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup)
-    : CouplingStepper(scene, loads, setup, coupling_scheme(chosen_scheme(setup).name)) {
+    : CouplingStepper(scene, loads, setup, coupling_scheme(chosen_scheme(setup, scene).name)) {
   check_scheme(scheme_, setup, first_order(), scene);
 }
 
@@ -45,7 +45,7 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
       options_(setup.partitioned),
       agreement_(options_),
       predictor_(setup.time ? setup.time->predictor : std::nullopt),
-      choices_{{"partitioned.scheme", chosen_scheme(setup).name, chosen_scheme(setup).reason}},
+      choices_{{"partitioned.scheme", chosen_scheme(setup, scene).name, chosen_scheme(setup, scene).reason}},
       scheme_(scheme),
       space_(scene.processes(), scene.owned_interface() * n),
       fluid_volumes_(owned_volumes<n>(scene.fluid->space(), scene.fluid->nodes())),
@@ -159,13 +159,26 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
   GoodPass good;
   PassAccuracy accuracy = first_accuracy();
   bool first = true;
+  const auto begin_anew = [&](const char* why) {
+    report_.history.push_back(fmt::format("{}: the stage begins anew with another Robin coefficient", why));
+    accelerator_->abandon();
+    problem_->start_from_prediction(state, data, order_);
+    accelerator_->start();
+    monitor_.start();
+    x = problem_->first_guess(order_);
+    good = {};
+    accuracy = first_accuracy();
+  };
   for (passes_ = 1; passes_ <= options_.max_iterations; ++passes_) {
     ++report_.outer_iterations;
     Pass pass;
     try {
       pass = measured_pass(x, accuracy);
     } catch (const PassFailure& failure) {
-      retreat(failure, state, data, x, good);
+      if (coupling_.failed_passes >= most_failures && problem_->change_coefficient())
+        begin_anew(failure.what());
+      else
+        retreat(failure, state, data, x, good);
       continue;
     }
     log_pass();
@@ -180,15 +193,8 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
       accept(x, pass);
       return;
     }
-    if (leads_nowhere() && problem_->soften()) {
-      report_.history.push_back("the passes lead nowhere: the stage begins anew with a softer Robin condition");
-      accelerator_->abandon();
-      problem_->start_from_prediction(state, data, order_);
-      accelerator_->start();
-      monitor_.start();
-      x = problem_->first_guess(order_);
-      good = {};
-      accuracy = first_accuracy();
+    if (leads_nowhere() && problem_->change_coefficient()) {
+      begin_anew("the passes lead nowhere");
       continue;
     }
     if (monitor_.diverges(coupling_.displacement_gap)) give_up(state, data, "diverges");

@@ -105,6 +105,7 @@ class CouplingStepper : public Stepper {
 
  private:
   static constexpr int most_retreats = 10;        ///< failed passes of one step
+  static constexpr int most_failures = 3;         ///< of them, before another coefficient is tried
   static constexpr double retreat_factor = 0.25;  ///< of the way from the last good iterate, after a failed pass
   /// Relative interface residual beyond which the wall is linearised: there d~ lies so far off, a hundred times the
   /// error of d, that its nonlinearity would only mislead the accelerator.

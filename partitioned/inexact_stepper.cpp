@@ -8,6 +8,7 @@
 
 #include "fem/dimensions.hpp"
 #include "partitioned/interface/inexact_robin_neumann.hpp"
+#include "partitioned/interface/wetted_sides.hpp"
 
 namespace fsi {
 
@@ -22,11 +23,14 @@ constexpr int late = 15;  // passes: more than nearly all steps take
 /// Of what is demanded, where the load has jumped, or nothing was before: later steps change less than that one, and what
 /// it leaves is large beside them.
 constexpr double share_after_jump = 0.1;
-constexpr std::size_t patience = 12;  // passes in which the gap should have fallen
-constexpr double progress = 0.5;      // to that part of the first one
+constexpr std::size_t patience = 12;  // passes before anybody asks whether they lead anywhere:
+constexpr std::size_t window = 6;     // whether so many have brought the gap
+constexpr double progress = 0.5;      // to that part of what it was
 constexpr double slowest = 0.9;       // of the factors by which passes are taken to gain
 constexpr double unknown = 0.5;       // such a factor, of a first change
-constexpr double rounding = 1e-13;    // of the displacement: no pass makes less of a gap
+constexpr double at_rest =
+    0.1;  // of the demand, on gap and pressure: where next to nothing changes nobody knows its error
+constexpr double rounding = 1e-13;  // of the displacement: no pass makes less of a gap
 
 /// By which the last of some numbers have fallen, each, in the mean of two.
 double rate(const std::vector<double>& of) {
@@ -48,7 +52,8 @@ InexactStepper<n>::InexactStepper(Scene<n>& scene, const Loads& loads, const Cas
     : Base(scene, loads, setup, coupling_scheme(scheme_name),
            std::make_unique<InexactRobinNeumann<n>>(scene, setup.partitioned)),
       demand_(demand(setup)),
-      force_tolerance_(setup.partitioned.force_tolerance) {
+      force_tolerance_(setup.partitioned.force_tolerance),
+      stands_in_the_fluid_(wetted_sides_of(scene).stands_in_the_fluid()) {
   if (!setup.partitioned.tolerance)
     Base::add_choice({"partitioned.tolerance", fmt::format("{:g}", demand_),
                       "a step is solved when its error is estimated to be that part of what the step changes, as "
@@ -67,11 +72,19 @@ template <int n>
 PassAccuracy InexactStepper<n>::first_accuracy() {
   gaps_.clear();
   changes_.clear();
+  solves_ = false;
   return first_pass;
 }
 
 template <int n>
 void InexactStepper<n>::next_accuracy(PassAccuracy& accuracy) {
+  solves_ = solves_ || leads_nowhere();  // with the softer condition, too, or there is none
+  if (solves_) {
+    accuracy = {};
+    Base::next_accuracy(accuracy);
+    accuracy.linearised_wall = false;
+    return;
+  }
   accuracy = Base::passes() < late ? later_passes : late_passes;
 }
 
@@ -87,13 +100,16 @@ bool InexactStepper<n>::agrees(const State& state, const StepData& data, const G
   const double factor = std::min(slowest, std::max(rate(gaps_), changes_.size() > 1 ? rate(changes_) : unknown));
   error_ = changes_.back() * factor / (1 - factor);
   const bool balanced = force_tolerance_ == 0 || pass.force_residual <= force_tolerance_;
-  return balanced &&
-         (error_ <= (Base::after_jump() ? share_after_jump : 1) * demand_ || pass.displacement_residual <= rounding);
+  return balanced && (error_ <= (Base::after_jump() ? share_after_jump : 1) * demand_ ||
+                      std::max(pass.displacement_residual, pass.pressure_residual) <= at_rest * demand_ ||
+                      pass.displacement_residual <= rounding);
 }
 
 template <int n>
 bool InexactStepper<n>::leads_nowhere() const {
-  return gaps_.size() == patience && !(gaps_.back() <= progress * gaps_.front());
+  // Gaps of a wall in the fluid go up and down for long before they fall: there failures alone count.
+  return !stands_in_the_fluid_ && gaps_.size() >= patience &&
+         !(gaps_.back() <= progress * gaps_[gaps_.size() - 1 - window]);
 }
 
 template <int n>

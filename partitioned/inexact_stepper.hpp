@@ -10,7 +10,8 @@ namespace fsi {
 /// Interface iteration by passes that solve each medium inexactly (docs/theory.md, section 10.2a; inexact_robin_neumann.hpp,
 /// regularised_iqn.hpp). A step is solved when what is left of it is estimated to be a part of what it changes, as in the
 /// monolithic driver: change and residual of the last passes fall by some factor rho, and rho / (1 - rho) of the last
-/// change is to come.
+/// change is to come. Where passes lead nowhere the stage begins anew with a softer Robin condition, and where that does not
+/// help passes solve both media.
 template <int n>
 class InexactStepper : public CouplingStepper<n> {
   using Base = CouplingStepper<n>;
@@ -33,7 +34,9 @@ class InexactStepper : public CouplingStepper<n> {
 
   double demand_;                       ///< part of what a step changes that may be left
   double force_tolerance_;              ///< PartitionedData::force_tolerance
+  bool stands_in_the_fluid_;            ///< the wall
   double error_ = 0;                    ///< estimated, of the last pass
+  bool solves_ = false;                 ///< passes of the stage solve both media, as those of the other schemes do
   std::vector<double> gaps_, changes_;  ///< of the passes of the stage in progress
 };
 

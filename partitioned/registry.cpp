@@ -39,7 +39,7 @@ constexpr std::array<OwnStepper, 2> own_steppers{{
 
 template <int n>
 std::unique_ptr<Stepper> make_coupling_stepper(Scene<n>& scene, const Loads& loads, const Case& setup) {
-  const SchemeChoice choice = chosen_scheme(setup);
+  const SchemeChoice choice = chosen_scheme(setup, scene);
   note_foreign_options(choice.name, setup, scene.notices);
   for (const OwnStepper& own : own_steppers) {
     if (own.scheme != choice.name) continue;

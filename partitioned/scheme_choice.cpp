@@ -46,12 +46,17 @@ RobinStiffness robin_stiffness(const Case& setup, const Scene<n>& scene) {
               is_long ? "more" : "no more", limit)};
 }
 
-SchemeChoice chosen_scheme(const Case& setup) {
+template <int n>
+SchemeChoice chosen_scheme(const Case& setup, const Scene<n>& scene) {
   if (const auto& named = setup.partitioned.scheme) return {*named, "named by the case", true};
-  return {"robin-neumann-inexact", "the case names none"};
+  if (!wetted_sides_of(scene).stands_in_the_fluid()) return {"robin-neumann-inexact", "the case names none"};
+  if (scene.has_flow_only())
+    return {"robin-neumann-iqn", "the case names none, the wall stands in the fluid, and no opening sets its pressure"};
+  return {"iqn-ils", "the case names none, and the wall stands in the fluid"};
 }
 
 #define FSI_INSTANTIATE(n)                                                                                \
+  template SchemeChoice chosen_scheme<n>(const Case& setup, const Scene<n>& scene);                       \
   template std::optional<StepsOverAnswer> steps_over_answer<n>(const Case& setup, const Scene<n>& scene); \
   template RobinStiffness robin_stiffness<n>(const Case& setup, const Scene<n>& scene);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)

@@ -45,7 +45,9 @@ struct RobinStiffness {
 template <int n>
 RobinStiffness robin_stiffness(const Case& setup, const Scene<n>& scene);
 
-/// The scheme that the case names; where it names none, the interface iteration that serves any scene.
-SchemeChoice chosen_scheme(const Case& setup);
+/// The scheme that the case names; where it names none, an interface iteration: by inexact passes around a vessel, by passes
+/// that solve both media where the wall stands in the fluid. For all processes together.
+template <int n>
+SchemeChoice chosen_scheme(const Case& setup, const Scene<n>& scene);
 
 }  // namespace fsi

@@ -15,7 +15,7 @@ template <int n>
 class BlockNewtonStepper : public NewtonMarch<n> {
  public:
   BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup)
-      : BlockNewtonStepper(scene, loads, setup, chosen_scheme(setup)) {}
+      : BlockNewtonStepper(scene, loads, setup, chosen_scheme(setup, scene)) {}
   BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const SchemeChoice& choice);
 
   std::optional<CouplingMethod> coupling_method() const override;

@@ -13,9 +13,9 @@ namespace fsi {
 /// - Media go on from the fields and the rows that the last pass left, the datum and the load alone being others.
 /// - The wall's load is what the Robin condition says it is, lambda~ = g - c u: the fluid's rows are off by all that an
 ///   inexact solve has left.
-/// - The coefficient is the wall's impedance across, z_n (Membrane::normal_impedance()). Of a wall that stands in the fluid,
-///   which is no membrane, it is so large that the fluid is all but given its velocity. Where passes lead nowhere the stage
-///   begins anew with that of RobinNeumann.
+/// - The coefficient is the wall's impedance across, z_n (Membrane::normal_impedance()). Where passes lead nowhere the stage
+///   begins anew with that of RobinNeumann or, of a wall that stands in the fluid, which is no membrane, with one so large
+///   that the fluid is all but given its velocity.
 /// - The first guess is the wall's answer to the extrapolated load, in place of the extrapolated displacement: an error e of
 ///   a displacement is a rho_f R e / 2 as a pressure, 1/a being the square of the step, while one of a load stays what it is.
 template <int n>
@@ -44,19 +44,20 @@ class InexactRobinNeumann : public RobinNeumann<n> {
     return Base::datum(Base::wall_displacement(state_->now), load);
   }
 
-  /// Where the wall is light beside the fluid z_n is no good guess of what most modes meet.
-  bool soften() override {
-    if (softened_ || stands_in_the_fluid_) return false;
-    softened_ = true;
+  /// Where the wall is light beside the fluid z_n is no good guess of what most modes meet, and a wall that stands in the
+  /// fluid is no membrane.
+  bool change_coefficient() override {
+    if (changed_) return false;
+    changed_ = true;
     fluid_.forget_jacobian();
-    scene_.profile.count("softer Robin conditions");
+    scene_.profile.count("changed Robin conditions");
     return true;
   }
 
   void keep(Memory& memory) override {
-    double softened = softened_ ? 1 : 0;
-    memory.number_if_there("softened", softened);
-    softened_ = softened != 0;
+    double changed = changed_ ? 1 : 0;
+    memory.number_if_there("changed_coefficient", changed);
+    changed_ = changed != 0;
     Base::keep(memory);
   }
 
@@ -81,8 +82,7 @@ class InexactRobinNeumann : public RobinNeumann<n> {
 
  protected:
   double coefficient(const StepRates& rates) const override {
-    if (softened_) return Base::coefficient(rates);
-    if (stands_in_the_fluid_) return robin_stiffness_in_the_fluid * Base::coefficient(rates);
+    if (changed_) return (stands_in_the_fluid_ ? robin_stiffness_in_the_fluid : 1.0) * Base::coefficient(rates);
     return membrane_.normal_impedance(rates.acceleration_factor, rates.interface.period);
   }
 
@@ -111,7 +111,7 @@ class InexactRobinNeumann : public RobinNeumann<n> {
   }
 
   bool wall_decides_, stands_in_the_fluid_;
-  bool softened_ = false;    ///< the coefficient is the harmonic mean of both impedances
+  bool changed_ = false;     ///< the coefficient is another one than z_n
   bool keeps_rows_ = false;  ///< of the media, which nobody has touched since the last pass
 };
 

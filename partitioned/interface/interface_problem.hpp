@@ -80,7 +80,7 @@ class InterfaceProblem {
   virtual bool stiffen() { return false; }
   /// After passes that lead nowhere: another coefficient, for the rest of the run, with which they may lead somewhere. The
   /// stage is to begin anew then. \returns false when there is none
-  virtual bool soften() { return false; }
+  virtual bool change_coefficient() { return false; }
   /// The stage was accepted with the last pass.
   virtual void accept() {}
   /// All stages of a step have been accepted. What they left is forgotten unless this is called before the next start()

@@ -469,8 +469,8 @@ const std::vector<BadCase>& bad_cases() {
        "relative to the first of the step, default 0.001)"},
       {"ToleranceOne", coupled_case, "tolerance = 1e-6", "tolerance = 1",
        "case.toml:32: partitioned.tolerance: 1 is out of range; give a number > 0 and < 1 (gap between fluid "
-       "and wall relative to the interface's displacement, default 1e-6; block-newton: error_tolerance of its Newton "
-       "iteration, without it those of [monolithic] hold)"},
+       "and wall relative to the interface's displacement, default 1e-6; robin-neumann-inexact and block-newton: error "
+       "of a step relative to what it changes, without it what [monolithic] demands)"},
       {"ResidualToleranceNegative", coupled_case, "newton_tolerance = 1e-8", "residual_tolerance = -1",
        "case.toml:29: monolithic.residual_tolerance: -1 is out of range; give a number >= 0 and < 1 (residual relative "
        "to the first of the step, default 0: not demanded)"},

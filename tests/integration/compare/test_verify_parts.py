@@ -237,10 +237,17 @@ class Tolerances(unittest.TestCase):
         return sorted(governing(program, entries))
 
     def test_case_without_a_scheme_governs_both_drivers_alike(self):
-        for newton in ({}, {"newton_tolerance": 1e-5}, {"error_tolerance": 1e-3}, {"residual_tolerance": 1e-8}):
+        for newton in ({}, {"newton_tolerance": 1e-5}, {"error_tolerance": 1e-3}):
             monolithic, partitioned = (governing(program, {"monolithic": newton}) for program in self.BOTH)
             self.assertEqual(monolithic, partitioned)
         self.assertEqual(governing(self.BOTH[1], {}), {"monolithic.newton_tolerance": 1e-3})
+        residual = {"monolithic": {"residual_tolerance": 1e-8}}
+        demanded = {"monolithic.newton_tolerance": 1e-3, "monolithic.residual_tolerance": 1e-8}
+        self.assertEqual(governing("fsi-monolithic", residual), demanded)
+        block = {**residual, "partitioned": {"scheme": "block-newton"}}
+        self.assertEqual(governing("fsi-partitioned", block), demanded)
+        del demanded["monolithic.residual_tolerance"]  # an interface iteration has no residual of both media
+        self.assertEqual(governing("fsi-partitioned", residual), demanded)
 
     def test_case_without_a_tolerance_stops_by_its_error_in_fixed_steps(self):
         for program in self.BOTH:

@@ -364,7 +364,7 @@ class SchemeByTheScene(FolderTest):
             self.case,
             "-q",
             folder=self.base / "foreign",
-            settings=(*self.settings, "time.end=0.125", "partitioned.robin_coefficient=3"),
+            settings=(*self.settings, "time.end=0.25", "partitioned.robin_coefficient=3"),
         )
         self.assertEqual(process.returncode, 0, process.stderr)
         self.assertEqual(process.stderr.count("partitioned.robin_coefficient has no effect"), 1, process.stderr)

@@ -39,7 +39,7 @@ March march(const Case& setup, int steps) {
   March result;
   result.scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
-  BlockNewtonStepper<3> stepper(*result.scene, loads, setup, chosen_scheme(setup));
+  BlockNewtonStepper<3> stepper(*result.scene, loads, setup);
   State state = result.scene->at_rest();
   for (int n = 0; n < steps; ++n) {
     const StepReport report = stepper.advance(state);

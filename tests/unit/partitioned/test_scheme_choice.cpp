@@ -70,13 +70,15 @@ TEST(SchemeChoice, KeepsWhatTheCaseNames) {
   Case setup = unnamed_case();
   setup.time->step = 100 * answer_time();
   setup.partitioned.scheme = "robin-neumann-imvj";
-  const SchemeChoice choice = chosen_scheme(setup);
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
+  const SchemeChoice choice = chosen_scheme(setup, *scene);
   EXPECT_EQ(choice.name, "robin-neumann-imvj");
   EXPECT_TRUE(choice.named);
 }
 
 TEST(SchemeChoice, IsAnInterfaceIterationWhereTheCaseNamesNone) {
-  const SchemeChoice choice = chosen_scheme(unnamed_case());
+  const auto scene = build_scene<P1Tetrahedron>(unnamed_case(), fluid_and_wall_box(2));
+  const SchemeChoice choice = chosen_scheme(unnamed_case(), *scene);
   EXPECT_EQ(choice.name, "robin-neumann-inexact");
   EXPECT_FALSE(choice.named);
 }
