@@ -28,8 +28,7 @@ constexpr std::size_t window = 6;     // whether so many have brought the gap
 constexpr double progress = 0.5;      // to that part of what it was
 constexpr double slowest = 0.9;       // of the factors by which passes are taken to gain
 constexpr double unknown = 0.5;       // such a factor, of a first change
-constexpr double at_rest =
-    0.1;  // of the demand, on gap and pressure: where next to nothing changes nobody knows its error
+constexpr double at_rest = 0.1;  // of the demand, on gap and pressure, under a load at rest: next to nothing may change
 constexpr double rounding = 1e-13;  // of the displacement: no pass makes less of a gap
 
 /// By which the last of some numbers have fallen, each, in the mean of two.
@@ -53,6 +52,7 @@ InexactStepper<n>::InexactStepper(Scene<n>& scene, const Loads& loads, const Cas
            std::make_unique<InexactRobinNeumann<n>>(scene, setup.partitioned)),
       demand_(demand(setup)),
       force_tolerance_(setup.partitioned.force_tolerance),
+      loaded_at_rest_(scene.initial_load.has_value()),
       stands_in_the_fluid_(wetted_sides_of(scene).stands_in_the_fluid()) {
   if (!setup.partitioned.tolerance)
     Base::add_choice({"partitioned.tolerance", fmt::format("{:g}", demand_),
@@ -100,9 +100,10 @@ bool InexactStepper<n>::agrees(const State& state, const StepData& data, const G
   const double factor = std::min(slowest, std::max(rate(gaps_), changes_.size() > 1 ? rate(changes_) : unknown));
   error_ = changes_.back() * factor / (1 - factor);
   const bool balanced = force_tolerance_ == 0 || pass.force_residual <= force_tolerance_;
-  return balanced && (error_ <= (Base::after_jump() ? share_after_jump : 1) * demand_ ||
-                      std::max(pass.displacement_residual, pass.pressure_residual) <= at_rest * demand_ ||
-                      pass.displacement_residual <= rounding);
+  return balanced &&
+         (error_ <= (Base::after_jump() ? share_after_jump : 1) * demand_ ||
+          (loaded_at_rest_ && std::max(pass.displacement_residual, pass.pressure_residual) <= at_rest * demand_) ||
+          pass.displacement_residual <= rounding);
 }
 
 template <int n>

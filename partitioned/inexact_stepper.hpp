@@ -34,6 +34,7 @@ class InexactStepper : public CouplingStepper<n> {
 
   double demand_;                       ///< part of what a step changes that may be left
   double force_tolerance_;              ///< PartitionedData::force_tolerance
+  bool loaded_at_rest_;                 ///< displacements count from a loaded shape
   bool stands_in_the_fluid_;            ///< the wall
   double error_ = 0;                    ///< estimated, of the last pass
   bool solves_ = false;                 ///< passes of the stage solve both media, as those of the other schemes do

@@ -73,8 +73,6 @@ class BlockNewtonProblem : public NewtonProblem {
   double relative_residual() const;
   /// LinearSolver::decides() of the media, which decide alike.
   std::string linear_decision() const { return wall_.solver().decides(); }
-  /// Whether a pass is one cycle of either medium's preconditioner, in place of a linear solve.
-  bool cycles() const { return fluid_.cycles() && wall_.cycles(); }
   /// Pairs and rank that corrections of the datum are made of.
   int columns() const { return map_.columns(); }
   void keep(Memory& memory);

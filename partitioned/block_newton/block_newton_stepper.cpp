@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <string>
 #include <utility>
 
 #include "fem/dimensions.hpp"
@@ -37,9 +36,9 @@ BlockNewtonStepper<n>::BlockNewtonStepper(Scene<n>& scene, const Loads& loads, c
 template <int n>
 std::optional<CouplingMethod> BlockNewtonStepper<n>::coupling_method() const {
   return CouplingMethod{
-      "block", "one Newton iteration for both media, which needs both Jacobians; a pass, of its linear systems, is " +
-                   std::string(problem_.cycles() ? "one cycle of each medium's preconditioner"
-                                                 : "one linear solve of each medium")};
+      "block",
+      "one Newton iteration for both media, which needs both Jacobians; a pass, of its linear systems, is "
+      "one cycle of each medium's preconditioner where both iterate, else one linear solve of each"};
 }
 
 template <int n>
