@@ -9,7 +9,7 @@
 #include "condensed_solver/plane_judge.hpp"
 #include "fem/dimensions.hpp"
 #include "linear_solvers/general_solvers.hpp"
-#include "system/field_numbering.hpp"
+#include "system/numbering.hpp"
 
 namespace fsi {
 
