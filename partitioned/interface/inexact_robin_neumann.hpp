@@ -39,7 +39,12 @@ class InexactRobinNeumann : public RobinNeumann<n> {
     const std::vector<double> load = Base::extrapolated_load(order);
     if (order > 0 && state_->step > 0) {
       put_load(load);
-      Base::solve_loaded_wall(of_first_guess);
+      const std::vector<double> extrapolated = state_->now.wall;
+      try {
+        Base::solve_loaded_wall(of_first_guess);
+      } catch (const PassFailure&) {  // a guess need not be the best one
+        state_->now.wall = extrapolated;
+      }
     }
     return Base::datum(Base::wall_displacement(state_->now), load);
   }
