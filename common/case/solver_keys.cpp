@@ -121,7 +121,8 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
   using P = PartitionedData;
   using QuasiNewton = QuasiNewtonOptions;
   return {
-      leaf("scheme", optional, "coupling: {}; default robin-neumann-inexact",
+      leaf("scheme", optional,
+           "coupling: {}; default robin-neumann-inexact, iqn-ils where the wall stands in the fluid",
            name_from(at(&P::scheme), coupling_scheme_names())),
       leaf(
           "tolerance", optional,
