@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "mesh/flat_parts.hpp"
+#include "mesh/group_names.hpp"
 #include "mesh/offset_distance.hpp"
 #include "mesh/offset_normals.hpp"
 #include "mesh/point_math.hpp"
@@ -94,7 +95,7 @@ Levels grow_layers(TetrahedralMesh& lumen, const TriangleSurface& wall, const Tr
     facets.push_back(triangle);
   }
   const std::size_t first = lumen.cells.size();
-  Levels levels = raise_levels(levels_of(layers, lumen.cell_region.front()), ways, lumen);
+  Levels levels = raise_levels(levels_of(layers, lumen.region_index(group::fluid)), ways, lumen);
   fill_with_prisms(facets, levels, lumen);
   for (std::size_t c = first; c < lumen.cells.size(); ++c) {
     std::array<Point, 4> corners;

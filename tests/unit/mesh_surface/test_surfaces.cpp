@@ -349,7 +349,6 @@ struct LayersOfATube {
     const auto inner = moved_inwards(wall, layers);
     mesh.nodes = inner.nodes;
     mesh.regions = {"fluid"};
-    mesh.cell_region = {0};
     levels = grow_layers(mesh, wall, inner, layers);
     for (const auto& [a, b, c] : wall.triangles)
       for (const auto& [one, other] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
@@ -358,7 +357,6 @@ struct LayersOfATube {
         curves[std::minmax(levels.nodes.back().at(one), levels.nodes.back().at(other))] = {half[0] / r, half[1] / r,
                                                                                            half[2]};
       }
-    mesh.cell_region.erase(mesh.cell_region.begin());
   }
   double radius(const Point& x) const { return std::hypot(x[0], x[1]); }
 };
