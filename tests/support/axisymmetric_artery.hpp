@@ -15,7 +15,7 @@
 #include "time/euler_newmark.hpp"
 #include "wall/wall_problem.hpp"
 
-namespace fsi::testing {
+namespace fsi::test {
 
 /// The paper's artery as a body of revolution: the same weak forms, assembly, numbering and Newton stepper as in three
 /// dimensions, instantiated for P1AxisymmetricTriangle on a structured grid. With the same element
@@ -157,4 +157,4 @@ class AxisymmetricArtery {
   State state_;
 };
 
-}  // namespace fsi::testing
+}  // namespace fsi::test

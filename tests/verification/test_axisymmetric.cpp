@@ -11,7 +11,7 @@
 #include "support/problems.hpp"
 #include "system/newton_stepper.hpp"
 
-namespace fsi::test {
+namespace fsi::test::axisymmetric_tests {
 
 namespace {
 
@@ -134,4 +134,4 @@ TEST(AxisymmetricPatch, HydrostaticPressureFillsAVesselAtRest) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::axisymmetric_tests

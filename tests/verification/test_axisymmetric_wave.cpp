@@ -8,7 +8,7 @@
 
 #include "support/axisymmetric_artery.hpp"
 
-namespace fsi::testing {
+namespace fsi::test::axisymmetric_wave_tests {
 namespace {
 
 /// Position of the largest pressure in mm, by a parabola through the largest sample and its neighbours.
@@ -74,4 +74,4 @@ TEST(AxisymmetricWave, PeakIsAFewTensOfPascalAndFallsWithRefinement) {
 }
 
 }  // namespace
-}  // namespace fsi::testing
+}  // namespace fsi::test::axisymmetric_wave_tests

@@ -17,7 +17,7 @@
 #include "support/scenes.hpp"
 #include "system/newton_stepper.hpp"
 
-namespace fsi::test {
+namespace fsi::test::backflow_tests {
 
 namespace {
 
@@ -221,4 +221,4 @@ TEST(BackflowAtAnOpening, NewtonsMethodConvergesWhereSomeFluidEntersAndSomeLeave
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::backflow_tests

@@ -13,7 +13,7 @@
 #include "support/meshes.hpp"
 #include "support/problems.hpp"
 
-namespace fsi::test {
+namespace fsi::test::compressible_walls_tests {
 
 namespace {
 
@@ -229,4 +229,4 @@ TEST(CompressibleWalls, CooksMembraneRisesAsPublished) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::compressible_walls_tests

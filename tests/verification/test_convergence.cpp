@@ -12,7 +12,7 @@
 #include "support/meshes.hpp"
 #include "support/problems.hpp"
 
-namespace fsi::test {
+namespace fsi::test::convergence_tests {
 
 namespace {
 
@@ -285,4 +285,4 @@ TEST(WallConvergence, NeoHookeanWithTheDefaultStabilisation) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::convergence_tests

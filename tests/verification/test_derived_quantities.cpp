@@ -27,7 +27,7 @@
 #include "support/vessels.hpp"
 #include "system/system.hpp"
 
-namespace fsi::test {
+namespace fsi::test::derived_quantities_tests {
 
 namespace {
 
@@ -512,4 +512,4 @@ TEST(WallShearOfAPipe, DoesNotDependOnHowItLies) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::derived_quantities_tests

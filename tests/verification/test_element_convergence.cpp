@@ -17,7 +17,7 @@
 #include "wall/hyperelastic.hpp"
 #include "wall/wall_problem.hpp"
 
-namespace fsi::test {
+namespace fsi::test::element_convergence_tests {
 
 namespace {
 
@@ -86,7 +86,7 @@ std::vector<double> errors(const SimplexMesh<Element::dim, Element::order>& mesh
 }
 
 template <class Element>
-class EveryElement : public testing::Test {
+class ConvergenceOfElement : public testing::Test {
  protected:
   static std::vector<int> sides() {
     if (Element::dim == 2) return Element::order == 1 ? std::vector{8, 16, 32} : std::vector{4, 8, 16};
@@ -109,11 +109,11 @@ class EveryElement : public testing::Test {
 // P1Tetrahedron: test_convergence.cpp.
 using OtherElements = testing::Types<P1AxisymmetricTriangle, P1PlaneTriangle, P2P1Tetrahedron, P2P1AxisymmetricTriangle,
                                      P2P1PlaneTriangle>;
-TYPED_TEST_SUITE(EveryElement, OtherElements, ElementNames);
+TYPED_TEST_SUITE(ConvergenceOfElement, OtherElements, ElementNames);
 
 // On a mesh with curved edges that deforms and moves; bodies of revolution touch their axis. The stabilisation of
 // linear elements does not know the load: viscosity makes its tau small.
-TYPED_TEST(EveryElement, FluidConvergesAtItsOrders) {
+TYPED_TEST(ConvergenceOfElement, FluidConvergesAtItsOrders) {
   using Element = TypeParam;
   constexpr int n = Element::components;
   const AleFluid form{/*density=*/1.2, /*viscosity=*/Element::stabilised ? 1.0 : 0.05, false, /*step=*/0.5};
@@ -152,7 +152,7 @@ TYPED_TEST(EveryElement, FluidConvergesAtItsOrders) {
   this->expect_orders(table);
 }
 
-TYPED_TEST(EveryElement, WallConvergesAtItsOrders) {
+TYPED_TEST(ConvergenceOfElement, WallConvergesAtItsOrders) {
   using Element = TypeParam;
   constexpr int n = Element::components;
   const SineField<Element> d{0.15, 0.4};
@@ -184,4 +184,4 @@ TYPED_TEST(EveryElement, WallConvergesAtItsOrders) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::element_convergence_tests

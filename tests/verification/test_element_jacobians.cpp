@@ -14,7 +14,7 @@
 #include "support/every_element.hpp"
 #include "support/mesh_motion_problems.hpp"
 
-namespace fsi::test {
+namespace fsi::test::element_jacobians_tests {
 
 namespace {
 
@@ -113,4 +113,4 @@ TYPED_TEST(EveryElement, MeshMotionsOperatorIsTheDerivativeOfItsWeakForm) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::element_jacobians_tests

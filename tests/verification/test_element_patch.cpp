@@ -12,7 +12,7 @@
 #include "support/random.hpp"
 #include "wall/wall_problem.hpp"
 
-namespace fsi::test {
+namespace fsi::test::element_patch_tests {
 
 namespace {
 
@@ -38,11 +38,11 @@ std::pair<double, double> inside_and_outside(const Mesh& straight, const std::ve
 }
 
 template <class Element>
-class EveryElement : public testing::Test {
+class PatchOfElement : public testing::Test {
  protected:
   static constexpr int side = Element::order == 1 ? 3 : 2;
 };
-TYPED_TEST_SUITE(EveryElement, Elements, ElementNames);
+TYPED_TEST_SUITE(PatchOfElement, Elements, ElementNames);
 
 /// The law's pressure at a homogeneous deformation over -kappa: J - 1, tr E, tr eps or ln J.
 double volume_measure(const Material& layer, const Mat3<Pack>& h) {
@@ -66,7 +66,7 @@ Material with_lame() {
 
 // A homogeneous deformation (in a body of revolution with equal radial and hoop stretch) with p = -kappa g. The energy
 // of the wall is that of a point times the volume.
-TYPED_TEST(EveryElement, WallIsInEquilibriumInHomogeneousStretch) {
+TYPED_TEST(PatchOfElement, WallIsInEquilibriumInHomogeneousStretch) {
   using Element = TypeParam;
   constexpr int n = Element::components;
   const auto straight = irregular_mesh<Element>(this->side, "media");
@@ -118,7 +118,7 @@ TYPED_TEST(EveryElement, WallIsInEquilibriumInHomogeneousStretch) {
 }
 
 // Fluid at rest under constant pressure, on a mesh that has moved anyhow.
-TYPED_TEST(EveryElement, FluidAtRestBearsConstantPressureOnAMovedMesh) {
+TYPED_TEST(PatchOfElement, FluidAtRestBearsConstantPressureOnAMovedMesh) {
   using Element = TypeParam;
   constexpr int n = Element::components;
   const auto straight = irregular_mesh<Element>(this->side);
@@ -138,4 +138,4 @@ TYPED_TEST(EveryElement, FluidAtRestBearsConstantPressureOnAMovedMesh) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::element_patch_tests

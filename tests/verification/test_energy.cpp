@@ -22,7 +22,7 @@
 #include "support/scenes.hpp"
 #include "system/newton_stepper.hpp"
 
-namespace fsi::test {
+namespace fsi::test::energy_tests {
 
 namespace {
 
@@ -525,4 +525,4 @@ TEST(EnergyBalance, DoesNotDependOnTheNumberOfThreads) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::energy_tests

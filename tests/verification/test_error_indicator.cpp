@@ -15,7 +15,7 @@
 #include "support/every_element.hpp"
 #include "support/exact_fields.hpp"
 
-namespace fsi::test {
+namespace fsi::test::error_indicator_tests {
 
 namespace {
 
@@ -287,4 +287,4 @@ TEST(MeanErrors, AreRootMeanSquaresOverTime) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::error_indicator_tests

@@ -19,7 +19,7 @@
 #include "support/meshes.hpp"
 #include "wall/fibre_directions.hpp"
 
-namespace fsi::test {
+namespace fsi::test::fibre_frames_tests {
 
 namespace {
 
@@ -433,4 +433,4 @@ TEST(FibreFrames, AreOrthonormalWhereAPotentialIsFlat) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::fibre_frames_tests

@@ -21,7 +21,7 @@
 #include "support/scenes.hpp"
 #include "system/newton_stepper.hpp"
 
-namespace fsi::test {
+namespace fsi::test::generalised_newtonian_tests {
 
 namespace {
 
@@ -258,4 +258,4 @@ TEST(SteadyFlowOfALaw, PowerLawInAPipeOfTetrahedra) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::generalised_newtonian_tests

@@ -11,7 +11,7 @@
 #include "support/axisymmetric_artery.hpp"
 #include "support/linear_systems.hpp"
 
-namespace fsi::test {
+namespace fsi::test::linear_solvers_tests {
 
 namespace {
 
@@ -84,7 +84,7 @@ TEST_P(EveryLinearSolver, AgreesWithTheFactorisationOfADeformedArtery) {
 }
 
 TEST_P(EveryLinearSolver, SolvesTheAxisymmetricArteryToo) {
-  static fsi::testing::AxisymmetricArtery artery("artery", 1);
+  static fsi::test::AxisymmetricArtery artery("artery", 1);
   static LinearisedScene<2> system(
       [] {
         Case setup = artery.setup();
@@ -147,4 +147,4 @@ TEST(CoupledMultigrid, UndampedSmootherDiverges) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::linear_solvers_tests

@@ -22,7 +22,7 @@
 #include "support/random.hpp"
 #include "wall/wall_problem.hpp"
 
-namespace fsi::test {
+namespace fsi::test::maxwell_walls_tests {
 
 namespace {
 
@@ -346,4 +346,4 @@ TYPED_TEST(MaxwellWallOf, BeginsAtRestUnderPrestress) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::maxwell_walls_tests

@@ -10,7 +10,7 @@
 #include "support/mesh_motion_problems.hpp"
 #include "support/random.hpp"
 
-namespace fsi::test {
+namespace fsi::test::mesh_motions_tests {
 
 namespace {
 
@@ -140,4 +140,4 @@ TYPED_TEST(MeshMotions, OthersHoldWhereTheHarmonicOneFolds) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::mesh_motions_tests

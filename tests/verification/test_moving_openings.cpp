@@ -24,7 +24,7 @@
 #include "support/ring_meshes.hpp"
 #include "system/newton_stepper.hpp"
 
-namespace fsi::test {
+namespace fsi::test::moving_openings_tests {
 
 namespace {
 
@@ -479,4 +479,4 @@ TEST(MovingOpenings, AGivenFlowHasNoProfile) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::moving_openings_tests

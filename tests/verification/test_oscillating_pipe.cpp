@@ -23,7 +23,7 @@
 #include "system/newton_stepper.hpp"
 #include "wall/wall_problem.hpp"
 
-namespace fsi::test {
+namespace fsi::test::oscillating_pipe_tests {
 
 namespace {
 
@@ -346,4 +346,4 @@ TEST_P(OscillatingPipeInTime, VelocityAndPressureOfTheFluidAreOfSecondOrder) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::oscillating_pipe_tests

@@ -12,7 +12,7 @@
 #include "support/problems.hpp"
 #include "support/random.hpp"
 
-namespace fsi::test {
+namespace fsi::test::patch_tests {
 
 namespace {
 
@@ -319,4 +319,4 @@ TEST(MeshMotionPatch, AffineDisplacementIsReproduced) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::patch_tests

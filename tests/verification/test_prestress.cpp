@@ -21,7 +21,7 @@
 #include "system/prestress.hpp"
 #include "system/system.hpp"
 
-namespace fsi::test {
+namespace fsi::test::prestress_tests {
 
 namespace {
 
@@ -76,10 +76,10 @@ std::unique_ptr<Scene<Element::components>> loaded_block(const std::string& mate
 }
 
 template <class Element>
-class EveryElement : public testing::Test {};
-TYPED_TEST_SUITE(EveryElement, Elements, ElementNames);
+class PrestressOfElement : public testing::Test {};
+TYPED_TEST_SUITE(PrestressOfElement, Elements, ElementNames);
 
-TYPED_TEST(EveryElement, EquationsOfTheUnloadedShapeAreDifferentiatedExactly) {
+TYPED_TEST(PrestressOfElement, EquationsOfTheUnloadedShapeAreDifferentiatedExactly) {
   constexpr int n = TypeParam::components;
   const auto scene = loaded_block<TypeParam>("neo-hookean");
   const auto& x = scene->wall->nodes().nodes;
@@ -108,7 +108,7 @@ TYPED_TEST(EveryElement, EquationsOfTheUnloadedShapeAreDifferentiatedExactly) {
 }
 
 // det F from the unloaded shape to the mesh is looked at where the search ends.
-TYPED_TEST(EveryElement, AnUnloadedShapeFarFromTheVolumeIsNone) {
+TYPED_TEST(PrestressOfElement, AnUnloadedShapeFarFromTheVolumeIsNone) {
   const auto scene = loaded_block<TypeParam>("neo-hookean");
   const std::vector<double> loads(scene->wall->supports()->load_count(), 0.4);
   EXPECT_NO_THROW(find_prestress(*scene, 0, loads));
@@ -125,7 +125,7 @@ TYPED_TEST(EveryElement, AnUnloadedShapeFarFromTheVolumeIsNone) {
 }
 
 // What the unloaded shape is found from balances to rounding, whatever the element: no step moves anything.
-TYPED_TEST(EveryElement, IsAtRestUnderItsLoad) {
+TYPED_TEST(PrestressOfElement, IsAtRestUnderItsLoad) {
   constexpr int n = TypeParam::components;
   for (const char* material : {"neo-hookean", "artery"}) {
     SCOPED_TRACE(material);
@@ -249,4 +249,4 @@ TEST(ImagedTube, TooSoftForItsLoadIsRefused) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::prestress_tests

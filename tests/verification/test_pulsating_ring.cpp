@@ -20,7 +20,7 @@
 #include "system/newton_stepper.hpp"
 #include "wall/wall_problem.hpp"
 
-namespace fsi::test {
+namespace fsi::test::pulsating_ring_tests {
 
 namespace {
 
@@ -181,4 +181,4 @@ TEST(PulsatingRing, TaylorHoodTetrahedraBetweenSymmetryPlanesAreOfThirdOrder) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::pulsating_ring_tests

@@ -23,7 +23,7 @@
 #include "support/told_of_stages.hpp"
 #include "system/newton_stepper.hpp"
 
-namespace fsi::test {
+namespace fsi::test::rigid_pipe_flow_tests {
 
 namespace {
 
@@ -239,4 +239,4 @@ TEST(StartUpOfPoiseuilleFlow, IsOfTheOrderOfTheSchemeInTime) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::rigid_pipe_flow_tests

@@ -18,7 +18,7 @@
 #include "support/scenes.hpp"
 #include "system/newton_stepper.hpp"
 
-namespace fsi::test {
+namespace fsi::test::ring_in_time_tests {
 
 namespace {
 
@@ -205,4 +205,4 @@ TEST(RingInTime, PartitionedHasTheMonolithicErrors) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::ring_in_time_tests

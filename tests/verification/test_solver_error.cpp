@@ -17,7 +17,7 @@
 #include "support/scenes.hpp"
 #include "system/newton_stepper.hpp"
 
-namespace fsi::test {
+namespace fsi::test::solver_error_tests {
 
 namespace {
 
@@ -168,4 +168,4 @@ TYPED_TEST(SolverError, OfAQuasiNewtonCouplingIsRightWithinAFactorOfThree) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::solver_error_tests

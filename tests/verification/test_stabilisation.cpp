@@ -12,7 +12,7 @@
 #include "support/meshes.hpp"
 #include "wall/hyperelastic.hpp"
 
-namespace fsi::test {
+namespace fsi::test::stabilisation_tests {
 
 namespace {
 
@@ -115,7 +115,7 @@ TEST(WallStabilisation, KnowsTheInertiaOfWaves) {
 
 /// Root mean square of the second differences along the axis, from node to node, relative to that of the pressure, Pa.
 double roughness(double step, Stabilisation kind) {
-  fsi::testing::AxisymmetricArtery artery("neo-hookean", 1, step, 0.05, kind);
+  fsi::test::AxisymmetricArtery artery("neo-hookean", 1, step, 0.05, kind);
   while (artery.time() < 1.5 - 1e-9) artery.step();
   const auto line = artery.centre_line();
   double bends = 0, squares = 0;
@@ -138,4 +138,4 @@ TEST(ProjectedPressure, StaysSmoothWhenTheStepFalls) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::stabilisation_tests

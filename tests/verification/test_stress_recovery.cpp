@@ -22,7 +22,7 @@
 #include "support/scenes.hpp"
 #include "support/vessels.hpp"
 
-namespace fsi::test {
+namespace fsi::test::stress_recovery_tests {
 
 namespace {
 
@@ -189,4 +189,4 @@ TYPED_TEST(ThinCurvedLayers, HaveTheStressOfTheTubeWithinAPercent) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::stress_recovery_tests

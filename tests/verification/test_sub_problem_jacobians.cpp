@@ -7,7 +7,7 @@
 #include "sub_problem_jacobians.hpp"
 #include "support/meshes.hpp"
 
-namespace fsi::test {
+namespace fsi::test::sub_problem_jacobians_tests {
 
 namespace {
 
@@ -189,4 +189,4 @@ TEST(MeshMotionJacobian, OperatorIsTheDerivativeOfItsWeakForm) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::sub_problem_jacobians_tests

@@ -20,7 +20,7 @@
 #include "support/supported_meshes.hpp"
 #include "system/newton_stepper.hpp"
 
-namespace fsi::test {
+namespace fsi::test::supports_tests {
 
 namespace {
 
@@ -123,8 +123,8 @@ class StaticWall {
 };
 
 template <class Element>
-class EveryElement : public testing::Test {};
-TYPED_TEST_SUITE(EveryElement, Elements, ElementNames);
+class SupportOfElement : public testing::Test {};
+TYPED_TEST_SUITE(SupportOfElement, Elements, ElementNames);
 
 /// A wall with every kind of support in the middle of a step.
 template <class Element>
@@ -163,7 +163,7 @@ struct SupportedState {
   }
 };
 
-TYPED_TEST(EveryElement, SupportsAreDifferentiatedExactly) {
+TYPED_TEST(SupportOfElement, SupportsAreDifferentiatedExactly) {
   constexpr int n = TypeParam::components;
   const SupportedState<TypeParam> state;
   ASSERT_EQ(state.loads.size(), 1u + n);
@@ -181,7 +181,7 @@ TYPED_TEST(EveryElement, SupportsAreDifferentiatedExactly) {
 
 // A traction on one face, planes that hold their normals on those opposite: the stretch is the same everywhere and that
 // of P = mu (lambda - lambda^-2) in three dimensions, mu (lambda - lambda^-3) in plane strain. Elements hold it exactly.
-TYPED_TEST(EveryElement, TractionStretchesABlockHomogeneously) {
+TYPED_TEST(SupportOfElement, TractionStretchesABlockHomogeneously) {
   using Element = TypeParam;
   constexpr int n = Element::components;
   const double mu = 6, stretch = 1.3, rise = Element::dim == 2 && !Element::axisymmetric ? 3 : 2;
@@ -443,4 +443,4 @@ TEST(BlockOnSpringsAndDampers, FollowsItsEquationInTime) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::supports_tests

@@ -16,7 +16,7 @@
 #include "system/system.hpp"
 #include "wall/wall_problem.hpp"
 
-namespace fsi::test {
+namespace fsi::test::system_jacobians_tests {
 
 namespace {
 
@@ -81,7 +81,7 @@ struct Scenario {
       std::vector<Direction<3>> normals(random() > 0 ? 2 : 1);
       for (auto& normal : normals) {
         for (double& x : normal) x = random();
-        const double length = std::sqrt(detail::dot<3>(normal, normal));
+        const double length = std::sqrt(fsi::detail::dot<3>(normal, normal));
         for (double& x : normal) x /= length;
       }
       return hold<3>(normals);
@@ -412,4 +412,4 @@ TEST(JacobianControl, MissingTermsAreDetected) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::system_jacobians_tests

@@ -19,7 +19,7 @@
 #include "support/scenes.hpp"
 #include "system/newton_stepper.hpp"
 
-namespace fsi::test {
+namespace fsi::test::time_convergence_tests {
 
 namespace {
 
@@ -237,4 +237,4 @@ TEST(TimeConvergence, StepsLongAgainstTheWallsTimeAreOfSecondOrder) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::time_convergence_tests

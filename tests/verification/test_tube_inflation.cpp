@@ -18,7 +18,7 @@
 #include "support/scenes.hpp"
 #include "system/system.hpp"
 
-namespace fsi::test {
+namespace fsi::test::tube_inflation_tests {
 
 namespace {
 
@@ -265,4 +265,4 @@ TEST_P(TubeInflation, TaylorHoodTrianglesWithAPressurePerLayerConvergeToTheTable
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::tube_inflation_tests

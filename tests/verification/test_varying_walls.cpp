@@ -21,7 +21,7 @@
 #include "support/supported_meshes.hpp"
 #include "system/newton_stepper.hpp"
 
-namespace fsi::test {
+namespace fsi::test::varying_walls_tests {
 
 namespace {
 
@@ -278,4 +278,4 @@ TEST(VaryingConstants, AreRefusedWhereThereAreNone) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::varying_walls_tests

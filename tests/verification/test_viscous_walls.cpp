@@ -19,7 +19,7 @@
 #include "time/time_schemes.hpp"
 #include "wall/viscous_layers.hpp"
 
-namespace fsi::test {
+namespace fsi::test::viscous_walls_tests {
 
 namespace {
 
@@ -174,4 +174,4 @@ TEST(Creep, DissipatesWhatItDoesNotStore) {
 
 }  // namespace
 
-}  // namespace fsi::test
+}  // namespace fsi::test::viscous_walls_tests
