@@ -86,11 +86,15 @@ double forcing_term(const NewtonOptions& options, bool renewed, double ratio, do
   return std::max(eta, smallest_forcing);
 }
 
-/// Whether an iteration shows that the start was far from the solution, by those before it. The last digits do not count.
+/// Whether an iteration shows that the start was far from the solution, by those before it. The last digits do not count. A kept
+/// Jacobian whose increments are each at most half of the one before leaves all that would follow, a half, a quarter, ... of its
+/// last one, to a new Jacobian's first increment.
 bool strays(const NewtonIteration& now, const std::vector<NewtonIteration>& before) {
-  constexpr double straight = 0.5, small = 0.01;
+  constexpr double straight = 0.5, all_that_follow = straight / (1 - straight), small = 0.01;
   if (now.step < 1) return true;
-  return !before.empty() && now.increment > straight * before.back().increment &&
+  if (before.empty()) return false;
+  const bool takes_over = now.linearised && !before.back().linearised;
+  return now.increment > (takes_over ? all_that_follow : straight) * before.back().increment &&
          now.increment > small * before.front().increment;
 }
 

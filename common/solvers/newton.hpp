@@ -100,7 +100,7 @@ struct NewtonReport {
   double error = 0;
   std::vector<NewtonIteration> iterations;
   std::string failure;  ///< why it stopped, when it did not converge
-  /// The way to the solution was no straight one: a step was cut, or an increment was more than half of the one before.
+  /// The way to the solution was no straight one: a step was cut, or an increment too long beside the one before (newton.cpp).
   /// Where Newton's method contracts so fast from the first increment on, it comes to the solution that is nearest
   /// ([Deuflhard2011], section 5.1); where not, to any.
   bool strayed = false;

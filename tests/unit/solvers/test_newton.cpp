@@ -29,6 +29,10 @@ class Scalar : public NewtonProblem {
     linearised_ = true;
   }
   bool linearised() const override { return linearised_; }
+  void keep(double jacobian) {
+    jacobian_ = jacobian;
+    linearised_ = true;
+  }
   double solve(double) override {
     increment_ = -residual_ / jacobian_;
     return std::abs(increment_);
@@ -73,6 +77,24 @@ TEST(Newton, TellsAStraightWayFromOneThatMayLeadAnywhere) {
   const auto report = newton(cut, full_newton());
   EXPECT_TRUE(report.converged);
   EXPECT_TRUE(report.strayed);
+}
+
+// A kept Jacobian that leaves a part t of the error makes an increment of 1 - t of it, a new one that of t: below the last where
+// t < 1/2, though more than half of it from t = 1/3 on.
+TEST(Newton, GoesStraightFromAKeptJacobianThatContractsByHalf) {
+  for (const double left : {0.4, 0.65}) {
+    Scalar problem([](double x) { return 3 * x - 6; }, [](double) { return 3.0; }, 10);
+    problem.keep(3 / (1 - left));
+    NewtonOptions options;
+    options.keep_contraction = 0.2;
+    const auto report = newton(problem, options);
+    EXPECT_TRUE(report.converged);
+    ASSERT_GE(report.count(), 2);
+    EXPECT_FALSE(report.iterations[0].linearised);
+    EXPECT_TRUE(report.iterations[1].linearised);
+    EXPECT_NEAR(report.iterations[1].increment / report.iterations[0].increment, left / (1 - left), 1e-12);
+    EXPECT_EQ(report.strayed, left > 0.5) << left;
+  }
 }
 
 // Newton for x^2 = 2: e_(k+1) = e_k^2 / (2 x_k), so residual_(k+1) = increment_(k+1)^2 exactly.
