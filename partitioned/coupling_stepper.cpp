@@ -10,32 +10,12 @@
 #include "algebra/vector_operations.hpp"
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
-#include "partitioned/added_mass.hpp"
-#include "partitioned/interface/dirichlet_neumann.hpp"
-#include "partitioned/interface/robin_neumann.hpp"
-#include "partitioned/interface/robin_robin.hpp"
-#include "partitioned/interface/robin_robin_corrected.hpp"
-#include "partitioned/interface/robin_robin_parallel.hpp"
-#include "partitioned/interface/semi_implicit.hpp"
-#include "partitioned/prediction_march.hpp"
-#include "partitioned/scheme_checks.hpp"
+#include "partitioned/interface/interface_problem.hpp"
+#include "partitioned/scheme_choice.hpp"
 #include "system/level_check.hpp"
 #include "system/step_change.hpp"
 
 namespace fsi {
-
-template <int n>
-CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup)
-    : CouplingStepper(scene, loads, setup, coupling_scheme(chosen_scheme(setup, scene).name)) {
-  check_scheme(scheme_, setup, first_order(), scene);
-}
-
-template <int n>
-CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup,
-                                    const CouplingScheme& scheme)
-    : CouplingStepper(scene, loads, setup, scheme, nullptr) {
-  make_problem(scene, loads, setup);
-}
 
 template <int n>
 CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup,
@@ -45,52 +25,19 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
       options_(setup.partitioned),
       agreement_(options_),
       predictor_(setup.time ? setup.time->predictor : std::nullopt),
-      choices_{{"partitioned.scheme", chosen_scheme(setup, scene).name, chosen_scheme(setup, scene).reason}},
+      choices_{{"partitioned.scheme", std::string(scheme.name), chosen_scheme(setup, scene).reason}},
       scheme_(scheme),
       space_(scene.processes(), scene.owned_interface() * n),
       fluid_volumes_(owned_volumes<n>(scene.fluid->space(), scene.fluid->nodes())),
       wall_volumes_(owned_volumes<n>(scene.wall->space(), scene.wall->nodes())),
       accelerator_(scheme_.make_accelerator(options_, space_)),
-      problem_(std::move(problem)),
-      march_(scheme_, options_.velocity_gap),
-      loose_march_(scheme_) {}
+      problem_(std::move(problem)) {}
 
 template <int n>
 std::optional<CouplingMethod> CouplingStepper<n>::coupling_method() const {
-  return CouplingMethod{
-      "interface", scheme_.one_pass ? "a step is one pass: fluid and wall, each solved by itself, nothing iterated"
-                                    : "a pass solves the fluid and then the wall, each by itself to a hundredth of "
-                                      "the interface's residual; traces alone cross the interface"};
-}
-
-template <int n>
-void CouplingStepper<n>::make_problem(Scene<n>& scene, const Loads& loads, const Case& setup) {
-  if (scheme_.loose != Loose::no) {
-    std::unique_ptr<RobinRobin<n>> loose;
-    if (scheme_.loose == Loose::at_once) {
-      loose = std::make_unique<RobinRobinParallel<n>>(scene, options_);
-    } else if (scheme_.loose == Loose::corrected) {
-      auto corrected = std::make_unique<RobinRobinCorrected<n>>(scene, options_);
-      corrected_ = corrected.get();
-      Case of_prediction = setup;
-      of_prediction.partitioned.robin_coefficient =
-          RobinRobinCorrected<n>::factor_of_prediction * corrected->coefficient().value;
-      prediction_ = std::make_unique<PredictionMarch<n>>(scene, loads, of_prediction);
-      loose = std::move(corrected);
-    } else {
-      loose = std::make_unique<RobinRobin<n>>(scene, options_);
-    }
-    const RobinCoefficient& alpha = loose->coefficient();
-    choices_.push_back({"partitioned.robin_coefficient", fmt::format("{:.4g} kPa/(mm/ms)", alpha.value), alpha.reason});
-    loose_ = loose.get();
-    problem_ = std::move(loose);
-  } else if (scheme_.extrapolates_domain) {
-    problem_ = std::make_unique<SemiImplicit<n>>(scene, options_);
-  } else if (scheme_.robin) {
-    problem_ = std::make_unique<RobinNeumann<n>>(scene, options_);
-  } else {
-    problem_ = std::make_unique<DirichletNeumann<n>>(scene, options_);
-  }
+  return CouplingMethod{"interface",
+                        "a pass solves the fluid and then the wall, each by itself to a hundredth of the interface's "
+                        "residual; traces alone cross the interface"};
 }
 
 template <int n>
@@ -106,23 +53,14 @@ void CouplingStepper<n>::solve_step(State& state) {
   report_.outer_iterations = 0;
   coupling_ = {};
   problem_->cost = {};
-  const auto take_back = [this, started_far = starts_far_, march = march_, loose = loose_march_, gap = domain_gap_] {
-    domain_gap_ = gap;
+  const auto abandon = [this, started_far = starts_far_] {
     accelerator_->abandon();
     starts_far_ = started_far;
-    march_ = march;
-    loose_march_ = loose;
+    take_back();
   };
   const int stages = scene_.integrator->stages(state);
   try {
-    problem_->iterate(!one_pass());
-    if (prediction_) {
-      report_.outer_iterations = prediction_->solve_step(state).outer_iterations;
-      corrected_->correct_by(prediction_->stepper().loose_problem()->changes());
-      problem_->cost = prediction_->stepper().loose_problem()->cost;
-      report_.history.push_back(
-          fmt::format("prediction    newton {} + {}", problem_->cost.fluid_newton, problem_->cost.wall_newton));
-    }
+    begin_step(state);
     for (int stage = 0; stage < stages; ++stage) {
       StepData data = loads_.next(state, *scene_.integrator, stage);
       ends_at_jump_ = data.ends_at_jump;
@@ -130,7 +68,7 @@ void CouplingStepper<n>::solve_step(State& state) {
       scene_.settle_openings(state.now, data.rates);
       scene_.settle_branches(state.now, data.rates);
       if (rejects(state, data)) {
-        take_back();
+        abandon();
         return;
       }
       if (keep_balances_) report_.balances.push_back({state.now, data});
@@ -140,16 +78,14 @@ void CouplingStepper<n>::solve_step(State& state) {
         scene_.integrator->accept(state, data);
     }
   } catch (const ConvergenceError&) {  // the run may try again with a shorter step
-    take_back();
+    abandon();
     throw;
   }
 }
 
 template <int n>
-void CouplingStepper<n>::finish_step(const State& state) {
+void CouplingStepper<n>::finish_step(const State&) {
   problem_->finish_step();
-  if (prediction_) prediction_->finish_step();
-  march_.finish(state.step);
   after_jump_ = ends_at_jump_;
 }
 
@@ -183,14 +119,11 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
     }
     log_pass();
     if (std::exchange(first, false)) starts_far_ = coupling_.displacement_residual > far;
-    if (scheme_.one_pass && scheme_.loose == Loose::no)
-      march_.check(state.step + 1, data.time, coupling_, problem_->movement());
-    if (one_pass() || agrees(state, data, good)) {
-      if (scheme_.loose != Loose::no) loose_march_.add(coupling_.displacement_gap, problem_->movement());
+    judge_pass(state, data);
+    if (!iterates() || agrees(state, data, good)) {
       coupling_.domain_gap = problem_->domain_gap();
-      if (scheme_.extrapolates_domain) domain_gap_ = std::max(domain_gap_, coupling_.domain_gap);
       report_.solver_error = std::max(report_.solver_error, estimated_error(state, data, good));
-      accept(x, pass);
+      accept(state, data, x, pass);
       return;
     }
     if (leads_nowhere() && problem_->change_coefficient()) {
@@ -208,8 +141,7 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
 template <int n>
 std::vector<double> CouplingStepper<n>::start_stage(State& state, StepData& data) {
   order_ = first_order();
-  if (scheme_.one_pass && scheme_.loose == Loose::no && state.step == 0 && data.rates.stage == 0)
-    check_added_mass(state, data);
+  begin_stage(state, data);
   problem_->start_from_prediction(state, data, order_);
   note_period(data.rates.interface.period);
   accelerator_->start();
@@ -221,7 +153,7 @@ template <int n>
 Pass CouplingStepper<n>::measured_pass(const std::vector<double>& x, const PassAccuracy& accuracy) {
   Pass pass = problem_->pass(x, accuracy);
   measure(pass);
-  if (one_pass() || !refines() || !agreement_.met_by(coupling_)) return pass;
+  if (!iterates() || !refines() || !agreement_.met_by(coupling_)) return pass;
   if (!accuracy.linearised_wall && !agreement_.needs_tighter(accuracy.tolerance, coupling_)) return pass;
   pass = problem_->refine({agreement_.final_tolerance(coupling_), false});
   measure(pass);
@@ -240,7 +172,7 @@ void CouplingStepper<n>::correct(const Pass& pass, std::vector<double>& x, PassA
 
 template <int n>
 PassAccuracy CouplingStepper<n>::first_accuracy() {
-  if (one_pass()) return {agreement_.final_tolerance(coupling_), false};
+  if (!iterates()) return {agreement_.final_tolerance(coupling_), false};
   return {agreement_.first_tolerance(coupling_), starts_far_};
 }
 
@@ -271,31 +203,13 @@ void CouplingStepper<n>::keep(Memory& memory) {
   memory.number_if_there("starts_far", starts_far);
   starts_far_ = starts_far != 0;
   memory.number_if_there("interface_period", period_);
-  if (scheme_.extrapolates_domain) memory.number_if_there("domain_gap", domain_gap_);
-  if (scheme_.loose != Loose::no) {
-    loose_march_.keep(memory);
-  }
-  if (scheme_.loose != Loose::no || !refines()) {
-    double jumped = after_jump_ ? 1 : 0;
-    memory.number_if_there("after_jump", jumped);
-    after_jump_ = jumped != 0;
-  }
-  if (scheme_.loose != Loose::no) {
-    if (prediction_) prediction_->keep(memory);
-  } else if (scheme_.one_pass || memory.recalls())
-    march_.keep(memory);
 }
 
 template <int n>
-std::string CouplingStepper<n>::unchecked_domain() const {
-  const double part = domain_gap_ / problem_->radius();
-  if (!(part > small_domain_gap)) return {};
-  return fmt::format(
-      "the {} coupling extrapolates the fluid's domain, which has missed the wall by {:.2g} of the vessel's radius "
-      "(root "
-      "mean square over the interface, more than {:g}); take a smaller time.step, or compare with partitioned.scheme = "
-      "\"block-newton\"",
-      scheme_.name, part, small_domain_gap);
+void CouplingStepper<n>::keep_jump(Memory& memory) {
+  double jumped = after_jump_ ? 1 : 0;
+  memory.number_if_there("after_jump", jumped);
+  after_jump_ = jumped != 0;
 }
 
 template <int n>
@@ -312,14 +226,14 @@ void CouplingStepper<n>::note_period(double period) {
 }
 
 template <int n>
+double CouplingStepper<n>::size_of(const Pass& pass) const {
+  return space_.norm(pass.displacement);
+}
+
+template <int n>
 void CouplingStepper<n>::measure(const Pass& pass) {
   coupling_.displacement_gap = space_.norm(pass.residual);
-  double size = space_.norm(pass.displacement);
-  if (scheme_.loose != Loose::no) {  // in the first step the fluid may move alone
-    std::vector<double> of_fluid = pass.displacement;
-    axpy(-1, pass.residual, of_fluid);
-    size = std::max(size, space_.norm(of_fluid));
-  }
+  double size = size_of(pass);
   if (scene_.initial_load)  // displacements count from a loaded shape, also where none move
     if (const auto numbers = space_.size(pass.displacement); numbers > 0)
       size = std::max(size, smallest_motion * problem_->pressure_of_thickness() / problem_->pressure_per_gap() *
@@ -366,20 +280,12 @@ std::string CouplingStepper<n>::distance_from_demand() const {
 }
 
 template <int n>
-void CouplingStepper<n>::check_added_mass(const State& state, const StepData& data) {
-  if (data.rates.is_static()) return;
-  const double ratio = added_mass(scene_, *problem_, space_, order_, state, data);
-  report_.history.push_back(fmt::format("added mass over the wall's answer: {:.3g}", ratio));
-  march_.require_small(ratio, order_, data.time);
-}
-
-template <int n>
 void CouplingStepper<n>::retreat(const PassFailure& failure, State& state, StepData& data, std::vector<double>& x,
                                  const GoodPass& good) {
   const bool extrapolated = !good.found && order_ > 0 && state.step > 0;
   ++coupling_.failed_passes;
   report_.history.push_back(fmt::format("coupling {:3d}  no answer from {}", passes_, failure.what()));
-  const bool more = !one_pass() && coupling_.failed_passes <= most_retreats;
+  const bool more = iterates() && coupling_.failed_passes <= most_retreats;
   const bool stiffened = more && !good.found && !extrapolated && problem_->stiffen();
   if (!more || (!good.found && !extrapolated && !stiffened)) {
     for (const auto& line : failure.history()) report_.history.push_back(line);
@@ -388,8 +294,7 @@ void CouplingStepper<n>::retreat(const PassFailure& failure, State& state, StepD
         fmt::format("step {} (to t = {:g} ms): the {} coupling found no answer in pass {}: {}", state.step + 1,
                     data.time, scheme_.name, passes_, failure.what()) +
             (valve.empty() ? "" : "; " + valve),
-        (scheme_.one_pass ? scheme_.advice : "a smaller partitioned.relaxation or a smaller time.step") +
-            (valve.empty() ? std::string() : std::string(", or ") + JoinedOpenings<n>::remedy));
+        advice_without_answer() + (valve.empty() ? std::string() : std::string(", or ") + JoinedOpenings<n>::remedy));
   }
   if (extrapolated || stiffened) {
     order_ = 0;  // the extrapolated start can be the culprit, after a jump of the load for example
@@ -420,14 +325,14 @@ double CouplingStepper<n>::estimated_error(const State& state, const StepData& d
 }
 
 template <int n>
-void CouplingStepper<n>::accept(const std::vector<double>& x, const Pass& pass) {
-  if (scheme_.loose == Loose::no || !one_pass()) {
+void CouplingStepper<n>::accept(State& state, const StepData& data, const std::vector<double>& x, const Pass& pass) {
+  if (iterates()) {
     const Stopwatch watch(coupling_.algebra_seconds);
     accelerator_->accept(x, pass.residual);
   }
   if (!refines()) coupling_.force_residual = problem_->force_residual();
   problem_->accept();
-  if (scheme_.one_pass) problem_->follow_wall();
+  finish_stage(state, data);
   const CouplingCost& cost = problem_->cost;
   report_.newton_iterations = cost.fluid_newton + cost.wall_newton;
   report_.linear_iterations = cost.fluid_linear + cost.wall_linear;

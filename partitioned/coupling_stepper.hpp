@@ -8,12 +8,9 @@
 
 #include "case/case.hpp"
 #include "partitioned/agreement.hpp"
+#include "partitioned/coupling_scheme.hpp"
 #include "partitioned/divergence.hpp"
 #include "partitioned/interface_space.hpp"
-#include "partitioned/loose_march.hpp"
-#include "partitioned/one_pass_march.hpp"
-#include "partitioned/scheme_choice.hpp"
-#include "partitioned/schemes.hpp"
 #include "scene/loads.hpp"
 #include "scene/scene.hpp"
 #include "time/stepper.hpp"
@@ -22,25 +19,19 @@ namespace fsi {
 
 template <int n>
 class InterfaceProblem;
-template <int n>
-class PredictionMarch;
-template <int n>
-class RobinRobin;
-template <int n>
-class RobinRobinCorrected;
 struct Pass;
 struct PassAccuracy;
 class PassFailure;
 
-/// Advances fluid and wall in turn: passes through the sub-problems from an extrapolated guess, accelerated by the
-/// case's scheme, until they agree on the interface.
+/// Advances fluid and wall in turn: passes through the sub-problems from an extrapolated guess, accelerated, until they agree
+/// on the interface. What a scheme does otherwise is a class of its own (schemes/), which overrides the steps below.
 template <int n>
 class CouplingStepper : public Stepper {
  public:
-  CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup);
-  /// With another scheme than the case's, which must outlive this and is not checked.
-  CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme);
-
+  /// \param scheme   must outlive this
+  /// \param problem  what a pass does
+  CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme,
+                  std::unique_ptr<InterfaceProblem<n>> problem);
   ~CouplingStepper() override;
 
   std::optional<CouplingMethod> coupling_method() const override;
@@ -51,25 +42,11 @@ class CouplingStepper : public Stepper {
   /// advance() in two: the step is solved, unless the judge rejects it (report().rejected),
   void solve_step(State& state);
   /// and is the one that the next begins with.
-  void finish_step(const State& state);
-  /// Of a scheme of Robin-Robin, else null.
-  const RobinRobin<n>* loose_problem() const { return loose_; }
-
-  /// Without iterations a march fails because it is unstable, which smaller steps do not mend.
-  bool can_retry() const override { return !scheme_.one_pass || scheme_.loose != Loose::no; }
-  std::string unchecked() const override {
-    if (scheme_.loose != Loose::no) return loose_march_.unchecked();
-    if (scheme_.extrapolates_domain) return unchecked_domain();
-    return scheme_.one_pass ? march_.unchecked() : std::string();
-  }
+  virtual void finish_step(const State& state);
 
   void keep(Memory& memory) override;
 
  protected:
-  /// With passes of another kind than those the scheme's row tells of.
-  CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme,
-                  std::unique_ptr<InterfaceProblem<n>> problem);
-
   /// The last pass of a stage that succeeded.
   struct GoodPass {
     bool found = false;
@@ -77,6 +54,27 @@ class CouplingStepper : public Stepper {
     Solution fields;
     double gap = 0;  ///< |r(x)|, mm
   };
+
+  /// Whether passes go on until fluid and wall agree; else the first ends the step.
+  virtual bool iterates() const { return true; }
+  /// Order of the extrapolated start of steps where the case names none. Iterations are the fewer the closer they start.
+  virtual int standard_order() const { return 2; }
+  /// Before the stages of a step. What it and those below change of the scheme's own is taken back by take_back(), where the
+  /// step has no end: the run may try again with a shorter one.
+  virtual void begin_step(const State& /*state*/) {}
+  virtual void take_back() {}
+  /// Before the first guess of a stage. \throws ConvergenceError where the scheme sees that it would fail
+  virtual void begin_stage(const State& /*state*/, const StepData& /*data*/) {}
+  /// After a pass. \throws ConvergenceError where it shows that the scheme fails
+  virtual void judge_pass(const State& /*state*/, const StepData& /*data*/) {}
+  /// The last pass ends the stage: what remains to be done to its fields.
+  virtual void finish_stage(State& /*state*/, const StepData& /*data*/) {}
+  /// The interface's displacement that a gap is relative to, mm, Euclidean norm over it.
+  virtual double size_of(const Pass& pass) const;
+  /// What helps where a pass has no answer.
+  virtual std::string advice_without_answer() const {
+    return "a smaller partitioned.relaxation or a smaller time.step";
+  }
 
   /// How well the media are solved in the first pass of a stage,
   virtual PassAccuracy first_accuracy();
@@ -97,10 +95,19 @@ class CouplingStepper : public Stepper {
   /// What fluid and wall differ by between the fields of that pass and now, relative to what the step changes.
   double change_since(const State& state, const StepData& data, const GoodPass& good) const;
 
+  Scene<n>& scene() const { return scene_; }
+  const InterfaceSpace& space() const { return space_; }
+  InterfaceProblem<n>& problem() const { return *problem_; }
+  const CouplingScheme& scheme() const { return scheme_; }
+  CouplingReport& coupling() { return coupling_; }
   const CouplingReport& coupling() const { return coupling_; }
   int passes() const { return passes_; }
+  /// Order of the extrapolated start.
+  int first_order() const { return predictor_.value_or(standard_order()); }
   /// Whether the load has jumped before the step, or nothing was before it.
   bool after_jump() const { return after_jump_; }
+  /// For a scheme that goes by after_jump(), which a restart must know.
+  void keep_jump(Memory& memory);
   void add_choice(StepperChoice choice) { choices_.push_back(std::move(choice)); }
 
  private:
@@ -115,12 +122,6 @@ class CouplingStepper : public Stepper {
   /// Of the wall's thickness: how small motions of a wall under prestress still have a relative error, each component's
   /// root mean square. Below that they are compared with this.
   static constexpr double smallest_motion = 1e-5;
-
-  /// Iterations are the fewer the closer they start. Without them a step is its extrapolation, and the second order
-  /// makes it unstable at three times the wall's mass (docs/coupling.md).
-  int first_order() const { return predictor_.value_or(scheme_.one_pass ? 1 : 2); }
-
-  void make_problem(Scene<n>& scene, const Loads& loads, const Case& setup);
 
   /// Solves a step, or one stage of it; leaves its solution in state.now.
   void advance_stage(State& state, StepData& data);
@@ -139,22 +140,11 @@ class CouplingStepper : public Stepper {
 
   [[noreturn]] void give_up(const State& state, const StepData& data, const char* what) const;
 
-  /// Before the first step of one pass. \throws ConvergenceError where it would be unstable
-  void check_added_mass(const State& state, const StepData& data);
-
   /// After a pass without an answer: back to the last good iterate and a part of the way again; without one, back to
   /// the last time level. \throws ConvergenceError when that has been tried often enough
   void retreat(const PassFailure& failure, State& state, StepData& data, std::vector<double>& x, const GoodPass& good);
 
-  void accept(const std::vector<double>& x, const Pass& pass);
-
-  /// Part of the vessel's radius up to which the fluid's domain may miss the wall (docs/coupling.md).
-  static constexpr double small_domain_gap = 0.005;
-  std::string unchecked_domain() const;
-
-  /// Whether the step is one pass. Robin-Robin schemes iterate where the load has jumped: else what one pass lacks of the
-  /// jump swings between fluid and wall for long, the faster the shorter the steps (docs/theory.md, section 10.5).
-  bool one_pass() const { return scheme_.one_pass && !(scheme_.loose != Loose::no && after_jump_); }
+  void accept(State& state, const StepData& data, const std::vector<double>& x, const Pass& pass);
 
   Scene<n>& scene_;
   State spare_;  ///< storage
@@ -168,15 +158,9 @@ class CouplingStepper : public Stepper {
   std::vector<double> fluid_volumes_, wall_volumes_;  ///< of the nodes, mm^3
   std::unique_ptr<Accelerator> accelerator_;
   std::unique_ptr<InterfaceProblem<n>> problem_;
-  RobinRobin<n>* loose_ = nullptr;                  ///< the problem, of a Robin-Robin scheme
-  RobinRobinCorrected<n>* corrected_ = nullptr;     ///< the problem, of that scheme
-  std::unique_ptr<PredictionMarch<n>> prediction_;  ///< its prediction
   CouplingReport coupling_;
   DivergenceMonitor monitor_;  ///< of the step's passes
-  OnePassMarch march_;         ///< of the steps, with one pass each
-  LooseMarch loose_march_;     ///< of the steps of Robin-Robin schemes
   bool after_jump_ = true;     ///< the load has jumped before the step, or nothing was before it
-  double domain_gap_ = 0;      ///< mm, largest of the steps
   bool ends_at_jump_ = false;  ///< of the step in progress
   int passes_ = 0;             ///< of the stage in progress
   int order_ = 0;              ///< of the extrapolated start

@@ -1,54 +1,177 @@
 #include "partitioned/registry.hpp"
 
 #include <array>
+#include <memory>
 #include <string_view>
 
+#include "base/error.hpp"
 #include "base/names.hpp"
 #include "fem/dimensions.hpp"
+#include "partitioned/accelerators/iqn_ils.hpp"
+#include "partitioned/accelerators/iqn_imvj.hpp"
+#include "partitioned/accelerators/newton_krylov.hpp"
+#include "partitioned/accelerators/regularised_iqn.hpp"
+#include "partitioned/accelerators/relaxation.hpp"
 #include "partitioned/block_newton/block_newton_stepper.hpp"
-#include "partitioned/coupling_stepper.hpp"
-#include "partitioned/inexact_stepper.hpp"
 #include "partitioned/scheme_checks.hpp"
 #include "partitioned/scheme_choice.hpp"
+#include "partitioned/schemes/explicit_stepper.hpp"
+#include "partitioned/schemes/inexact_stepper.hpp"
+#include "partitioned/schemes/iterating_steppers.hpp"
+#include "partitioned/schemes/richardson_stepper.hpp"
+#include "partitioned/schemes/robin_robin_corrected_stepper.hpp"
+#include "partitioned/schemes/robin_robin_stepper.hpp"
+#include "partitioned/schemes/semi_implicit_stepper.hpp"
 
 namespace fsi {
 
 namespace {
 
-template <int n>
-using Make = std::unique_ptr<Stepper> (*)(Scene<n>&, const Loads&, const Case&);
+constexpr double dirichlet_factor = 0.01;  // below the coarse artery's limit of about 0.014
+constexpr double largest_aitken_start = 0.05;
+constexpr double robin_factor = 1;  // plain Robin-Neumann needs no relaxation
 
-template <class Made, int n>
-std::unique_ptr<Stepper> make(Scene<n>& scene, const Loads& loads, const Case& setup) {
-  return std::make_unique<Made>(scene, loads, setup);
+double factor_or(double fallback, const PartitionedData& options) {
+  return options.relaxation.value_or(fallback);
 }
 
-/// A scheme with a stepper of its own; all others are rows of schemes.cpp for CouplingStepper.
-struct OwnStepper {
-  std::string_view scheme;
+/// Dirichlet-Neumann overshoots what the differences have not explained yet, by some factor of one to ten.
+constexpr double dirichlet_mixing = 0.5, robin_mixing = 1;
+
+QuasiNewtonOptions quasi_newton(const PartitionedData& o, double factor, double mixing) {
+  QuasiNewtonOptions options = o.quasi_newton;
+  options.relaxation = factor_or(factor, o);
+  options.mixing = mixing;
+  return options;
+}
+QuasiNewtonOptions dirichlet_quasi_newton(const PartitionedData& o) {
+  return quasi_newton(o, dirichlet_factor, dirichlet_mixing);
+}
+QuasiNewtonOptions robin_quasi_newton(const PartitionedData& o) {
+  return quasi_newton(o, robin_factor, robin_mixing);
+}
+
+using Options = PartitionedData;
+using Space = InterfaceSpace;
+using Made = std::unique_ptr<Accelerator>;
+
+Made constant(const Options& o, const Space&) {
+  return std::make_unique<ConstantRelaxation>(factor_or(dirichlet_factor, o));
+}
+Made aitken(const Options& o, const Space& space) {
+  return std::make_unique<AitkenRelaxation>(factor_or(dirichlet_factor, o), largest_aitken_start, space);
+}
+Made iqn_ils(const Options& o, const Space& space) {
+  return std::make_unique<IqnIls>(dirichlet_quasi_newton(o), space);
+}
+Made iqn_imvj(const Options& o, const Space& space) {
+  return std::make_unique<IqnImvj>(dirichlet_quasi_newton(o), space);
+}
+Made newton_krylov(const Options& o, const Space& space) {
+  return std::make_unique<NewtonKrylov>(dirichlet_quasi_newton(o), space);
+}
+Made robin(const Options& o, const Space&) {
+  return std::make_unique<ConstantRelaxation>(factor_or(robin_factor, o));
+}
+Made robin_iqn(const Options& o, const Space& space) {
+  return std::make_unique<IqnIls>(robin_quasi_newton(o), space);
+}
+Made regularised(const Options& o, const Space& space) {
+  return std::make_unique<RegularisedIqn>(robin_quasi_newton(o), space);
+}
+Made robin_imvj(const Options& o, const Space& space) {
+  return std::make_unique<IqnImvj>(robin_quasi_newton(o), space);
+}
+
+template <int n>
+using Make = std::unique_ptr<Stepper> (*)(Scene<n>&, const Loads&, const Case&, const CouplingScheme&);
+
+template <class Made, int n>
+std::unique_ptr<Stepper> make(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme) {
+  return std::make_unique<Made>(scene, loads, setup, scheme);
+}
+
+/// The class that makes steps in the plane and in space.
+struct Maker {
   Make<2> in_plane;
   Make<3> in_space;
 };
+template <template <int> class Made>
+constexpr Maker by{make<Made<2>, 2>, make<Made<3>, 3>};
 
-constexpr std::array<OwnStepper, 2> own_steppers{{
-    {"block-newton", make<BlockNewtonStepper<2>, 2>, make<BlockNewtonStepper<3>, 3>},
-    {"robin-neumann-inexact", make<InexactStepper<2>, 2>, make<InexactStepper<3>, 3>},
+struct Row {
+  CouplingScheme scheme;
+  Maker make;
+};
+
+constexpr auto other = "a larger partitioned.max_iterations, a smaller time.step, or the monolithic driver";
+constexpr auto loose = "a smaller time.step, or a scheme that iterates: partitioned.scheme = \"block-newton\"";
+constexpr auto none = nullptr;
+constexpr std::array<Row, 16> rows{{
+    {{"aitken", aitken, "partitioned.scheme = \"iqn-ils\", or a larger partitioned.max_iterations", option::of_passes},
+     by<DirichletNeumannStepper>},
+    {{"block-newton", none, "a smaller time.step or load, or the monolithic driver", option::of_differences},
+     by<BlockNewtonStepper>},
+    {{"constant", constant, "partitioned.scheme = \"iqn-ils\", or a smaller partitioned.relaxation", option::of_passes},
+     by<DirichletNeumannStepper>},
+    {{"explicit", constant,
+      "a scheme that iterates: partitioned.scheme = \"iqn-ils\"; one pass a step is unstable where the fluid's added "
+      "mass exceeds the wall's",
+      option::of_passes | option::velocity_gap},
+     by<ExplicitStepper>},
+    {{"iqn-ils", iqn_ils, other, option::of_passes | option::of_differences}, by<DirichletNeumannStepper>},
+    {{"iqn-imvj", iqn_imvj, other, option::of_passes | option::of_differences}, by<DirichletNeumannStepper>},
+    {{"newton-krylov", newton_krylov, other, option::of_passes | option::of_differences}, by<DirichletNeumannStepper>},
+    {{"richardson", constant,
+      "a smaller partitioned.relaxation, or a scheme that iterates: partitioned.scheme = \"robin-neumann-inexact\"",
+      option::of_passes | option::velocity_gap},
+     by<RichardsonStepper>},
+    {{"robin-neumann", robin, "partitioned.scheme = \"robin-neumann-iqn\", or a smaller time.step", option::of_passes},
+     by<RobinNeumannStepper>},
+    {{"robin-neumann-inexact", regularised,
+      "a smaller time.step, partitioned.scheme = \"block-newton\", which needs both media's Jacobians, or the "
+      "monolithic driver",
+      option::relaxation | option::force_tolerance | option::columns},
+     by<InexactStepper>},
+    {{"robin-neumann-iqn", robin_iqn, other, option::of_passes | option::of_differences}, by<RobinNeumannStepper>},
+    {{"robin-neumann-imvj", robin_imvj, other, option::of_passes | option::of_differences}, by<RobinNeumannStepper>},
+    {{"robin-robin", robin_iqn, loose, option::of_passes | option::of_differences | option::robin_coefficient},
+     by<RobinRobinStepper>},
+    {{"robin-robin-corrected", robin_iqn, loose,
+      option::of_passes | option::of_differences | option::robin_coefficient},
+     by<RobinRobinCorrectedStepper>},
+    {{"robin-robin-parallel", robin_iqn, loose, option::of_passes | option::of_differences | option::robin_coefficient},
+     by<RobinRobinParallelStepper>},
+    {{"semi-implicit", robin_iqn, other, option::of_passes | option::of_differences}, by<SemiImplicitStepper>},
 }};
+
+constexpr bool names_are_those_of_cases() {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].scheme.name != coupling_scheme_list[i]) return false;
+  return rows.size() == coupling_scheme_list.size();
+}
+static_assert(names_are_those_of_cases(), "case/choices.hpp owns these names");
+
+const Row& row_of(const std::string& name) {
+  for (const Row& row : rows)
+    if (row.scheme.name == name) return row;
+  refuse_name("partitioned.scheme", name, coupling_scheme_names());
+}
 
 }  // namespace
 
+const CouplingScheme& coupling_scheme(const std::string& name) {
+  return row_of(name).scheme;
+}
+
 template <int n>
 std::unique_ptr<Stepper> make_coupling_stepper(Scene<n>& scene, const Loads& loads, const Case& setup) {
-  const SchemeChoice choice = chosen_scheme(setup, scene);
-  note_foreign_options(choice.name, setup, scene.notices);
-  for (const OwnStepper& own : own_steppers) {
-    if (own.scheme != choice.name) continue;
-    if constexpr (n == 2)
-      return own.in_plane(scene, loads, setup);
-    else
-      return own.in_space(scene, loads, setup);
-  }
-  return std::make_unique<CouplingStepper<n>>(scene, loads, setup);
+  const Row& row = row_of(chosen_scheme(setup, scene).name);
+  note_foreign_options(row.scheme, setup, scene.notices);
+  if constexpr (n == 2)
+    return row.make.in_plane(scene, loads, setup, row.scheme);
+  else
+    return row.make.in_space(scene, loads, setup, row.scheme);
 }
 
 #define FSI_INSTANTIATE(n) \

@@ -1,13 +1,18 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "case/case.hpp"
+#include "partitioned/coupling_scheme.hpp"
 #include "scene/loads.hpp"
 #include "scene/scene.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {
+
+/// \throws InputError for a name that is not in the table
+const CouplingScheme& coupling_scheme(const std::string& name);
 
 /// The stepper of the coupling scheme that a case names, or has without a name, for a scene with fluid and wall.
 /// \throws InputError where the scheme cannot serve the case

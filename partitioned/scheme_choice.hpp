@@ -29,10 +29,6 @@ struct StepsOverAnswer {
 template <int n>
 std::optional<StepsOverAnswer> steps_over_answer(const Case& setup, const Scene<n>& scene);
 
-/// Of the Robin condition over the membrane's where the wall stands in the fluid: it is no membrane then, and its added mass
-/// does no harm to a fluid that is all but given its velocity.
-inline constexpr double robin_stiffness_in_the_fluid = 1e4;
-
 /// How much stiffer the Robin condition of block Newton is than the membrane's inertia and hoop (Membrane::impedance).
 struct RobinStiffness {
   double factor;

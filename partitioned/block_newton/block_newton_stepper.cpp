@@ -20,12 +20,12 @@ NewtonOptions newton_options(const Case& setup) {
 
 template <int n>
 BlockNewtonStepper<n>::BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup,
-                                          const SchemeChoice& choice)
+                                          const CouplingScheme& scheme)
     : NewtonMarch<n>(scene, loads, newton_options(setup)),
       stiffness_(robin_stiffness(setup, scene)),
-      choices_{{"partitioned.scheme", choice.name,
-                fmt::format("{}; its Robin condition is {:g} times the membrane's, as {}", choice.reason,
-                            stiffness_.factor, stiffness_.reason)}},
+      choices_{{"partitioned.scheme", std::string(scheme.name),
+                fmt::format("{}; its Robin condition is {:g} times the membrane's, as {}",
+                            chosen_scheme(setup, scene).reason, stiffness_.factor, stiffness_.reason)}},
       problem_(scene, setup.partitioned, stiffness_.factor) {
   if (const std::string decision = problem_.linear_decision(); !decision.empty())
     choices_.push_back({"partitioned.direct_below", "by the wall", decision});

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "partitioned/block_newton/block_newton_problem.hpp"
+#include "partitioned/coupling_scheme.hpp"
 #include "partitioned/scheme_choice.hpp"
 #include "system/newton_stepper.hpp"
 
@@ -14,9 +15,7 @@ namespace fsi {
 template <int n>
 class BlockNewtonStepper : public NewtonMarch<n> {
  public:
-  BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup)
-      : BlockNewtonStepper(scene, loads, setup, chosen_scheme(setup, scene)) {}
-  BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const SchemeChoice& choice);
+  BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme);
 
   std::optional<CouplingMethod> coupling_method() const override;
   bool reports_coupling() const override { return true; }

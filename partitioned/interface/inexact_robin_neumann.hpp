@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "partitioned/interface/robin_neumann.hpp"
-#include "partitioned/interface/wetted_sides.hpp"
 #include "partitioned/medium_solvers.hpp"
 #include "partitioned/scheme_choice.hpp"
 
@@ -14,8 +13,7 @@ namespace fsi {
 /// - The wall's load is what the Robin condition says it is, lambda~ = g - c u: the fluid's rows are off by all that an
 ///   inexact solve has left.
 /// - The coefficient is the wall's impedance across, z_n (Membrane::normal_impedance()). Where passes lead nowhere the stage
-///   begins anew with that of RobinNeumann or, of a wall that stands in the fluid, which is no membrane, with one so large
-///   that the fluid is all but given its velocity.
+///   begins anew with that of RobinNeumann.
 /// - The first guess is the wall's answer to the extrapolated load, in place of the extrapolated displacement: an error e of
 ///   a displacement is a rho_f R e / 2 as a pressure, 1/a being the square of the step, while one of a load stays what it is.
 template <int n>
@@ -49,8 +47,7 @@ class InexactRobinNeumann : public RobinNeumann<n> {
     return Base::datum(Base::wall_displacement(state_->now), load);
   }
 
-  /// Where the wall is light beside the fluid z_n is no good guess of what most modes meet, and a wall that stands in the
-  /// fluid is no membrane.
+  /// Where the wall is light beside the fluid z_n is no good guess of what most modes meet.
   bool change_coefficient() override {
     if (changed_) return false;
     changed_ = true;
@@ -87,7 +84,7 @@ class InexactRobinNeumann : public RobinNeumann<n> {
 
  protected:
   double coefficient(const StepRates& rates) const override {
-    if (changed_) return (stands_in_the_fluid_ ? robin_stiffness_in_the_fluid : 1.0) * Base::coefficient(rates);
+    if (changed_) return Base::coefficient(rates);
     return membrane_.normal_impedance(rates.acceleration_factor, rates.interface.period);
   }
 
@@ -105,9 +102,7 @@ class InexactRobinNeumann : public RobinNeumann<n> {
   static constexpr PassAccuracy of_first_guess{0, false, 3, 0.01};
 
   InexactRobinNeumann(Scene<n>& scene, const MediumSolvers<n>& solvers)
-      : Base(scene, number_fluid_and_domain(scene), solvers),
-        wall_decides_(solvers.wall_decides),
-        stands_in_the_fluid_(wetted_sides_of(scene).stands_in_the_fluid()) {}
+      : Base(scene, number_fluid_and_domain(scene), solvers), wall_decides_(solvers.wall_decides) {}
 
   void put_load(const std::vector<double>& load) {
     data_->interface_load.assign(state_->now.wall.size(), 0.0);
@@ -115,7 +110,7 @@ class InexactRobinNeumann : public RobinNeumann<n> {
       data_->interface_load[Base::wall_entry(scene_.interface[i / n], static_cast<int>(i % n))] = load[i];
   }
 
-  bool wall_decides_, stands_in_the_fluid_;
+  bool wall_decides_;
   bool changed_ = false;     ///< the coefficient is another one than z_n
   bool keeps_rows_ = false;  ///< of the media, which nobody has touched since the last pass
 };

@@ -10,7 +10,7 @@
 
 #include "fem/elements.hpp"
 #include "monolithic/coupled_numbering.hpp"
-#include "partitioned/coupling_stepper.hpp"
+#include "partitioned/registry.hpp"
 #include "scene/build_scene.hpp"
 #include "support/errors.hpp"
 #include "support/pulsating_ring.hpp"
@@ -78,7 +78,7 @@ std::vector<double> ring_errors(const std::string& scheme, int material, const R
     options.tolerance = 1e-9;
     stepper = std::make_unique<NewtonStepper<n>>(*scene, loads, options, number_scene(*scene));
   } else {
-    stepper = std::make_unique<CouplingStepper<n>>(*scene, loads, setup);
+    stepper = make_coupling_stepper(*scene, loads, setup);
   }
   // A node of the interface where only the radius changes.
   const auto& places = scene->wall->nodes().nodes;

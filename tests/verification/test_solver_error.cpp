@@ -12,7 +12,7 @@
 #include "mesh/artery_generator.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "monolithic/coupled_numbering.hpp"
-#include "partitioned/coupling_stepper.hpp"
+#include "partitioned/registry.hpp"
 #include "support/every_element.hpp"
 #include "support/scenes.hpp"
 #include "system/newton_stepper.hpp"
@@ -159,9 +159,8 @@ TYPED_TEST(SolverError, OfAQuasiNewtonCouplingIsRightWithinAFactorOfThree) {
         Case setup = artery_case(scheme);
         setup.partitioned.scheme = coupling;
         setup.partitioned.tolerance = tolerance;
-        const Errors errors = errors_of_steps<TypeParam>(setup, [&](auto& scene, const Loads& loads) {
-          return std::make_unique<CouplingStepper<TypeParam::components>>(scene, loads, setup);
-        });
+        const Errors errors = errors_of_steps<TypeParam>(
+            setup, [&](auto& scene, const Loads& loads) { return make_coupling_stepper(scene, loads, setup); });
         expect_right(errors, scheme + ", " + coupling, tolerance);
       }
 }

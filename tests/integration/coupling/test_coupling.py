@@ -426,6 +426,15 @@ class SchemesThatDoNotSuit(FolderTest):
         self.assertIn("stands in the fluid", (self.base / "robin" / "run.log").read_text())
         self.assertEqual(self.warnings("iqn", flag, *settings), "")
 
+    def test_inexact_passes_are_refused_where_the_wall_stands_in_the_fluid(self):
+        flag = GALLERY / "turek-hron-fsi3" / "turek-hron-fsi3.toml"
+        settings = (f"mesh.file={flag_mesh(self.base)}", "time.end=2", *scheme("robin-neumann-inexact"))
+        process = attempt(PARTITIONED, flag, "-q", folder=self.base / "inexact", settings=settings)
+        self.assertEqual(process.returncode, 1, process.stderr)
+        for part in (f"{flag}: partitioned.scheme", "stands in the fluid", '"iqn-ils"'):
+            self.assertIn(part, process.stderr)
+        self.assertFalse((self.base / "inexact").exists())
+
     def test_a_tube_is_no_reason_to_warn(self):
         self.assertEqual(self.warnings("tube", AXISYMMETRIC, "mesh.level=coarse", "time.end=0.125"), "")
 

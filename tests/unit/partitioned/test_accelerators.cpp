@@ -11,7 +11,7 @@
 #include "partitioned/accelerators/newton_krylov.hpp"
 #include "partitioned/accelerators/regularised_iqn.hpp"
 #include "partitioned/accelerators/relaxation.hpp"
-#include "partitioned/schemes.hpp"
+#include "partitioned/registry.hpp"
 
 namespace fsi::test {
 
@@ -432,11 +432,13 @@ TEST(AffineMap, GoesOnBitForBitFromItsMemory) {
   EXPECT_EQ(method.correction(r), restarted.correction(r));
 }
 
-TEST(CouplingSchemes, EveryNameOfTheCaseReaderHasAnAccelerator) {
+TEST(CouplingSchemes, EveryNameOfTheCaseReaderHasARow) {
   for (const auto& name : coupling_scheme_names()) {
     const auto& scheme = coupling_scheme(name);
     EXPECT_EQ(scheme.name, name);
-    EXPECT_NE(scheme.make_accelerator({}, {}), nullptr);
+    if (name != "block-newton") {
+      EXPECT_NE(scheme.make_accelerator({}, {}), nullptr);
+    }
     EXPECT_NE(std::string(scheme.advice), "");
   }
   EXPECT_THROW(coupling_scheme("aitkin"), InputError);

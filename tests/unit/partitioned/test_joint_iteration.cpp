@@ -10,6 +10,7 @@
 #include "linear_solvers/general_solvers.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "partitioned/block_newton/block_newton_stepper.hpp"
+#include "partitioned/registry.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/opening_laws.hpp"
 #include "support/random.hpp"
@@ -39,7 +40,7 @@ March march(const Case& setup, int steps) {
   March result;
   result.scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
-  BlockNewtonStepper<3> stepper(*result.scene, loads, setup);
+  BlockNewtonStepper<3> stepper(*result.scene, loads, setup, coupling_scheme("block-newton"));
   State state = result.scene->at_rest();
   for (int n = 0; n < steps; ++n) {
     const StepReport report = stepper.advance(state);

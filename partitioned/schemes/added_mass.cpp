@@ -1,4 +1,4 @@
-#include "partitioned/added_mass.hpp"
+#include "partitioned/schemes/added_mass.hpp"
 
 #include <algorithm>
 

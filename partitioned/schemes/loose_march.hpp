@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "partitioned/schemes.hpp"
+#include "partitioned/coupling_scheme.hpp"
 #include "time/memory.hpp"
 
 namespace fsi {

@@ -1,4 +1,4 @@
-#include "partitioned/one_pass_march.hpp"
+#include "partitioned/schemes/one_pass_march.hpp"
 
 #include <fmt/format.h>
 

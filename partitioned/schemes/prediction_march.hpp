@@ -1,10 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <utility>
 
-#include "partitioned/coupling_stepper.hpp"
 #include "partitioned/own_jacobians.hpp"
+#include "partitioned/schemes/robin_robin_stepper.hpp"
 #include "restart/state_checkpoint.hpp"
 
 namespace fsi {
@@ -14,9 +15,12 @@ namespace fsi {
 template <int n>
 class PredictionMarch {
  public:
-  /// \param setup  of the run, but for the coefficient of the scheme
-  PredictionMarch(Scene<n>& scene, const Loads& loads, const Case& setup)
-      : scene_(scene), jacobians_(scene), stepper_(scene, loads, setup, coupling_scheme("robin-robin")) {}
+  /// \param setup   of the run, but for the coefficient of the scheme
+  /// \param scheme  the one that is predicted for, must outlive this
+  PredictionMarch(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme)
+      : scene_(scene),
+        jacobians_(scene),
+        stepper_(scene, loads, setup, scheme, std::make_unique<RobinRobin<n>>(scene, setup.partitioned)) {}
 
   /// Solves the step that follows, which becomes the latest with finish_step() only.
   /// \param corrected  where the march begins, if it has not yet \throws ConvergenceError
@@ -33,7 +37,7 @@ class PredictionMarch {
     stepper_.finish_step(next_);
     std::swap(*state_, next_);
   }
-  const CouplingStepper<n>& stepper() const { return stepper_; }
+  const RobinRobinStepper<n>& stepper() const { return stepper_; }
 
   /// Where another scheme has written the checkpoint the march begins with the next step.
   void keep(Memory& memory) {
@@ -52,7 +56,7 @@ class PredictionMarch {
  private:
   Scene<n>& scene_;
   OwnJacobians<n> jacobians_;
-  CouplingStepper<n> stepper_;
+  RobinRobinStepper<n> stepper_;
   std::optional<State> state_;  ///< at the end of the last step; empty before the first
   State next_;                  ///< of the step in progress
 };

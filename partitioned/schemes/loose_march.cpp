@@ -1,4 +1,4 @@
-#include "partitioned/loose_march.hpp"
+#include "partitioned/schemes/loose_march.hpp"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "partitioned/coupling_scheme.hpp"
 #include "partitioned/divergence.hpp"
-#include "partitioned/schemes.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {

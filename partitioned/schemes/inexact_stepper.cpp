@@ -1,4 +1,4 @@
-#include "partitioned/inexact_stepper.hpp"
+#include "partitioned/schemes/inexact_stepper.hpp"
 
 #include <fmt/format.h>
 
@@ -8,13 +8,11 @@
 
 #include "fem/dimensions.hpp"
 #include "partitioned/interface/inexact_robin_neumann.hpp"
-#include "partitioned/interface/wetted_sides.hpp"
+#include "partitioned/scheme_checks.hpp"
 
 namespace fsi {
 
 namespace {
-
-constexpr const char* scheme_name = "robin-neumann-inexact";
 
 /// Newton iterations of each medium in a pass at most, and the part of its residual that ends them sooner: of the first
 /// pass, which finds the fields far from where they go, of later ones, and of those that come late.
@@ -47,13 +45,12 @@ double demand(const Case& setup) {
 }  // namespace
 
 template <int n>
-InexactStepper<n>::InexactStepper(Scene<n>& scene, const Loads& loads, const Case& setup)
-    : Base(scene, loads, setup, coupling_scheme(scheme_name),
-           std::make_unique<InexactRobinNeumann<n>>(scene, setup.partitioned)),
+InexactStepper<n>::InexactStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme)
+    : Base(scene, loads, setup, scheme, std::make_unique<InexactRobinNeumann<n>>(scene, setup.partitioned)),
       demand_(demand(setup)),
       force_tolerance_(setup.partitioned.force_tolerance),
-      loaded_at_rest_(scene.initial_load.has_value()),
-      stands_in_the_fluid_(wetted_sides_of(scene).stands_in_the_fluid()) {
+      loaded_at_rest_(scene.initial_load.has_value()) {
+  require_tube(scheme, setup, scene);
   if (!setup.partitioned.tolerance)
     Base::add_choice({"partitioned.tolerance", fmt::format("{:g}", demand_),
                       "a step is solved when its error is estimated to be that part of what the step changes, as "
@@ -66,6 +63,12 @@ std::optional<CouplingMethod> InexactStepper<n>::coupling_method() const {
       "interface",
       "a pass improves the fluid and then the wall, each by its own solver and by one Newton iteration "
       "as a rule; traces alone cross the interface"};
+}
+
+template <int n>
+void InexactStepper<n>::keep(Memory& memory) {
+  Base::keep(memory);
+  Base::keep_jump(memory);
 }
 
 template <int n>
@@ -108,9 +111,7 @@ bool InexactStepper<n>::agrees(const State& state, const StepData& data, const G
 
 template <int n>
 bool InexactStepper<n>::leads_nowhere() const {
-  // Gaps of a wall in the fluid go up and down for long before they fall: there failures alone count.
-  return !stands_in_the_fluid_ && gaps_.size() >= patience &&
-         !(gaps_.back() <= progress * gaps_[gaps_.size() - 1 - window]);
+  return gaps_.size() >= patience && !(gaps_.back() <= progress * gaps_[gaps_.size() - 1 - window]);
 }
 
 template <int n>

@@ -17,9 +17,11 @@ class InexactStepper : public CouplingStepper<n> {
   using Base = CouplingStepper<n>;
 
  public:
-  InexactStepper(Scene<n>& scene, const Loads& loads, const Case& setup);
+  /// \throws InputError where the wall stands in the fluid
+  InexactStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme);
 
   std::optional<CouplingMethod> coupling_method() const override;
+  void keep(Memory& memory) override;
 
  private:
   using GoodPass = typename Base::GoodPass;
@@ -35,7 +37,6 @@ class InexactStepper : public CouplingStepper<n> {
   double demand_;                       ///< part of what a step changes that may be left
   double force_tolerance_;              ///< PartitionedData::force_tolerance
   bool loaded_at_rest_;                 ///< displacements count from a loaded shape
-  bool stands_in_the_fluid_;            ///< the wall
   double error_ = 0;                    ///< estimated, of the last pass
   bool solves_ = false;                 ///< passes of the stage solve both media, as those of the other schemes do
   std::vector<double> gaps_, changes_;  ///< of the passes of the stage in progress

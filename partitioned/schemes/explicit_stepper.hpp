@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "partitioned/schemes/iterating_steppers.hpp"
+#include "partitioned/schemes/one_pass_march.hpp"
+
+namespace fsi {
+
+/// A step is one pass of Dirichlet-Neumann (docs/theory.md, section 10.6): unstable where the fluid's added mass exceeds the
+/// wall's answer.
+template <int n>
+class ExplicitStepper : public DirichletNeumannStepper<n> {
+  using Base = DirichletNeumannStepper<n>;
+
+ public:
+  /// \throws InputError where one pass a step cannot serve
+  ExplicitStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme);
+
+  std::optional<CouplingMethod> coupling_method() const override;
+  /// Without iterations a march fails because it is unstable, which smaller steps do not mend.
+  bool can_retry() const override { return false; }
+  std::string unchecked() const override { return march_.unchecked(); }
+  void finish_step(const State& state) override;
+  void keep(Memory& memory) override;
+
+ protected:
+  /// With another problem of the kind, and a start extrapolated by `order` unless the case names one.
+  ExplicitStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme,
+                  std::unique_ptr<DirichletNeumann<n>> problem, int order);
+
+  OnePassMarch& march() { return march_; }
+  /// Without iterations a step is its extrapolation, and the second order makes it unstable at three times the wall's mass
+  /// (docs/coupling.md).
+  int standard_order() const override { return 1; }
+  void begin_stage(const State& state, const StepData& data) override;
+  void judge_pass(const State& state, const StepData& data) override;
+  void finish_stage(State& state, const StepData& data) override;
+
+ private:
+  bool iterates() const override { return false; }
+  void begin_step(const State&) override { before_ = march_; }
+  void take_back() override { march_ = before_; }
+  std::string advice_without_answer() const override { return Base::scheme().advice; }
+
+  OnePassMarch march_, before_;  ///< of the steps; before the one in progress
+};
+
+/// How a pass is named where a step is one.
+CouplingMethod one_pass_a_step();
+
+}  // namespace fsi
