@@ -18,7 +18,6 @@
 #include "partitioned/schemes/explicit_stepper.hpp"
 #include "partitioned/schemes/inexact_stepper.hpp"
 #include "partitioned/schemes/iterating_steppers.hpp"
-#include "partitioned/schemes/richardson_stepper.hpp"
 #include "partitioned/schemes/robin_robin_corrected_stepper.hpp"
 #include "partitioned/schemes/robin_robin_stepper.hpp"
 #include "partitioned/schemes/semi_implicit_stepper.hpp"
@@ -107,7 +106,7 @@ struct Row {
 constexpr auto other = "a larger partitioned.max_iterations, a smaller time.step, or the monolithic driver";
 constexpr auto loose = "a smaller time.step, or a scheme that iterates: partitioned.scheme = \"block-newton\"";
 constexpr auto none = nullptr;
-constexpr std::array<Row, 16> rows{{
+constexpr std::array<Row, 15> rows{{
     {{"aitken", aitken, "partitioned.scheme = \"iqn-ils\", or a larger partitioned.max_iterations", option::of_passes},
      by<DirichletNeumannStepper>},
     {{"block-newton", none, "a smaller time.step or load, or the monolithic driver", option::of_differences},
@@ -122,10 +121,6 @@ constexpr std::array<Row, 16> rows{{
     {{"iqn-ils", iqn_ils, other, option::of_passes | option::of_differences}, by<DirichletNeumannStepper>},
     {{"iqn-imvj", iqn_imvj, other, option::of_passes | option::of_differences}, by<DirichletNeumannStepper>},
     {{"newton-krylov", newton_krylov, other, option::of_passes | option::of_differences}, by<DirichletNeumannStepper>},
-    {{"richardson", constant,
-      "a smaller partitioned.relaxation, or a scheme that iterates: partitioned.scheme = \"robin-neumann-inexact\"",
-      option::of_passes | option::velocity_gap},
-     by<RichardsonStepper>},
     {{"robin-neumann", robin, "partitioned.scheme = \"robin-neumann-iqn\", or a smaller time.step", option::of_passes},
      by<RobinNeumannStepper>},
     {{"robin-neumann-inexact", regularised,

@@ -24,14 +24,13 @@ inline constexpr std::array<std::string_view, 16> coupled_solver_list{
     "ssor_exact", "ilu_exact", "amg",   "amg_gmres", "amg_fgmres", "amli",           "amli_gmres",  "amli_fgmres"};
 
 /// partitioned.scheme. Their table: partitioned/registry.cpp.
-inline constexpr std::array<std::string_view, 16> coupling_scheme_list{"aitken",
+inline constexpr std::array<std::string_view, 15> coupling_scheme_list{"aitken",
                                                                        "block-newton",
                                                                        "constant",
                                                                        "explicit",
                                                                        "iqn-ils",
                                                                        "iqn-imvj",
                                                                        "newton-krylov",
-                                                                       "richardson",
                                                                        "robin-neumann",
                                                                        "robin-neumann-inexact",
                                                                        "robin-neumann-iqn",

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "fem/dimensions.hpp"
 #include "partitioned/scheme_checks.hpp"
 #include "partitioned/schemes/added_mass.hpp"
@@ -17,17 +15,8 @@ CouplingMethod one_pass_a_step() {
 template <int n>
 ExplicitStepper<n>::ExplicitStepper(Scene<n>& scene, const Loads& loads, const Case& setup,
                                     const CouplingScheme& scheme)
-    : ExplicitStepper(scene, loads, setup, scheme, std::make_unique<DirichletNeumann<n>>(scene, setup.partitioned), 1) {
-}
-
-template <int n>
-ExplicitStepper<n>::ExplicitStepper(Scene<n>& scene, const Loads& loads, const Case& setup,
-                                    const CouplingScheme& scheme, std::unique_ptr<DirichletNeumann<n>> problem,
-                                    int order)
-    : Base(scene, loads, setup, scheme, std::move(problem)),
-      march_(scheme, setup.partitioned.velocity_gap),
-      before_(march_) {
-  require_moving_start(scheme, setup, setup.time ? setup.time->predictor.value_or(order) : order);
+    : Base(scene, loads, setup, scheme), march_(scheme, setup.partitioned.velocity_gap), before_(march_) {
+  require_moving_start(scheme, setup, Base::first_order());
   require_scheme_for_one_pass(scheme, setup, scene);
 }
 

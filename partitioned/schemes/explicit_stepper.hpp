@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -26,20 +25,13 @@ class ExplicitStepper : public DirichletNeumannStepper<n> {
   void finish_step(const State& state) override;
   void keep(Memory& memory) override;
 
- protected:
-  /// With another problem of the kind, and a start extrapolated by `order` unless the case names one.
-  ExplicitStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme,
-                  std::unique_ptr<DirichletNeumann<n>> problem, int order);
-
-  OnePassMarch& march() { return march_; }
+ private:
   /// Without iterations a step is its extrapolation, and the second order makes it unstable at three times the wall's mass
   /// (docs/coupling.md).
   int standard_order() const override { return 1; }
   void begin_stage(const State& state, const StepData& data) override;
   void judge_pass(const State& state, const StepData& data) override;
   void finish_stage(State& state, const StepData& data) override;
-
- private:
   bool iterates() const override { return false; }
   void begin_step(const State&) override { before_ = march_; }
   void take_back() override { march_ = before_; }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "fem/dimensions.hpp"
+#include "partitioned/interface/dirichlet_neumann.hpp"
 #include "partitioned/scheme_checks.hpp"
 
 namespace fsi {
@@ -10,14 +11,7 @@ namespace fsi {
 template <int n>
 DirichletNeumannStepper<n>::DirichletNeumannStepper(Scene<n>& scene, const Loads& loads, const Case& setup,
                                                     const CouplingScheme& scheme)
-    : DirichletNeumannStepper(scene, loads, setup, scheme,
-                              std::make_unique<DirichletNeumann<n>>(scene, setup.partitioned)) {}
-
-template <int n>
-DirichletNeumannStepper<n>::DirichletNeumannStepper(Scene<n>& scene, const Loads& loads, const Case& setup,
-                                                    const CouplingScheme& scheme,
-                                                    std::unique_ptr<DirichletNeumann<n>> problem)
-    : CouplingStepper<n>(scene, loads, setup, scheme, std::move(problem)) {
+    : CouplingStepper<n>(scene, loads, setup, scheme, std::make_unique<DirichletNeumann<n>>(scene, setup.partitioned)) {
   require_determined_pressure(scheme, setup, scene);
 }
 

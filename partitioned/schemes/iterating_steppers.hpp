@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "partitioned/coupling_stepper.hpp"
-#include "partitioned/interface/dirichlet_neumann.hpp"
 #include "partitioned/interface/robin_neumann.hpp"
 
 namespace fsi {
@@ -15,11 +14,6 @@ class DirichletNeumannStepper : public CouplingStepper<n> {
  public:
   /// \throws InputError where nothing determines it
   DirichletNeumannStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme);
-
- protected:
-  /// With another problem of the kind.
-  DirichletNeumannStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme,
-                          std::unique_ptr<DirichletNeumann<n>> problem);
 };
 
 /// Robin-Neumann iterations, whose condition takes the wall for a tube around the fluid.

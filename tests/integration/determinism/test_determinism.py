@@ -13,7 +13,6 @@ SCHEMES = (
     "iqn-ils",
     "iqn-imvj",
     "newton-krylov",
-    "richardson",
     "robin-neumann",
     "robin-neumann-inexact",
     "robin-neumann-iqn",

@@ -310,63 +310,6 @@ TEST(CouplingStepper, ExplicitClaimsNothingBeforeItsCheckCanSpeak) {
   }
 }
 
-/// Added mass over the wall's answer, as a march of `richardson` finds it; its log.
-std::pair<double, std::string> measured_added_mass(const Case& setup) {
-  const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
-  const Loads loads(setup);
-  Coupled stepper(*scene, loads, setup);
-  State state = scene->at_rest();
-  stepper.advance(state);
-  WrittenMemory memory = memory_of(stepper);
-  return {1 / memory.numbers.at("richardson_alpha") - 1, stepper.report().history.front()};
-}
-
-// One iteration of Richardson's method a step is stable up to alpha = 2/(1 + G), whatever the added mass G. The wall is five
-// times as light as the artery's, where one pass a step is refused.
-TEST(Richardson, IsStableBelowItsBoundAndNotAbove) {
-  Case setup = short_pulse("richardson", 1e-6, "euler");
-  setup.structure->density = 0.2;
-  const auto [added_mass, said] = measured_added_mass(setup);
-  EXPECT_GT(added_mass, 5) << "else it is no test";
-  EXPECT_NE(said.find("alpha"), std::string::npos) << said;
-  for (const double part : {0.5, 1.8, 2.4}) {
-    setup.partitioned.relaxation = part / (1 + added_mass);
-    const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
-    const Loads loads(setup);
-    Coupled stepper(*scene, loads, setup);
-    State state = scene->at_rest();
-    const auto march = [&] {
-      double first = 0;
-      for (int step = 0; step < 100; ++step) {
-        stepper.advance(state);
-        if (step == 5) first = norm(state.now.wall);
-      }
-      EXPECT_LT(norm(state.now.wall), first);
-    };
-    if (part < 2)
-      EXPECT_NO_THROW(march()) << part;
-    else
-      EXPECT_THROW(march(), ConvergenceError) << part;
-  }
-}
-
-TEST(Richardson, RestartsWithTheSameBitsAndNeedsItsAlpha) {
-  Case setup = short_pulse("richardson", 1e-6, "euler");
-  const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
-  const Loads loads(setup);
-  Coupled stepper(*scene, loads, setup), restarted(*scene, loads, setup), of_another(*scene, loads, setup);
-  State state = scene->at_rest();
-  for (int step = 0; step < 3; ++step) stepper.advance(state);
-  WrittenMemory memory = memory_of(stepper);
-  restarted.keep(memory.turn());
-  State again = state, third = state;
-  stepper.advance(state);
-  restarted.advance(again);
-  EXPECT_EQ(again.now.wall, state.now.wall);
-  EXPECT_EQ(again.now.fluid, state.now.fluid);
-  EXPECT_THROW(of_another.advance(third), InputError);
-}
-
 /// Distance of the wall's displacement of a loosely coupled march from the monolithic one at 1 ms, relative.
 double loose_error(Case setup) {
   setup.time->end = 1;
@@ -432,19 +375,6 @@ TEST(RobinRobin, SplittingErrorHasItsOrder) {
       EXPECT_LT(fine, 0.1 * plain) << said;
     }
   }
-}
-
-// What Richardson's one iteration leaves is of the first order.
-TEST(Richardson, SplittingErrorIsOfTheFirstOrder) {
-  const auto error = [](double step) {
-    Case setup = short_pulse("richardson", 1e-7, "euler", step);
-    setup.inlet = smooth_pulse();
-    return loose_error(setup);
-  };
-  const double coarse = error(1. / 64), middle = error(1. / 128), fine = error(1. / 256);
-  std::cout << "richardson: errors " << coarse << ", " << middle << ", " << fine << '\n';
-  EXPECT_GT(std::log2(coarse / middle), 0.8);
-  EXPECT_GT(std::log2(middle / fine), 0.8);
 }
 
 // What one pass lacks of a jump of the load would swing between fluid and wall for long.
