@@ -95,8 +95,12 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
   GoodPass good;
   PassAccuracy accuracy = first_accuracy();
   bool first = true;
+  int failures = 0;  // since the stage began anew
   const auto begin_anew = [&](const char* why) {
-    report_.history.push_back(fmt::format("{}: the stage begins anew with another Robin coefficient", why));
+    const std::string way = another_way();
+    if (way.empty()) return false;
+    report_.history.push_back(fmt::format("{}: the stage begins anew with {}", why, way));
+    failures = 0;
     accelerator_->abandon();
     problem_->start_from_prediction(state, data, order_);
     accelerator_->start();
@@ -104,6 +108,7 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
     x = problem_->first_guess(order_);
     good = {};
     accuracy = first_accuracy();
+    return true;
   };
   for (passes_ = 1; passes_ <= options_.max_iterations; ++passes_) {
     ++report_.outer_iterations;
@@ -111,10 +116,7 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
     try {
       pass = measured_pass(x, accuracy);
     } catch (const PassFailure& failure) {
-      if (coupling_.failed_passes >= most_failures && problem_->change_coefficient())
-        begin_anew(failure.what());
-      else
-        retreat(failure, state, data, x, good);
+      if (++failures < most_failures || !begin_anew(failure.what())) retreat(failure, state, data, x, good);
       continue;
     }
     log_pass();
@@ -126,10 +128,7 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
       accept(state, data, x, pass);
       return;
     }
-    if (leads_nowhere() && problem_->change_coefficient()) {
-      begin_anew("the passes lead nowhere");
-      continue;
-    }
+    if (leads_nowhere() && begin_anew("the passes lead nowhere")) continue;
     if (monitor_.diverges(coupling_.displacement_gap)) give_up(state, data, "diverges");
     good = {true, x, state.now, coupling_.displacement_gap};
     correct(pass, x, accuracy);
@@ -185,6 +184,19 @@ void CouplingStepper<n>::next_accuracy(PassAccuracy& accuracy) {
 template <int n>
 bool CouplingStepper<n>::agrees(const State&, const StepData&, const GoodPass&) {
   return agreement_.met_by(coupling_);
+}
+
+template <int n>
+std::string CouplingStepper<n>::another_way() {
+  return problem_->change_coefficient() ? "another Robin coefficient" : "";
+}
+
+template <int n>
+void CouplingStepper<n>::go_on_by(std::unique_ptr<InterfaceProblem<n>> problem,
+                                  std::unique_ptr<Accelerator> accelerator) {
+  problem->cost = problem_->cost;
+  problem_ = std::move(problem);
+  accelerator_ = std::move(accelerator);
 }
 
 template <int n>

@@ -84,6 +84,8 @@ class CouplingStepper : public Stepper {
   virtual bool agrees(const State& state, const StepData& data, const GoodPass& good);
   /// Whether passes lead nowhere, so that the stage should begin anew in another way.
   virtual bool leads_nowhere() const { return false; }
+  /// That other way, for the rest of the run. \returns what it is, for the log; empty where there is none, or none any more
+  virtual std::string another_way();
   /// How far the last pass is from what is demanded, for the message of a failure.
   virtual std::string distance_from_demand() const;
   /// Whether a pass that agrees is taken as far as the final tolerance of the sub-problems.
@@ -94,6 +96,9 @@ class CouplingStepper : public Stepper {
   virtual double estimated_error(const State& state, const StepData& data, const GoodPass& good) const;
   /// What fluid and wall differ by between the fields of that pass and now, relative to what the step changes.
   double change_since(const State& state, const StepData& data, const GoodPass& good) const;
+
+  /// From here on other passes, and another accelerator of them.
+  void go_on_by(std::unique_ptr<InterfaceProblem<n>> problem, std::unique_ptr<Accelerator> accelerator);
 
   Scene<n>& scene() const { return scene_; }
   const InterfaceSpace& space() const { return space_; }

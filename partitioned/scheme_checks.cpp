@@ -92,6 +92,13 @@ void require_for_loose(const CouplingScheme& scheme, const Case& setup, Scene<n>
 }
 
 template <int n>
+bool determines_pressure(const Scene<n>& scene) {
+  for (const auto& remark : scene.remarks)
+    if (remark.rfind(interface_takes_equations, 0) == 0) return false;
+  return !scene.coupled() || !scene.has_flow_only();
+}
+
+template <int n>
 void require_determined_pressure(const CouplingScheme& scheme, const Case& setup, const Scene<n>& scene) {
   if (scene.coupled() && scene.has_flow_only())
     throw InputError(setup.path.string(), "partitioned.scheme",
@@ -133,6 +140,7 @@ void require_tube(const CouplingScheme& scheme, const Case& setup, const Scene<n
 
 #define FSI_INSTANTIATE(n)                                                                           \
   template void require_scheme_for_one_pass<n>(const CouplingScheme&, const Case&, const Scene<n>&); \
+  template bool determines_pressure<n>(const Scene<n>&);                                             \
   template void require_for_loose<n>(const CouplingScheme&, const Case&, Scene<n>&);                 \
   template void require_determined_pressure<n>(const CouplingScheme&, const Case&, const Scene<n>&); \
   template void note_where_robin_neumann_is_slow<n>(const CouplingScheme&, const Case&, Scene<n>&);  \

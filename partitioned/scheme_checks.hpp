@@ -26,6 +26,9 @@ void require_scheme_for_one_pass(const CouplingScheme& scheme, const Case& setup
 /// Loosely coupled Robin-Robin schemes march in time, and take the wall for a tube. \throws InputError of static cases
 template <int n>
 void require_for_loose(const CouplingScheme& scheme, const Case& setup, Scene<n>& scene);
+/// Whether something sets the fluid's pressure where its velocity on the wall is given.
+template <int n>
+bool determines_pressure(const Scene<n>& scene);
 /// Where the fluid is given its velocity on the wall, something else must set its pressure. \throws InputError
 template <int n>
 void require_determined_pressure(const CouplingScheme& scheme, const Case& setup, const Scene<n>& scene);

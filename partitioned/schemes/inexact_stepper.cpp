@@ -7,6 +7,8 @@
 #include <memory>
 
 #include "fem/dimensions.hpp"
+#include "partitioned/accelerators/makers.hpp"
+#include "partitioned/interface/dirichlet_neumann.hpp"
 #include "partitioned/interface/inexact_robin_neumann.hpp"
 #include "partitioned/scheme_checks.hpp"
 
@@ -47,6 +49,7 @@ double demand(const Case& setup) {
 template <int n>
 InexactStepper<n>::InexactStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme)
     : Base(scene, loads, setup, scheme, std::make_unique<InexactRobinNeumann<n>>(scene, setup.partitioned)),
+      options_(setup.partitioned),
       demand_(demand(setup)),
       force_tolerance_(setup.partitioned.force_tolerance),
       loaded_at_rest_(scene.initial_load.has_value()) {
@@ -67,6 +70,8 @@ std::optional<CouplingMethod> InexactStepper<n>::coupling_method() const {
 
 template <int n>
 void InexactStepper<n>::keep(Memory& memory) {
+  if (memory.recalls() && memory.has("solved_passes") && !solves_) solve_media();
+  if (double solved = 1; solves_) memory.number("solved_passes", solved);
   Base::keep(memory);
   Base::keep_jump(memory);
 }
@@ -75,20 +80,36 @@ template <int n>
 PassAccuracy InexactStepper<n>::first_accuracy() {
   gaps_.clear();
   changes_.clear();
-  solves_ = false;
-  return first_pass;
+  return solves_ ? Base::first_accuracy() : first_pass;
 }
 
 template <int n>
 void InexactStepper<n>::next_accuracy(PassAccuracy& accuracy) {
-  solves_ = solves_ || leads_nowhere();  // with the softer condition, too, or there is none
-  if (solves_) {
-    accuracy = {};
+  if (solves_)
     Base::next_accuracy(accuracy);
-    accuracy.linearised_wall = false;
-    return;
-  }
-  accuracy = Base::passes() < late ? later_passes : late_passes;
+  else
+    accuracy = Base::passes() < late ? later_passes : late_passes;
+}
+
+template <int n>
+std::string InexactStepper<n>::another_way() {
+  if (std::string way = Base::another_way(); !way.empty()) return way;
+  if (solves_) return {};
+  solve_media();
+  return "passes that solve both media, for the rest of the run";
+}
+
+template <int n>
+void InexactStepper<n>::solve_media() {
+  solves_ = true;
+  Scene<n>& scene = Base::scene();
+  if (determines_pressure(scene))
+    Base::go_on_by(std::make_unique<DirichletNeumann<n>>(scene, options_),
+                   accelerators::iqn_ils(options_, Base::space()));
+  else
+    Base::go_on_by(std::make_unique<RobinNeumann<n>>(scene, options_),
+                   accelerators::robin_iqn(options_, Base::space()));
+  scene.profile.count("inexact passes given up");
 }
 
 template <int n>

@@ -31,14 +31,17 @@ class InexactStepper : public CouplingStepper<n> {
   bool agrees(const State& state, const StepData& data, const GoodPass& good) override;
   bool refines() const override { return false; }
   bool leads_nowhere() const override;
+  std::string another_way() override;
+  void solve_media();
   std::string distance_from_demand() const override;
   double estimated_error(const State&, const StepData&, const GoodPass&) const override { return error_; }
 
+  PartitionedData options_;
   double demand_;                       ///< part of what a step changes that may be left
   double force_tolerance_;              ///< PartitionedData::force_tolerance
   bool loaded_at_rest_;                 ///< displacements count from a loaded shape
   double error_ = 0;                    ///< estimated, of the last pass
-  bool solves_ = false;                 ///< passes of the stage solve both media, as those of the other schemes do
+  bool solves_ = false;                 ///< passes solve both media now, as those of iqn-ils do
   std::vector<double> gaps_, changes_;  ///< of the passes of the stage in progress
 };
 
