@@ -12,6 +12,7 @@ step are 6 less the tolerance's power of ten. `behaviour.json` beside the progra
   "end"       {WORD: [exit code, message]}: a run whose command line holds WORD ends so
   "swing"     true: the displacement swings from mesh to mesh
   "grows"     true: the displacement's error grows as the mesh is refined
+  "chosen"    the scheme of the partitioned driver where the case names none, robin-neumann-inexact unless given
   "nothing"   true: no samples
   "least"     no mesh has a smaller size
   "seconds"   what a run takes at least
@@ -116,13 +117,18 @@ def mesh_size(words):
     return 8 / float(given.get("cells", given.get("media", 4)))  # 4: of the scene ring-in-time
 
 
-def tolerance_of(name, entries, given):
+def scheme_of(entries, given, behaviour):
+    named = given.get("partitioned.scheme", entries.get("partitioned", {}).get("scheme"))
+    return named or behaviour.get("chosen", BY_ERROR[0])
+
+
+def tolerance_of(name, entries, given, behaviour):
     def entry(section, key, default):
         return given.get(f"{section}.{key}", entries.get(section, {}).get(key, default))
 
     if name == "fsi-partitioned":
         gap = entry("partitioned", "tolerance", None)
-        if gap is not None or entry("partitioned", "scheme", BY_ERROR[0]) not in BY_ERROR:
+        if gap is not None or scheme_of(entries, given, behaviour) not in BY_ERROR:
             return float(1e-6 if gap is None else gap)
     error, newton = (entry("monolithic", key, None) for key in ("error_tolerance", "newton_tolerance"))
     if error is None and newton is None:
@@ -137,7 +143,7 @@ def run(words, place, name, behaviour):
     h = size_of(case.parent / given.get("mesh.file", entries["mesh"]["file"])) / SIZE
     step = float(given.get("time.step", entries["time"]["step"]))
     end = float(given.get("time.end", entries["time"]["end"]))
-    tolerance = tolerance_of(name, entries, given)
+    tolerance = tolerance_of(name, entries, given, behaviour)
     sign = (-1) ** round(math.log2(h) * 2) if behaviour.get("swing") else 1
     factor = 1 + sign * A * h ** (-3 if behaviour.get("grows") else 3) + B * (step / STEP) ** 2 + 1e-3 * tolerance
     steps = round(end / step)
@@ -164,4 +170,6 @@ def run(words, place, name, behaviour):
         "mesh": {"name": "mesh", "nodes": cells // 2, "triangles": cells, "hash": f"{h:.6g}"},
         "totals": {"steps": steps, "wall_s": 0.01 * steps},
     }
+    if name == "fsi-partitioned":
+        summary["choices"] = {"partitioned.scheme": {"value": scheme_of(entries, given, behaviour), "reason": "told"}}
     (place / "summary.json").write_text(json.dumps(summary))

@@ -194,6 +194,22 @@ class OtherFamilies(VerifyCase):
         _, out, _ = self.verify("--of", "pressure")
         self.assertNotIn(said, out + (self.out / "report.html").read_text())
 
+    def test_scheme_that_the_scene_chooses_says_which_tolerance_is_looser(self):
+        """Without a scheme in the case: where the wall stands in the fluid, and around a vessel."""
+        for chosen, key in (("iqn-ils", "partitioned.tolerance"), (None, "monolithic.error_tolerance")):
+            with self.subTest(chosen=chosen):
+                behave(self.programs, **({"chosen": chosen} if chosen else {}))
+                (self.programs / "calls.txt").unlink(missing_ok=True)
+                code, _, err = self.verify("--drivers", "partitioned", "-o", self.base / str(chosen))
+                self.assertEqual(code, 0, err)
+                loosened = [
+                    word
+                    for line in calls(self.programs)
+                    for word in fake_family.settings(line.split())
+                    if word.endswith("tolerance")
+                ]
+                self.assertEqual(loosened, [key])
+
     def test_list_runs_nothing(self):
         code, out, _ = self.verify("--list")
         self.assertEqual(code, 0)

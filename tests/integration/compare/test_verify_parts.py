@@ -34,6 +34,7 @@ from fsi_compare.studies.verify.tolerances import (
     GAP_TOLERANCE,
     NEWTON_TOLERANCE,
     WALL_ERROR_TOLERANCE,
+    chosen_scheme,
     governing,
 )
 from fsi_compare.studies.verify.verdict import NOT_IN_RANGE, Value, bar_of
@@ -283,6 +284,17 @@ class Tolerances(unittest.TestCase):
             self.keys("fsi-partitioned", partitioned={"scheme": "aitken", "force_tolerance": 1e-4}),
             ["partitioned.force_tolerance", "partitioned.tolerance"],
         )
+
+    def test_scheme_that_the_driver_has_chosen(self):
+        flow = {"time": {"step": 0.5}, "fluid": {"density": 1}}
+        for scheme in ("iqn-ils", "robin-neumann-iqn"):
+            summary = {"choices": {"partitioned.scheme": {"value": scheme, "reason": "the wall stands in the fluid"}}}
+            found = governing("fsi-partitioned", flow, chosen_scheme(summary))
+            self.assertEqual(found, {"partitioned.tolerance": 1e-6})
+        named = {**flow, "partitioned": {"scheme": "block-newton"}}  # the case's word counts
+        self.assertEqual(governing("fsi-partitioned", named, "iqn-ils"), {"monolithic.error_tolerance": 3e-3})
+        for silent in ({}, {"choices": {}}, {"choices": {"partitioned.scheme": {"reason": "none"}}}):
+            self.assertIsNone(chosen_scheme(silent))
 
     def test_defaults_are_those_of_the_drivers(self):
         data = (SOURCES / "common/case/case.hpp").read_text()

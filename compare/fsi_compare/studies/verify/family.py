@@ -13,7 +13,7 @@ from ...base.files import read_toml
 from ..running.study_file import Method, Request, Study, StudyMesh
 from .mesh_family import Recipe
 from .quantities import Asked
-from .tolerances import governing
+from .tolerances import governing, names_scheme
 from .verdict import LOOSER
 
 STEP_RATIO = 2.0
@@ -189,6 +189,7 @@ class Requests:
         self.facts, self.recipe, self.folder = facts, recipe, folder
         self.methods = {name: _method(name) for name in drivers}
         self.time_limit = time_limit
+        self.scheme: Optional[str] = None  # which fsi-partitioned took where the case names none, once a run has told
 
     def study(self, threads: int) -> Study:
         """What the runner knows of all runs."""
@@ -227,8 +228,12 @@ class Requests:
         return {"time.step": facts.step * member.step}
 
     def tolerances(self, program: str, factor: float) -> Dict[str, Any]:
-        """Those that a driver stops by, changed by a factor."""
-        return {key: factor * value for key, value in governing(program, self.facts.entries).items()}
+        """Those that a driver stops by, changed by a factor. Of a case that awaits_scheme() they are a guess."""
+        return {key: factor * value for key, value in governing(program, self.facts.entries, self.scheme).items()}
+
+    def awaits_scheme(self, driver: str) -> bool:
+        """Whether a run has to tell which tolerances the driver stops by."""
+        return driver == "partitioned" and self.scheme is None and not names_scheme(self.facts.entries)
 
 
 def corner_sizes(found: Sequence[Member]) -> Tuple[float, float]:

@@ -14,6 +14,7 @@ from .family import Member, Requests
 from .paying import about_unpaid, unpaid
 from .quantities import curves_of
 from .results import FamilyRuns
+from .tolerances import chosen_scheme
 
 
 class Maker:
@@ -97,13 +98,24 @@ class Maker:
             self.note(about_unpaid(level, found))
 
     def _together(self, wanted: Sequence[Tuple[Member, str]]) -> None:
+        """Runs with looser tolerances last, where another run has yet to tell which tolerances count."""
+        late = [(member, driver) for member, driver in wanted if member.looser and self.requests.awaits_scheme(driver)]
+        self._run([pair for pair in wanted if pair not in late])
+        self._run(late)
+
+    def _run(self, wanted: Sequence[Tuple[Member, str]]) -> None:
         runs = self.runner.run([self.requests.of(member, driver) for member, driver in wanted])
         for (member, driver), run in zip(wanted, runs):
             self.families[driver].runs[member] = run
+            self._learn_scheme(driver, run)
         for (member, driver), run in zip(wanted, runs):
             if member.is_own and not run.done:
                 key = f"{driver}, as the case says"
                 raise ProgramError(self.requests.facts.path, key, run.message or run.status, "mend the case first")
+
+    def _learn_scheme(self, driver: str, run: StudyRun) -> None:
+        if self.requests.awaits_scheme(driver):
+            self.requests.scheme = chosen_scheme(run.summary)
 
     def single(self, member: Member, driver: str, settings: Mapping[str, Any]) -> StudyRun:
         """A run that is no member: with settings of its own."""
@@ -111,6 +123,7 @@ class Maker:
         merged = {**request.settings, **settings}
         run = self.runner.run([replace(request, settings=merged)])[0]
         self.others[shlex.join([driver, str(run.folder)])] = run
+        self._learn_scheme(driver, run)
         return run
 
     def _has_mesh(self, member: Member, driver: str) -> bool:

@@ -6,24 +6,40 @@
 | partitioned, `robin-neumann-inexact` (its default) | `partitioned.tolerance` where the case names it, else as the monolithic driver; `force_tolerance` besides, where demanded |
 | partitioned, `block-newton` | `partitioned.tolerance` where the case names it, else as the monolithic driver |
 | partitioned, any other scheme | `partitioned.tolerance`; `force_tolerance` besides, where demanded |
+
+Where the case names no scheme, the driver chooses one by the scene (partitioned/scheme_choice.cpp), which a case file alone does
+not tell: a run's `summary.json` does (chosen_scheme).
 """
 
-from typing import Any, Dict, Mapping
+from typing import Any, Dict, Mapping, Optional
 
 ERROR_TOLERANCE = 3e-3  # unless a case names one: as common/case/case.hpp has it
 WALL_ERROR_TOLERANCE = 3e-4  # likewise, without fluid
 NEWTON_TOLERANCE = 1e-3  # the same
 GAP_TOLERANCE = 1e-6  # the same
-DEFAULT_SCHEME = "robin-neumann-inexact"
+DEFAULT_SCHEME = "robin-neumann-inexact"  # around vessels
 BY_ERROR = (DEFAULT_SCHEME, "block-newton")  # schemes that end by the error of a step, others by the interface's gap
 
 
-def governing(program: str, entries: Mapping[str, Any]) -> Dict[str, float]:
+def chosen_scheme(summary: Mapping[str, Any]) -> Optional[str]:
+    """The coupling scheme of a run of `fsi-partitioned`, by its `summary.json`; None: it does not say."""
+    choice = _section(_section(summary, "choices"), "partitioned.scheme")
+    value = choice.get("value")
+    return value if isinstance(value, str) else None
+
+
+def names_scheme(entries: Mapping[str, Any]) -> bool:
+    """Whether the case itself says by which scheme `fsi-partitioned` couples."""
+    return "scheme" in _section(entries, "partitioned")
+
+
+def governing(program: str, entries: Mapping[str, Any], chosen: Optional[str] = None) -> Dict[str, float]:
     """Tolerances of `fsi-monolithic` or `fsi-partitioned` by their full keys. `entries`: of a case that the driver has run,
-    for numbers are not checked here."""
+    for numbers are not checked here. `chosen`: the scheme that the driver took where the case names none; None: no run has
+    told yet, and the one around vessels is assumed."""
     newton, coupling = _section(entries, "monolithic"), _section(entries, "partitioned")
     if program == "fsi-partitioned":
-        scheme = coupling.get("scheme", DEFAULT_SCHEME)
+        scheme = coupling.get("scheme", chosen or DEFAULT_SCHEME)
         if scheme not in BY_ERROR:
             gap = {"partitioned.tolerance": float(coupling.get("tolerance", GAP_TOLERANCE))}
             return {**gap, **_demanded("partitioned", coupling, "force_tolerance")}
