@@ -1,17 +1,22 @@
-"""Measures what each kind of coupling costs (docs/which.md): the monolithic driver, `block-newton` and interface iterations by
-turns on scenes of several kinds, each beside what its solver left.
+"""Measures what each kind of coupling costs (docs/which.md) at equal error of the solver: the monolithic driver, `block-newton` and
+interface iterations by turns, on scenes of several kinds.
 
-usage: python3 scripts/coupling_kinds.py BIN WORK [--turns N] [--scenes NAME,...]
+usage: python3 scripts/coupling_kinds.py BIN WORK [--turns N] [--scenes NAME,...] [-o FILE]
   BIN    folder of the programs, build/release/bin
   WORK   keeps meshes and runs
   --turns   runs of each, by turns; medians count (3)
   --scenes  only these; the table then has no others
-Writes docs/data/coupling-kinds.csv. One thread each; half an hour on an idle machine.
+Writes docs/data/coupling-kinds.csv. One thread each; hours on an idle machine.
+
+The monolithic driver runs as the case says. What that leaves against a run at 1e-10 is the error that all others are held to. Each of
+them runs at tolerances a factor of ten apart, until the errors of two neighbours enclose the monolithic run's. Between these two, what
+a run takes is read off by a straight line through the logarithms. Nothing is extrapolated.
 """
 
 import argparse
 import csv
 import json
+import math
 import os
 import resource
 import statistics
@@ -23,62 +28,174 @@ from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 import numpy as np
 
 TOP = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(TOP / "compare"))
+
+from fsi_compare.studies.gallery.mesh_chain import make_mesh, with_places  # noqa: E402
+from fsi_compare.studies.gallery.scene import read_scene  # noqa: E402
+
 TABLE = TOP / "docs/data/coupling-kinds.csv"
 ARTERY = TOP / "meshes/artery/axisymmetric"
+GALLERY = TOP / "gallery"
 MATERIALS = ("neo-hookean", "mooney-rivlin", "artery")
-PULSE = ("partitioned.tolerance=3e-3", "time.step=0.03125", 'time.scheme="midpoint"', "output.fields=[]")
+PULSE = ("time.step=0.03125", 'time.scheme="midpoint"', "output.fields=[]")
+BY_ERROR = ("monolithic.newton_tolerance=1e-3", "monolithic.error_tolerance=3e-3")  # the drivers' own, in fixed steps
 # What solving leaves where nothing but the solver's tolerance differs.
-TIGHT = ("monolithic.newton_tolerance=1e-10",)
-METHODS: Tuple[Tuple[str, str, str, Tuple[str, ...]], ...] = (
-    ("monolithic", "monolithic", "monolithic", ()),
-    ("block", "block-newton", "partitioned", ('partitioned.scheme="block-newton"',)),
-    ("interface", "robin-neumann-inexact", "partitioned", ('partitioned.scheme="robin-neumann-inexact"',)),
-    ("interface", "iqn-imvj", "partitioned", ('partitioned.scheme="iqn-imvj"', "partitioned.tolerance=1e-4")),
-)
+TIGHT = ("monolithic.newton_tolerance=1e-10", "monolithic.error_tolerance=0")
+STEP = 10.0  # between neighbouring tolerances
+MOST = 4  # tolerances of a method on the way to the monolithic run's error
+LOOSEST = 0.5  # above it a tolerance demands nothing
+ALIKE = 1.5  # factor within which two errors count as equal
+TABLES = ("centerline_pressure.csv", "wall_displacement.csv", "openings.csv", "points.csv")
 ORIGIN = """# made by scripts/coupling_kinds.py BIN WORK, programs of version {version}, {processor}, one thread
 # seconds: processor seconds of the whole program, median of {turns} by turns; error: the largest relative Euclidean norm, over tables
-# and times, of what a run differs by from the monolithic driver with newton_tolerance = 1e-10
+# and times, of what a run differs by from the monolithic driver with newton_tolerance = 1e-10. Two tolerances with their seconds and
+# errors are those whose errors enclose the monolithic run's; all behind them is read off between the two, memory: the larger one
 """
-FIELDS = ("centerline_pressure.csv", "wall_displacement.csv", "openings.csv", "points.csv")
+
+
+class Method(NamedTuple):
+    """A way to couple. `scheme`: of the partitioned driver; None: what it chooses by the scene."""
+
+    kind: str
+    program: str
+    scheme: Optional[str] = None
+    tolerance: float = (
+        3e-3  # partitioned.tolerance that is tried first: of steps that end by their error the drivers' default
+    )
+
+    @property
+    def name(self) -> str:
+        return self.scheme or ("default" if self.program == "partitioned" else self.program)
+
+    def settings(self, tolerance: Optional[float]) -> Tuple[str, ...]:
+        named = (f'partitioned.scheme="{self.scheme}"',) if self.scheme else ()
+        return named if tolerance is None else (*named, f"partitioned.tolerance={tolerance:g}")
+
+
+MONOLITHIC = Method("monolithic", "monolithic")
+METHODS = (
+    Method("block", "partitioned", "block-newton"),
+    Method("interface", "partitioned"),
+    Method("interface", "partitioned", "iqn-imvj", 1e-4),
+)
 
 
 class Scene(NamedTuple):
     name: str
     title: str
     case: Path
-    mesh: Optional[Tuple[str, ...]]  # arguments of fsi-mesh artery; empty: the gallery's
+    mesh: Optional[Tuple[str, ...]]  # arguments of fsi-mesh; None: the gallery's
     settings: Tuple[str, ...]
 
 
 def artery(material: str) -> Scene:
-    cells = ("--axisymmetric", "--for", "p2p1", "--error", "3%", "--waves", "resolved")
-    settings = (*PULSE, "time.end=3", "monolithic.newton_tolerance=1e-3", "monolithic.error_tolerance=3e-3")
+    cells = ("artery", "--axisymmetric", "--for", "p2p1", "--error", "3%", "--waves", "resolved")
+    settings = (*PULSE, *BY_ERROR, "time.end=3")
     return Scene(
         f"axisymmetric-{material}", f"Artery, axisymmetric, {material}", ARTERY / f"{material}.toml", cells, settings
     )
 
 
-def gallery(name: str, title: str, *settings: str) -> Scene:
-    return Scene(name, title, TOP / "gallery" / name / f"{name}.toml", None, settings)
+def gallery(name: str, title: str, *settings: str, mesh: Optional[Tuple[str, ...]] = None) -> Scene:
+    return Scene(name, title, GALLERY / name / f"{name}.toml", mesh, settings)
 
 
 QUARTER = Scene(
     "quarter",
     "Artery, quarter in space, neo-hookean",
     ARTERY / "neo-hookean.toml",
-    ("--sector", "90", "--order", "2", "--lumen-cells", "6", "--media-cells", "2", "--adventitia-cells", "1")
+    ("artery", "--sector", "90", "--order", "2", "--lumen-cells", "6", "--media-cells", "2", "--adventitia-cells", "1")
     + ("--axial-cells", "96", "--around", "12"),
-    (*PULSE, 'geometry="3d"', "time.end=0.5", "monolithic.newton_tolerance=1e-3", "monolithic.error_tolerance=3e-3"),
+    (*PULSE, *BY_ERROR, 'geometry="3d"', "time.end=0.5"),
 )
+TUBE = gallery(
+    "elastic-tube",
+    "Elastic tube, quarter in space",
+    'geometry="3d"',
+    "time.end=1.5625",
+    mesh=("geo", str(TOP / "scripts/elastic-tube-quarter.geo"), "--order", "2"),
+)._replace(name="elastic-tube-quarter")
 SCENES = (
     QUARTER,
     *(artery(material) for material in MATERIALS),
-    gallery("elastic-tube", "Elastic tube", "time.end=3.125"),
+    TUBE,
+    gallery("elastic-tube", "Elastic tube, axisymmetric", "time.end=3.125"),
     gallery("heart-beat", "Heart beat", "time.end=1000"),
     gallery("bent-tube", "Bent tube"),
     gallery("bifurcation", "Bifurcation", "time.end=10"),
     gallery("turek-hron-fsi1", "FSI1"),
+    gallery("turek-hron-fsi2", "FSI2, the first 100 steps", "time.end=500"),
+    gallery("turek-hron-fsi3", "FSI3, the first 100 steps", "time.end=200"),
 )
+
+
+class Run:
+    """One method at one tolerance: the same in each turn but for its seconds."""
+
+    def __init__(self, method: Method, tolerance: Optional[float], folder: Path, error: float) -> None:
+        self.method, self.tolerance, self.error = method, tolerance, error
+        self.summary = json.loads((folder / "summary.json").read_text())
+        self.times: List[float] = []
+
+    @property
+    def taken(self) -> Dict[str, float]:
+        """What is read off at equal error."""
+        totals = self.summary["totals"]
+        steps = totals["steps"]
+        return {
+            "seconds": statistics.median(self.times),
+            "passes": totals["outer_iterations"] / steps,
+            "newton": totals["newton_iterations"] / steps,
+            "work": totals["work_units_per_step"],
+        }
+
+    @property
+    def memory(self) -> float:
+        return float(self.summary["peak_memory_MiB"])
+
+    @property
+    def scheme(self) -> str:
+        """Also where the case names none."""
+        return str(self.summary.get("choices", {}).get("partitioned.scheme", {}).get("value", self.method.name))
+
+
+class Bench:
+    """A scene with its mesh and its reference."""
+
+    def __init__(self, scene: Scene, programs: Path, work: Path) -> None:
+        self.scene, self.programs, self.work = scene, programs, work
+        self.mesh = mesh_of(scene, programs, work)
+        self.reference = work / f"{scene.name}-reference"
+        self._seconds(MONOLITHIC, TIGHT, self.reference)
+
+    def first(self, method: Method, tolerance: Optional[float]) -> Optional[Run]:
+        """None: it does not converge."""
+        folder = self._folder(method, tolerance)
+        seconds = self._seconds(method, method.settings(tolerance), folder)
+        if seconds is None:
+            return None
+        run = Run(method, tolerance, folder, error(folder, self.reference))
+        run.times.append(seconds)
+        return run
+
+    def again(self, run: Run) -> None:
+        seconds = self._seconds(run.method, run.method.settings(run.tolerance), self._folder(run.method, run.tolerance))
+        run.times += [seconds] if seconds is not None else []
+
+    def _folder(self, method: Method, tolerance: Optional[float]) -> Path:
+        name = method.name if tolerance is None else f"{method.name}-{tolerance:g}"
+        return self.work / f"{self.scene.name}-{name}"
+
+    def _seconds(self, method: Method, settings: Tuple[str, ...], folder: Path) -> Optional[float]:
+        """Processor seconds; None: it does not converge, which the run at 1e-10 must."""
+        words: List[str] = []
+        for setting in (f'mesh.file="{self.mesh}"', *self.scene.settings, *settings):
+            words += ["--set", setting]
+        program = self.programs / f"fsi-{method.program}"
+        refusable = method != MONOLITHIC
+        return execute(
+            program, self.scene.case, "-o", folder, "--threads", "1", "--force", "-q", *words, may_fail=refusable
+        )
 
 
 def processor() -> str:
@@ -88,34 +205,34 @@ def processor() -> str:
     return names[0] if names else "unknown processor"
 
 
-def execute(*command: Any) -> float:
-    """Processor seconds of a command. Raises where it fails."""
+def execute(*command: Any, may_fail: bool = False) -> Optional[float]:
+    """Processor seconds of a command; None: it did not converge, where it may. Any other failure ends the program."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run([str(word) for word in command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    if may_fail and done.returncode == 2:
+        return None
     if done.returncode != 0:
-        sys.exit(f"coupling_kinds.py: error: {' '.join(map(str, command))}: {done.stderr.strip()}")
+        fail(f"{' '.join(map(str, command))}: {done.stderr.strip()}")
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
+def fail(text: str) -> None:
+    sys.exit(f"coupling_kinds.py: error: {text}")
+
+
 def mesh_of(scene: Scene, programs: Path, work: Path) -> Path:
-    if scene.mesh is None:
-        path = work / "gallery" / scene.name / f"{scene.name}.msh"
-        if not path.exists():
-            execute(programs / "fsi-compare", "gallery", scene.name, "-o", work / "gallery", "--jobs", "1")
+    path = work / f"{'axisymmetric' if scene.name.startswith('axisymmetric') else scene.name}.msh"  # of all materials
+    if path.exists():
         return path
-    cells = "quarter" if scene.name == "quarter" else "axisymmetric"
-    path = work / f"{cells}.msh"
-    if not path.exists():
-        execute(programs / "fsi-mesh", "artery", *scene.mesh, "-o", path, "-q")
+    if scene.mesh:
+        execute(programs / "fsi-mesh", *scene.mesh, "-o", path, "-q")
+        return path
+    ready = read_scene(scene.case.parent)
+    end = make_mesh(with_places(ready.mesh_words(False), ready.folder), path, programs / "fsi-mesh", scene.name)
+    if end.code:
+        fail(f"{scene.name}: {end.message}")
     return path
-
-
-def run(scene: Scene, programs: Path, mesh: Path, folder: Path, program: str, settings: Tuple[str, ...]) -> float:
-    words: List[str] = []
-    for setting in (f'mesh.file="{mesh}"', *scene.settings, *settings):
-        words += ["--set", setting]
-    return execute(programs / f"fsi-{program}", scene.case, "-o", folder, "--threads", "1", "--force", "-q", *words)
 
 
 def numbers(path: Path) -> "np.ndarray[Any, Any]":
@@ -134,51 +251,107 @@ def numbers(path: Path) -> "np.ndarray[Any, Any]":
 def error(folder: Path, reference: Path) -> float:
     """The largest of the relative Euclidean norms of what both runs have in tables, over all times."""
     largest = 0.0
-    for name in FIELDS:
+    for name in TABLES:
         if not (folder / name).exists() or not (reference / name).exists():
             continue
         ours, known = numbers(folder / name), numbers(reference / name)
         if ours.shape != known.shape or ours.shape[1] < 2:
-            sys.exit(f"coupling_kinds.py: error: {folder / name} and {reference / name} have other rows")
-        start = 2 if name in FIELDS[:2] else 1
+            fail(f"{folder / name} and {reference / name} have other rows")
+        start = 2 if name in TABLES[:2] else 1
         size = np.linalg.norm(known[:, start:])
         if size > 0:
             largest = max(largest, float(np.linalg.norm(ours[:, start:] - known[:, start:]) / size))
     return largest
 
 
+def ladder(bench: Bench, method: Method, target: float) -> List[Run]:
+    """Runs from loose to tight, until two neighbours enclose `target` or the tolerances end."""
+    start = bench.first(method, method.tolerance)
+    runs = [start] if start else []
+    factor = 1 / STEP if start is None or start.error > target else STEP
+    tolerance = method.tolerance
+    while len(runs) < MOST and enclosing(runs, target) is None:
+        tolerance *= factor
+        run = bench.first(method, tolerance) if tolerance <= LOOSEST else None
+        if run is None:
+            break
+        runs.append(run)
+    return sorted(runs, key=lambda run: -(run.tolerance or 0))
+
+
+def enclosing(runs: List[Run], target: float) -> Optional[Tuple[Run, Run]]:
+    """The neighbours whose errors have `target` between them: the looser one first."""
+    ordered = sorted(runs, key=lambda run: -(run.tolerance or 0))
+    for loose, tight in zip(ordered, ordered[1:]):
+        if loose.error >= target >= tight.error:
+            return loose, tight
+    return None
+
+
+def between(loose: Run, tight: Run, target: float) -> Dict[str, float]:
+    """What is taken at the error `target`, by a straight line through logarithms."""
+    whole = math.log(loose.error / tight.error)
+    weight = math.log(loose.error / target) / whole if whole > 0 else 0.0
+    ends = zip(loose.taken.items(), tight.taken.values())
+    return {name: math.exp((1 - weight) * math.log(a) + weight * math.log(b)) for (name, a), b in ends}
+
+
+def used(runs: List[Run], target: float) -> Tuple[Run, ...]:
+    """Those that the row is made of: two that enclose the error, else the one nearest to it."""
+    return enclosing(runs, target) or (min(runs, key=lambda run: abs(math.log(run.error / target))),)
+
+
+def row(scene: Scene, method: Method, runs: Tuple[Run, ...], base: Run) -> Dict[str, Any]:
+    """`runs`: one, or two that enclose the error of `base`. Empty where no run has converged."""
+    target = base.error
+    if len(runs) == 2:
+        taken, equal = between(runs[0], runs[1], target), "yes"
+    elif runs:
+        taken = runs[0].taken
+        alike = max(runs[0].error / target, target / runs[0].error) <= ALIKE
+        equal = "yes" if alike else f"no, {runs[0].error / target:.2g} times the error"
+    else:
+        taken, equal = {}, "no run converges"
+    ratio = taken["seconds"] / base.taken["seconds"] if taken else None
+    totals, mesh = base.summary["totals"], base.summary["mesh"]
+
+    def number(value: Optional[float], form: str) -> str:
+        return "" if value is None else format(value, form)
+
+    return {
+        "scene": scene.title,
+        "nodes": mesh["nodes"],
+        "steps": totals["steps"],
+        "kind": method.kind,
+        "method": runs[0].scheme if runs else method.name,
+        "tolerance": " / ".join(f"{run.tolerance:g}" for run in runs if run.tolerance) or "the case's",
+        "seconds": " / ".join(f"{run.taken['seconds']:.2f}" for run in runs),
+        "error": " / ".join(f"{run.error:.1e}" for run in runs),
+        "seconds at equal error": number(taken.get("seconds"), ".2f"),
+        "over monolithic": number(ratio, ".2f"),
+        "passes a step": number(taken.get("passes") if method != MONOLITHIC else None, ".1f"),
+        "newton iterations a step": number(taken.get("newton"), ".1f"),
+        "work units a step": number(taken.get("work"), ".0f"),
+        "MiB": number(max((run.memory for run in runs), default=None), ".0f"),
+        "equal error": equal,
+    }
+
+
 def measure(scene: Scene, programs: Path, work: Path, turns: int) -> List[Dict[str, Any]]:
-    mesh = mesh_of(scene, programs, work)
-    reference = work / f"{scene.name}-reference"
-    run(scene, programs, mesh, reference, "monolithic", (*TIGHT, "monolithic.error_tolerance=0"))
-    seconds: Dict[str, List[float]] = {scheme: [] for _, scheme, _, _ in METHODS}
-    for _ in range(turns):
-        for _, scheme, program, settings in METHODS:
-            seconds[scheme].append(run(scene, programs, mesh, work / f"{scene.name}-{scheme}", program, settings))
-    rows = []
-    base = statistics.median(seconds["monolithic"])
-    for kind, scheme, program, _ in METHODS:
-        folder = work / f"{scene.name}-{scheme}"
-        summary = json.loads((folder / "summary.json").read_text())
-        totals, steps = summary["totals"], summary["totals"]["steps"]
-        passes = totals["outer_iterations"] / steps if program == "partitioned" else ""
-        taken = statistics.median(seconds[scheme])
-        rows.append(
-            {
-                "scene": scene.title,
-                "nodes": summary["mesh"]["nodes"],
-                "steps": steps,
-                "kind": kind,
-                "scheme": scheme,
-                "seconds": f"{taken:.2f}",
-                "over monolithic": f"{taken / base:.2f}",
-                "passes a step": f"{passes:.1f}" if passes != "" else "",
-                "work units a step": f"{totals['work_units_per_step']:.0f}",
-                "MiB": f"{summary['peak_memory_MiB']:.0f}",
-                "error of the solver": f"{error(folder, reference):.1e}",
-            }
-        )
-        print(" | ".join(str(value) for value in rows[-1].values()), flush=True)
+    """The first turn finds the tolerances, the others repeat what the rows are made of."""
+    bench = Bench(scene, programs, work)
+    base = bench.first(MONOLITHIC, None)
+    assert base is not None and base.error > 0
+    found = {method: ladder(bench, method, base.error) for method in METHODS}
+    kept = {method: used(runs, base.error) if runs else () for method, runs in found.items()}
+    for _ in range(turns - 1):
+        bench.again(base)
+        for runs in kept.values():
+            for run in runs:
+                bench.again(run)
+    rows = [row(scene, MONOLITHIC, (base,), base), *(row(scene, method, kept[method], base) for method in METHODS)]
+    for one in rows:
+        print(" | ".join(str(value) for value in one.values()), flush=True)
     return rows
 
 
@@ -188,9 +361,12 @@ def main() -> None:
     parser.add_argument("work", metavar="WORK", type=lambda text: Path(text).resolve())
     parser.add_argument("--turns", type=int, default=3)
     parser.add_argument("--scenes", default=",".join(scene.name for scene in SCENES))
-    parser.add_argument("-o", "--output", type=Path, default=TABLE)
+    parser.add_argument("-o", "--output", type=lambda text: Path(text).resolve(), default=TABLE)
     options = parser.parse_args()
     wanted = options.scenes.split(",")
+    for name in wanted:
+        if name not in {scene.name for scene in SCENES}:
+            fail(f"--scenes: '{name}' is unknown; choose of {', '.join(scene.name for scene in SCENES)}")
     options.work.mkdir(parents=True, exist_ok=True)
     os.chdir(options.work)
     rows = [
