@@ -42,7 +42,7 @@ def draw(runs):
     figure = Figure(figsize=(6.4, 3.2), layout="constrained")
     axes = figure.add_subplot()
     for run, style, color in zip(runs, ("-", "--"), ("black", "tab:orange")):
-        axes.plot(*widening(run), style, color=color, label=run.program)
+        axes.plot(*widening(run), style, color=color, label=run.words)
     axes.set_xlabel("time [ms]")
     axes.set_ylabel("radial displacement of the bulge [mm]")
     axes.legend()

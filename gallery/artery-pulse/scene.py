@@ -50,7 +50,7 @@ def draw(runs):
     for run, style in zip(runs, ("-", "--")):
         for time, color in ((1.5, "black"), (3.0, "tab:orange"), (6.0, "tab:blue")):
             z, radial = wave(run, time)
-            axes.plot(z, radial, style, color=color, label=f"{time:g} ms, {run.program}")
+            axes.plot(z, radial, style, color=color, label=f"{time:g} ms, {run.words}")
     axes.set_xlabel("z [mm]")
     axes.set_ylabel("radial displacement [mm]")
     axes.legend()

@@ -56,7 +56,7 @@ def draw(runs):
     figure = Figure(figsize=(6.4, 4.2), layout="constrained")
     for axes, (what, (known, unit, *_)) in zip(figure.subplots(2, 1, sharex=True), KNOWN.items()):
         for run, style, color in zip(runs, ("-", "--"), ("black", "tab:orange")):
-            axes.plot(*history(run, what), style, color=color, marker="o", mfc="white", label=run.program)
+            axes.plot(*history(run, what), style, color=color, marker="o", mfc="white", label=run.words)
         axes.axhline(known, color="gray", linestyle=":", label="published")
         axes.set_ylabel(f"{what.split(' ')[0]} [{unit}]")
     axes.set_xlabel("time [s]")

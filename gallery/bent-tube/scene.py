@@ -45,11 +45,9 @@ def draw(runs):
     for run, style in zip(runs, ("-", "--")):
         openings = run.results.openings
         for name, color, sign in (("inlet", "black", -1), ("outlet", "tab:orange", 1)):
-            axes.plot(
-                openings[name].time, sign * openings[name].flow, style, color=color, label=f"{name}, {run.program}"
-            )
+            axes.plot(openings[name].time, sign * openings[name].flow, style, color=color, label=f"{name}, {run.words}")
     plane = runs.first.table("planes.csv")
-    axes.plot(plane["time"], plane["flow"], ":", color="tab:blue", label=f"middle, {runs.first.program}")
+    axes.plot(plane["time"], plane["flow"], ":", color="tab:blue", label=f"middle, {runs.first.words}")
     axes.set_xlabel("time [ms]")
     axes.set_ylabel("flow [mm³/ms]")
     axes.legend()

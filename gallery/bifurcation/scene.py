@@ -64,7 +64,7 @@ def draw(runs):
                 openings[name].mean_pressure / 1000,
                 style,
                 color=color,
-                label=f"{name}, {run.program}",
+                label=f"{name}, {run.words}",
             )
     axes.set_xlabel("time [ms]")
     axes.set_ylabel("mean pressure [kPa]")

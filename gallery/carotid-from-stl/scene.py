@@ -76,7 +76,7 @@ def draw(runs):
     for run, width in zip(runs, (2.6, 1.0)):
         for (name, opening), style in zip(run.results.openings.items(), ("-", "--", ":")):
             color = "0.6" if width > 2 else "black"
-            words = {"linestyle": style, "color": color, "linewidth": width, "label": f"{name}, {run.program}"}
+            words = {"linestyle": style, "color": color, "linewidth": width, "label": f"{name}, {run.words}"}
             pressure.plot(opening.time, opening.mean_pressure / 1000, **words)
             flow.plot(opening.time, np.abs(opening.flow), **words)
     pressure.set_ylabel("mean pressure [kPa]")

@@ -118,7 +118,7 @@ def draw(runs):
     figure = Figure(figsize=(6.4, 3.2), layout="constrained")
     across, axes = figure.subplots(1, 2, width_ratios=(2, 3))
     r = np.linspace(0, RADIUS, 101)
-    across.plot(*velocity_across(runs.first), ".", color="black", label=runs.first.program)
+    across.plot(*velocity_across(runs.first), ".", color="black", label=runs.first.words)
     across.plot(r, exact_velocity(r), "-", color="tab:orange", label="Casson, exact")
     across.plot(
         r,
@@ -132,7 +132,7 @@ def draw(runs):
     across.set_ylim(bottom=0)
     across.legend(fontsize="small")
     z, shear = shear_at_wall(runs.first)
-    axes.plot(z, shear, "-", color="black", label=runs.first.program)
+    axes.plot(z, shear, "-", color="black", label=runs.first.words)
     axes.axhline(1000 * exact_stress(), color="tab:orange", label="Casson, straight vessel")
     axes.axhline(1000 * poiseuille(), color="tab:gray", linestyle="--", label="without yield stress")
     axes.set_xlabel("z [mm]")

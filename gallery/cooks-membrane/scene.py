@@ -43,7 +43,7 @@ def draw(runs):
     axes = figure.add_subplot()
     parts, heights = rise(runs.first)
     axes.plot(
-        np.append(0, heights), 6.25 * np.append(0, parts), "-o", color="black", mfc="white", label=runs.first.program
+        np.append(0, heights), 6.25 * np.append(0, parts), "-o", color="black", mfc="white", label=runs.first.words
     )
     axes.axvline(TIP, color="black", linestyle=":", label="published, whole load")
     axes.set_xlabel("rise of the tip [mm]")

@@ -93,10 +93,10 @@ def draw(runs):
     above, below = figure.subplots(2, 1, sharex=True)
     for run, style in zip(runs, ("-", "--")):
         aortic, outlet = element(run, "aortic"), run.results.openings["outlet"]
-        label = "" if style == "-" else f", {run.program}"
+        label = "" if style == "-" else f", {run.words}"
         for pressure, name, color in (("first", "ventricle", "tab:red"), ("second", "aorta", "black")):
             above.plot(aortic["time"], aortic[f"{pressure}_pressure"] / 1000, style, color=color, label=name + label)
-        below.plot(outlet.time, outlet.flow, style, color="tab:blue", label=run.program)
+        below.plot(outlet.time, outlet.flow, style, color="tab:blue", label=run.words)
     above.set_ylabel("pressure [kPa]")
     below.set_ylabel("flow out of the artery [mm³/ms]")
     below.set_xlabel("time [ms]")

@@ -66,7 +66,7 @@ def draw(runs):
     figure = Figure(figsize=(6.4, 3.2), layout="constrained")
     axes = figure.add_subplot()
     for run, style, color in zip(runs, ("-", "--"), ("black", "tab:orange")):
-        axes.plot(*middle(run), style, color=color, label=run.program)
+        axes.plot(*middle(run), style, color=color, label=run.words)
     axes.axhline(RADIAL, color="black", linestyle=":", label="published peak, finest mesh")
     axes.axhline(EULER, color="gray", linestyle="-.", label="published peak, backward Euler, 0.1 ms")
     axes.set_xlabel("time [ms]")

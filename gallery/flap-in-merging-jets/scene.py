@@ -53,7 +53,7 @@ def draw(runs):
     figure = Figure(figsize=(6.4, 3.2), layout="constrained")
     axes = figure.add_subplot()
     for run, style, color in zip(runs, ("-", "--"), ("black", "tab:orange")):
-        axes.plot(*tip(run), style, color=color, label=run.program)
+        axes.plot(*tip(run), style, color=color, label=run.words)
     axes.axhline(MEASURED, color="black", linestyle=":", label="measured")
     axes.axhspan(*OTHERS, color="0.85", label="computed by others")
     axes.set_xlabel("time [s]")

@@ -39,7 +39,7 @@ def draw(runs):
     axes = figure.add_subplot()
     for run, style, color in zip(runs, ("-", "--"), ("black", "tab:orange")):
         parts, height, along = tip(run)
-        axes.plot(along, height, style, color=color, marker="o", mfc="white", label=run.program)
+        axes.plot(along, height, style, color=color, marker="o", mfc="white", label=run.words)
     axes.axhline(MEASURED, color="gray", linestyle=":", label="measured, whole load")
     axes.set_xlabel("tip along the flap's axis [mm]")
     axes.set_ylabel("height of the tip [mm]")

@@ -60,9 +60,9 @@ def draw(runs):
     for run, style, color in zip(runs, ("-", "--"), ("black", "tab:orange")):
         openings = run.results.openings
         above.plot(
-            openings["outlet"].time, openings["outlet"].mean_pressure / 1000, style, color=color, label=run.program
+            openings["outlet"].time, openings["outlet"].mean_pressure / 1000, style, color=color, label=run.words
         )
-        below.plot(openings["outlet"].time, openings["outlet"].flow, style, color=color, label=f"out, {run.program}")
+        below.plot(openings["outlet"].time, openings["outlet"].flow, style, color=color, label=f"out, {run.words}")
     below.plot(openings["inlet"].time, -openings["inlet"].flow, ":", color="tab:blue", label="in")
     above.set_ylabel("pressure at the outlet [kPa]")
     below.set_ylabel("flow [mm³/ms]")

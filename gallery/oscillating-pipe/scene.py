@@ -76,7 +76,7 @@ def draw(runs):
     axes = figure.subplots(2, sharex=True)
     for run, style, color in zip(runs, ("-", "--"), ("black", "tab:orange")):
         for panel, (times, values), scale in zip(axes, (wall(run), blood(run)), (1000, 1)):
-            panel.plot(times, scale * values, style, color=color, label=run.program)
+            panel.plot(times, scale * values, style, color=color, label=run.words)
     end = wall(runs.first)[0][-1]
     t = np.linspace(end - 2 * np.pi, end, 13)
     for panel, exact, scale in zip(axes, (WALL, BLOOD), (1000, 1)):

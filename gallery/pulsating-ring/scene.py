@@ -86,7 +86,7 @@ def draw(runs):
     axes = figure.add_subplot()
     for run, style in zip(runs, ("-", "--")):
         times, radii = inner_radius(run)
-        axes.plot(times, radii, style, color="black" if style == "-" else "tab:orange", label=run.program)
+        axes.plot(times, radii, style, color="black" if style == "-" else "tab:orange", label=run.words)
     shown = [time for time in EXACT if time <= times[-1]]
     axes.plot(shown, [EXACT[time] for time in shown], "o", color="black", mfc="white", label="exact")
     axes.set_xlabel("time [ms]")

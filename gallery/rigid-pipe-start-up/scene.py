@@ -58,7 +58,7 @@ def draw(runs):
         color="black",
         mfc="white",
         markersize=4,
-        label=runs.first.program,
+        label=runs.first.words,
     )
     axes.set_xlabel("time [ms]")
     axes.set_ylabel("flow [mm³/ms]")

@@ -52,7 +52,7 @@ def draw(runs):
     axes = figure.add_subplot()
     for run, style, color in zip(runs, ("-", "--"), ("black", "tab:orange")):
         times, values = ovality(run)
-        axes.plot(times / 1000, values, style, color=color, label=run.program)
+        axes.plot(times / 1000, values, style, color=color, label=run.words)
     axes.axvspan(0, 5, color="0.9", label="pushed")
     axes.set_xlabel("time [s]")
     axes.set_ylabel("ovality [mm]")

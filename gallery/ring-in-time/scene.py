@@ -77,7 +77,7 @@ def draw(runs):
     axes = figure.add_subplot()
     times, radii = inner_radius(runs.first)
     axes.plot(*exact(times[-1], 500), "-", color="black", label="exact")
-    axes.plot(times[::4], radii[::4], "o", color="black", mfc="white", markersize=3, label=runs.first.program)
+    axes.plot(times[::4], radii[::4], "o", color="black", mfc="white", markersize=3, label=runs.first.words)
     axes.set_xlabel("time [ms]")
     axes.set_ylabel("inner radius [mm]")
     axes.legend()

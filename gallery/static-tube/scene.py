@@ -68,7 +68,7 @@ def draw(runs):
     loads, radii = inner_radius(runs.first)
     line = np.linspace(INNER, radii[-1], 60)
     axes.plot(line, [holding_pressure(LAYERS, radius) for radius in line], "-", color="black", label="exact")
-    axes.plot(radii, loads, "o", color="black", mfc="white", label=runs.first.program)
+    axes.plot(radii, loads, "o", color="black", mfc="white", label=runs.first.words)
     axes.set_xlabel("inner radius [mm]")
     axes.set_ylabel("pressure [kPa]")
     axes.legend()

@@ -63,7 +63,7 @@ def draw(runs):
     figure = Figure(figsize=(6.4, 3.2), layout="constrained")
     axes = figure.add_subplot()
     z, shear = shear_at_wall(runs.first)
-    axes.plot(z, shear, "-", color="black", label=runs.first.program)
+    axes.plot(z, shear, "-", color="black", label=runs.first.words)
     axes.axhline(POISEUILLE, color="black", linestyle=":", label="Poiseuille, straight vessel")
     axes.set_xlabel("z [mm]")
     axes.set_ylabel("shear stress at the wall [Pa]")

@@ -76,7 +76,7 @@ def draw(runs):
     axes = figure.add_subplot()
     angle, distance, stress = dome(runs.first)
     on_dome = (angle < 1.6) & (distance > RADIUS - 0.1) & (distance < RADIUS + 0.6)
-    axes.plot(angle[on_dome], stress[on_dome], ".", color="black", markersize=3, label=runs.first.program)
+    axes.plot(angle[on_dome], stress[on_dome], ".", color="black", markersize=3, label=runs.first.words)
     angles = np.linspace(0, 1.6, 60)
     exact = laplace(0.15 + 0.2 * (1 - np.cos(angles)) / (1 - np.cos(2.05)))
     axes.plot(angles, exact, "-", color="tab:orange", label="Laplace's law")

@@ -93,7 +93,7 @@ def draw(runs):
     times, found = gradient(runs.first)
     fine = np.linspace(0, times[-1], 400)
     axes.plot(fine, 1000 * (GRADIENT * np.exp(1j * OMEGA * fine)).real, "-", color="black", label="exact")
-    axes.plot(times[::4], found[::4], "o", color="black", mfc="white", markersize=4, label=runs.first.program)
+    axes.plot(times[::4], found[::4], "o", color="black", mfc="white", markersize=4, label=runs.first.words)
     axes.set_xlabel("time [ms]")
     axes.set_ylabel("pressure gradient [Pa/mm]")
     axes.legend(loc="upper right")

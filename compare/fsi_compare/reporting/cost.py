@@ -9,6 +9,7 @@ from ..base.errors import InputError, printable
 from ..base.files import exists, folder, together
 from ..base.options import Commands, add_command, add_folders, add_output, add_usual
 from ..runs.columns import read_columns, read_iterations
+from ..runs.coupling import chosen_scheme, coupling_kind, coupling_words
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
 from ..runs.summary import PROGRAMS
@@ -173,7 +174,15 @@ def cost_columns(first: Cost) -> List[Column[Cost]]:
 
     return [
         Column("run", "run", lambda c: c.label, left=True),
-        Column("driver", "program", lambda c: c.program, left=True),
+        Column(
+            "driver",
+            "program",
+            lambda c: c.program,
+            left=True,
+            text=lambda c: coupling_words(f"fsi-{c.program}", c.summary),
+        ),
+        Column(csv="coupling_kind", value=lambda c: coupling_kind(c.summary), behind=True),
+        Column(csv="coupling_scheme", value=lambda c: chosen_scheme(c.summary), behind=True),
         Column("mesh", "mesh", lambda c: c.mesh, left=True),
         Column(csv="unknowns", value=lambda c: c.unknowns),
         Column(csv="threads", value=lambda c: c.threads),
@@ -217,6 +226,8 @@ def cost_notes(costs: Sequence[Cost]) -> List[str]:
     notes = [f"{machines}."] if machines else []
     if any(c.work_units is not None for c in costs):
         notes.append(NOTE)
+    passes = {coupling_kind(c.summary): c.summary.get("coupling_pass") for c in costs}
+    notes += [f"`{kind}`: {printable(does)}." for kind, does in passes.items() if kind and does]
     notes += [
         "Relative time: seconds per step over the first run's. Solves: of the whole system (monolithic) or of the "
         "sub-problems (partitioned). Set-ups: factorisations, or set-ups of a preconditioner, in all steps.",

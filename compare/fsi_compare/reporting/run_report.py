@@ -10,6 +10,7 @@ from ..results.comparison import difference
 from ..results.line import Line
 from ..results.run import RunResults, open_run
 from ..runs.differences import Difference
+from ..runs.coupling import with_coupling
 from ..runs.labels import folder_labels, read_labels
 from ..runs.samples import CENTRE_LINE
 from ..runs.work_units import NOTE, about_machines, per_step
@@ -71,8 +72,11 @@ def report(options: argparse.Namespace) -> int:
     times = read_times(options.times) if options.times is not None else []
     if len(times) > MOST_TIMES:
         raise InputError("", "--times", f"{len(times)} times do not fit a picture", f"give at most {MOST_TIMES}")
-    labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
+    named = read_labels(options.labels, len(options.folders))
     runs = [open_run(folder) for folder in options.folders]
+    labels = named or [
+        with_coupling(label, run.program, run.summary) for label, run in zip(folder_labels(options.folders), runs)
+    ]
     check_runs(runs, times)
     bars = find_bars(runs)
     tables = [differences_table(runs, labels), sample_table(sample_differences(options.folders), labels)]

@@ -5,6 +5,7 @@ from typing import List, Optional, Sequence
 
 from ..base.errors import InputError, printable
 from ..base.files import absolute
+from .coupling import coupling_words
 from .run_folder import Run
 
 
@@ -25,8 +26,8 @@ def read_labels(text: Optional[str], runs: int) -> Optional[List[str]]:
 
 
 def default_labels(runs: Sequence[Run]) -> list:
-    """Names that tell the runs apart, as short as that allows: the program, then its case or folder beside it."""
-    programs = [run.short_program for run in runs]
+    """Names that tell the runs apart, as short as that allows: the program with its kind of coupling, then its case or folder beside it."""
+    programs = [coupling_words(run.program, run.summary) for run in runs]
     places = [printable(str(run.folder)) for run in runs]
     choices = (
         programs,

@@ -74,6 +74,8 @@ SHAPE: Mapping[str, Shape] = {
     "case": _text,
     "element": _text,
     "geometry": _text,
+    "coupling_kind": _text,
+    "coupling_pass": _text,
     "threads": _count,
     "processes": _count,
     "per_process": {**{name: _spread for name in PER_PROCESS}, "phases": _Each(entry=_spread)},

@@ -11,6 +11,7 @@ from .gallery.scene import Number, Scene, SceneRun, SceneRuns
 from ..reporting.column import Column, Facts, fixed
 from ..reporting.layout import Table
 from ..runs.columns import ITERATIONS
+from ..runs.coupling import chosen_scheme, coupling_kind
 from ..runs.work_units import shown
 from .running.context import Context
 from .running.study_file import Study
@@ -125,6 +126,12 @@ class Row(NamedTuple):
         run = self.run(program)
         return "" if run is None else duration(run.seconds) if run.done else run.status
 
+    def kind(self, program: str) -> str:
+        """With its scheme."""
+        run = self.run(program)
+        known = (coupling_kind(run.summary), chosen_scheme(run.summary)) if run is not None else ()
+        return ", ".join(word for word in known if word)
+
     def passes(self, program: str) -> str:
         run = self.run(program)
         return fixed(run.passes, ".2f") if run is not None and run.done else ""
@@ -139,7 +146,9 @@ def _of_driver(program: str) -> List[Column[Row]]:
         return None if number is None else number.value
 
     group = SHORT[program]
+    kind: Column[Row] = Column("kind of coupling", value=lambda row: row.kind(program), group=group, left=True)
     return [
+        *([kind] if program == "fsi-partitioned" else []),
         Column("computed", value=value, format=".5g", group=group, missing=""),
         Column("off by", value=lambda row: row.off_by(program), group=group),
         Column("work units a step", value=lambda row: row.work_units(program), group=group),
@@ -176,6 +185,8 @@ NUMBERS: Sequence[Column[Tuple[Measured, Number]]] = (
     Column(csv="step", unit="ms", value=lambda r: counts(r[0])[1]),
     Column(csv="steps", value=lambda r: counts(r[0])[2]),
     Column(csv="seconds", value=lambda r: r[0].runs[r[1].program].seconds),
+    Column(csv="coupling_kind", value=lambda r: coupling_kind(r[0].runs[r[1].program].summary), behind=True),
+    Column(csv="coupling_scheme", value=lambda r: chosen_scheme(r[0].runs[r[1].program].summary), behind=True),
     Column(csv="iterations_per_step", value=lambda r: r[0].runs[r[1].program].passes),
     Column(csv="work_units_per_step", value=lambda r: r[0].runs[r[1].program].work_units_per_step),
 )

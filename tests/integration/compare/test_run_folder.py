@@ -7,8 +7,11 @@ from folder_case import FolderCase
 from synthetic import TIMES, Z, parabola, pressure_csv, write_run
 
 from fsi_compare.base.errors import InputError
+from fsi_compare.runs.coupling import with_coupling
 from fsi_compare.runs.labels import default_labels
 from fsi_compare.runs.run_folder import read_run
+from fsi_compare.studies.running.study_file import Method, Request
+from fsi_compare.studies.running.study_run import StudyRun
 
 SHORT = TIMES[:4]
 
@@ -49,6 +52,30 @@ class ReadsRun(FolderCase):
         self.assertEqual(default_labels([a, c]), ["monolithic, Synthetic tube", "monolithic, Mooney-Rivlin"])
         self.assertEqual(default_labels([a, d]), ["monolithic, a", "monolithic, d"])
         self.assertEqual(len(set(default_labels([a, a]))), 2)
+
+    def test_labels_say_how_fluid_and_wall_were_coupled(self):
+        """As far as the run says it: old ones do not."""
+        scheme = {"partitioned.scheme": {"value": "iqn-ils", "reason": "the wall stands in the fluid"}}
+        a = self.run_of("a", coupling_kind="monolithic")
+        b = self.run_of("b", program="fsi-partitioned", coupling_kind="interface", choices=scheme)
+        c = self.run_of("c", program="fsi-partitioned", choices=scheme)
+        self.assertEqual(default_labels([a, b]), ["monolithic", "partitioned (interface, iqn-ils)"])
+        self.assertEqual(default_labels([a, c]), ["monolithic", "partitioned (iqn-ils)"])
+        self.assertEqual(with_coupling("a", a.program, a.summary), "a")
+        self.assertEqual(with_coupling("mine", b.program, b.summary), "mine (interface, iqn-ils)")
+
+    def test_method_of_a_study_has_its_kind(self):
+        def label(settings, **summary):
+            method = Method("x", "IQN-ILS", "fsi-partitioned", settings)
+            request = Request("g", "c", method, {}, self.base, None, settings, 1.0)
+            folder = self.run_of(f"study-{len(settings)}-{len(summary)}", program="fsi-partitioned", **summary).folder
+            return StudyRun(request, folder, "done", "", 1.0, "").method_label
+
+        scheme = {"partitioned.scheme": {"value": "iqn-ils", "reason": "named"}}
+        named = {"partitioned.scheme": "iqn-ils"}
+        self.assertEqual(label(named, coupling_kind="interface", choices=scheme), "IQN-ILS, interface")
+        self.assertEqual(label({}, coupling_kind="interface", choices=scheme), "IQN-ILS, interface, iqn-ils")
+        self.assertEqual(label(named), "IQN-ILS")
 
 
 class RefusesBadFolder(FolderCase):

@@ -25,6 +25,7 @@ from fsi_compare.studies.verify.lean import between, cross, lean, starting_membe
 from fsi_compare.studies.verify.artery_sizes import LEVELS, RECOMMENDED, SHORT_STEP, artery_words, waves_of
 from fsi_compare.studies.verify.mesh_family import ratio_for
 from fsi_compare.studies.verify.paying import kind_of, unpaid
+from fsi_compare.runs.coupling import chosen_scheme
 from fsi_compare.studies.verify.preparing import tell_damped
 from fsi_compare.studies.verify.quantities import Asked, Curve, peak, quantities_of
 from fsi_compare.studies.verify.results import Judged, about
@@ -34,7 +35,6 @@ from fsi_compare.studies.verify.tolerances import (
     GAP_TOLERANCE,
     NEWTON_TOLERANCE,
     WALL_ERROR_TOLERANCE,
-    chosen_scheme,
     governing,
 )
 from fsi_compare.studies.verify.verdict import NOT_IN_RANGE, Value, bar_of

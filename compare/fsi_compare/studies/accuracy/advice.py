@@ -127,14 +127,12 @@ def _long(seconds: float) -> str:
 
 
 def algebraic_advice(group: Sequence[Measured], targets: Sequence[float]) -> List[str]:
-    """Of runs that solve the same equations: the fastest of each driver that stays below each target."""
+    """Of runs that solve the same equations: the fastest of each kind of coupling that stays below each target."""
     lines = []
     for target in targets:
         words = []
-        for name, members in (
-            ("monolithic", [m for m in group if not m.partitioned]),
-            ("partitioned", [m for m in group if m.partitioned]),
-        ):
+        kinds = sorted({m.kind for m in group}, key=lambda kind: (kind != "monolithic", kind))
+        for name, members in [(kind, [m for m in group if m.kind == kind]) for kind in kinds]:
             found = cheapest([(m.seconds, m.worst_algebraic) for m in members], target)
             if found is not None:
                 m = members[found]

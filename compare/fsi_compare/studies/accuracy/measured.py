@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
+from ...runs.coupling import coupling_kind
 from ...runs.waves import JUDGED, QUANTITIES, Waves, read_run, relative_difference
 from ..running.study_file import Request, show
 from ..running.study_run import StudyRun
@@ -62,6 +63,11 @@ class Measured:
         return self.run.request.method.program == "fsi-partitioned"
 
     @property
+    def kind(self) -> str:
+        """Of coupling; where the run does not say it, the driver."""
+        return coupling_kind(self.run.summary) or ("partitioned" if self.partitioned else "monolithic")
+
+    @property
     def worst(self) -> float:
         """The larger of the total errors of averaged pressure and displacement."""
         return max(self.total[q.column] for q in JUDGED)
@@ -100,7 +106,7 @@ class Measured:
             if key.startswith(("monolithic.", "partitioned."))
             and (key.endswith("tolerance") or request.method.settings.get(key) != value)
         ]
-        return ", ".join([request.method.label, *varied])
+        return ", ".join([self.run.method_label, *varied])
 
     @property
     def words(self) -> str:

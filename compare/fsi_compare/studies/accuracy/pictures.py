@@ -15,7 +15,12 @@ from .convergence import SPACE, Series
 from .frontier import frontier
 from .measured import GAIN, Measured
 
-REST, ON_FRONTIER, PARTITIONED_FILL = "#c4c4c4", "#000000", "#ffffff"
+REST, ON_FRONTIER = "#c4c4c4", "#000000"
+FILLS = {
+    "monolithic": ON_FRONTIER,
+    "block": "#8a8a8a",
+    "interface": "#ffffff",
+}  # by kind of coupling; others as the last
 WIDE_INCHES = (7.4, 3.3)  # of a panel whose points are named
 AXES_PART = (0.86, 0.72)  # of it, that its axes take
 PANEL_INCHES = (4.4, 3.6)
@@ -32,38 +37,38 @@ OTHER_SERIES = {"linestyle": "-", "linewidth": 0.9, "color": "#c4c4c4", "zorder"
 def work_precision(measured: Sequence[Measured], title: str) -> Figure:
     """Total error against seconds, a panel per quantity: the frontier is named, all other settings are grey."""
     figure, panels = _panels(len(QUANTITIES), WIDE_INCHES, 1)
-    shown: Set[bool] = set()
+    shown: Set[str] = set()
     for axes, quantity in zip(panels, QUANTITIES):
         points = [(m.seconds, 100 * m.total[quantity.column]) for m in measured]
         axes.set_title(quantity.name)
         axes.set_ylabel("error in % of the reference")
         shown |= _frontier(axes, points, measured, _setting(measured), GAIN)
-    return finish(figure, *_drivers(shown), title)
+    return finish(figure, *_kinds(shown), title)
 
 
 def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity: Quantity, title: str) -> Figure:
     """Error of stopping early against seconds, a panel per mesh and step: the frontier is named, a grey line along each method's
     tolerances."""
     figure, panels = _panels(len(groups), WIDE_INCHES, 1)
-    shown: Set[bool] = set()
+    shown: Set[str] = set()
     for axes, (name, group) in zip(panels, groups.items()):
         points = [(m.seconds, max(100 * m.algebraic[quantity.column], FLOOR)) for m in group]
-        for label in dict.fromkeys(m.run.request.method.label for m in group):
-            own = sorted((p for p, m in zip(points, group) if m.run.request.method.label == label), key=lambda p: p[1])
+        for label in dict.fromkeys(m.run.method_label for m in group):
+            own = sorted((p for p, m in zip(points, group) if m.run.method_label == label), key=lambda p: p[1])
             axes.plot([x for x, _ in own], [y for _, y in own], color=REST, linewidth=0.8, zorder=1)
         axes.set_title(name, wrap=True)
         axes.set_ylabel("error in % of the tight solution")
         shown |= _frontier(axes, points, group, lambda m: m.solving, 0.0)
-    return finish(figure, *_drivers(shown), title)
+    return finish(figure, *_kinds(shown), title)
 
 
 def _setting(measured: Sequence[Measured]) -> Callable[[Measured], str]:
     """Mesh and step of a run, with the method where there are several for one driver."""
-    methods = {(m.partitioned, m.run.request.method.label) for m in measured}
+    methods = {(m.partitioned, m.run.method_label) for m in measured}
     several = {driver for driver in (True, False) if sum(1 for own, _ in methods if own == driver) > 1}
 
     def words(m: Measured) -> str:
-        method = [m.run.request.method.label] if m.partitioned in several else []
+        method = [m.run.method_label] if m.partitioned in several else []
         return ", ".join([f"{m.mesh_label} mesh", f"{m.step:g} ms", *method])
 
     return words
@@ -128,31 +133,30 @@ def _frontier(
     measured: Sequence[Measured],
     name: Callable[[Measured], str],
     gain: float,
-) -> Set[bool]:
-    """The frontier is numbered from the left, as its table is, and named; the rest are grey and lie below. Of which drivers it
-    holds runs: True for the partitioned one."""
+) -> Set[str]:
+    """The frontier is numbered from the left, as its table is, and named; the rest are grey and lie below. Of which kinds of
+    coupling it holds runs."""
     best = frontier(points, gain)
     others = [point for i, point in enumerate(points) if i not in best]
     axes.plot([x for x, _ in others], [y for _, y in others], linestyle="none", marker="o", markersize=3.5, color=REST)
     axes.plot([points[i][0] for i in best], [points[i][1] for i in best], color=ON_FRONTIER, linewidth=1.0, zorder=2.5)
     for i in best:
-        axes.plot(*[[c] for c in points[i]], zorder=3, **_mark(measured[i].partitioned))
+        axes.plot(*[[c] for c in points[i]], zorder=3, **_mark(measured[i].kind))
     axes.set_xlabel("seconds of the run")
     log_axes(axes, "s", "%")
     names = [f"{number}: {name(measured[i])}" for number, i in enumerate(best, 1)]
     name_points(axes, [points[i] for i in best], names, (WIDE_INCHES[0] * AXES_PART[0], WIDE_INCHES[1] * AXES_PART[1]))
     plain_log_axis(axes.xaxis, "s")
     plain_log_axis(axes.yaxis, "%")
-    return {measured[i].partitioned for i in best}
+    return {measured[i].kind for i in best}
 
 
-def _mark(partitioned: bool) -> dict:
-    fill = PARTITIONED_FILL if partitioned else ON_FRONTIER
+def _mark(kind: str) -> dict:
+    fill = FILLS.get(kind, FILLS["interface"])
     return {"linestyle": "none", "marker": "o", "markersize": 6, "color": ON_FRONTIER, "markerfacecolor": fill}
 
 
-def _drivers(shown: Set[bool]) -> Tuple[List[Line2D], List[str]]:
+def _kinds(shown: Set[str]) -> Tuple[List[Line2D], List[str]]:
     """The legend: the marks of the frontier."""
-    drivers = sorted(shown)
-    names = {False: "on the frontier, monolithic", True: "on the frontier, partitioned"}
-    return [Line2D([], [], **_mark(driver)) for driver in drivers], [names[driver] for driver in drivers]
+    kinds = sorted(shown, key=[*FILLS, *shown].index)
+    return [Line2D([], [], **_mark(kind)) for kind in kinds], [f"on the frontier, {kind}" for kind in kinds]

@@ -150,7 +150,10 @@ def _total(report: Report, case: str, measured: Sequence[Measured], several: boo
 
 
 def _hollow(measured: Sequence[Measured]) -> str:
-    return ", hollow for the partitioned driver" if any(m.partitioned for m in measured) else ""
+    kinds = {m.kind for m in measured}
+    words = ["grey inside of the kind `block`"] if "block" in kinds else []
+    words += [f"hollow of the kind `{kind}`" for kind in sorted(kinds - {"monolithic", "block"})]
+    return "".join(f", {word}" for word in words)
 
 
 def _orders(report: Report, found: Sequence[Series], cases: Sequence[str]) -> None:

@@ -106,7 +106,7 @@ def in_short(passes: Sequence[StudyRun], agreement: Sequence[Agreement], runs: S
     means: Dict[str, List[float]] = {}
     for run in passes:
         if run.done:
-            means.setdefault(run.request.method.label, []).append(run.passes)
+            means.setdefault(run.method_label, []).append(run.passes)
     if means:
         best, worst = (pick(means, key=lambda label: max(means[label])) for pick in (min, max))
         line = f"Fewest coupling iterations a step: {best}, {_span(means[best])} over walls and meshes"
@@ -192,7 +192,7 @@ def cost_section(context: Context, runs: Sequence[StudyRun]) -> None:
         here = [run for run in done if mesh_name(run) == mesh]
         for case in dict.fromkeys(run.request.case for run in here):
             own = [run for run in here if run.request.case == case]
-            costs = [read_cost(run.folder, run.request.method.label) for run in own]
+            costs = [read_cost(run.folder, run.method_label) for run in own]
             table = cost_table(costs, f"Cost, {MATERIALS.get(case, case)}, {mesh} mesh")
             table.stem = f"coupling_cost_{case}_{mesh}".strip("_")
             context.report.table(table)

@@ -66,7 +66,7 @@ def series(found: Sequence[Cell]) -> List[Series]:
         own = sorted((cell for cell in found if cell.method == name), key=lambda cell: varied(cell.run))
         lines.append(
             Series(
-                label=own[0].run.request.method.label,
+                label=own[0].run.method_label,
                 x=[varied(cell.run) for cell in own],
                 passes=[cell.run.passes if cell.run.done else None for cell in own],
                 off=[off(cell) for cell in own],
@@ -138,7 +138,7 @@ def sweep_table(group: str, label: str, found: Sequence[Cell], settings: Setting
         f"coupling_{group}",
         f"Mean coupling iterations per step against the {label}",
         [
-            Column("scheme", value=lambda row: next(iter(row.values())).run.request.method.label, left=True),
+            Column("scheme", value=lambda row: next(iter(row.values())).run.method_label, left=True),
             *map(_of_value, values),
             Column("largest difference from monolithic", value=_worst, format=".1e"),
         ],

@@ -84,10 +84,7 @@ def passes_table(runs: Sequence[StudyRun]) -> Table:
     return Table(
         "coupling_passes",
         "Coupling iterations per step, mean (range)",
-        [
-            Column("scheme", value=lambda row: next(iter(row.values())).run.request.method.label, left=True),
-            *map(column, shown),
-        ],
+        [Column("scheme", value=lambda row: next(iter(row.values())).run.method_label, left=True), *map(column, shown)],
         rows,
         Facts(PASSES, [passes for row in rows for passes in row.values()]),
     )
@@ -108,13 +105,7 @@ def growth_table(runs: Sequence[StudyRun]) -> Table:
     done = [run for run in runs if run.done]
     coarsest = mesh_name(done[0]) if done else ""
     columns: List[Column[Growth]] = [
-        Column(
-            "scheme",
-            "scheme",
-            lambda g: g.run.request.method.name,
-            text=lambda g: g.run.request.method.label,
-            left=True,
-        ),
+        Column("scheme", "scheme", lambda g: g.run.request.method.name, text=lambda g: g.run.method_label, left=True),
         Column("material", "case", lambda g: g.run.request.case, lambda case: MATERIALS.get(case, case), left=True),
         Column("mesh", "mesh", lambda g: mesh_name(g.run), left=True),
         Column("steps", "steps", lambda g: g.steps),
@@ -191,10 +182,7 @@ def agreement_table(runs: Sequence[StudyRun]) -> Table:
     return Table(
         "coupling_agreement",
         f"Relative difference to the monolithic pressure at tolerance {', '.join(tolerances)} (iterations per step)",
-        [
-            Column("scheme", value=lambda row: next(iter(row.values())).run.request.method.label, left=True),
-            *map(column, shown),
-        ],
+        [Column("scheme", value=lambda row: next(iter(row.values())).run.method_label, left=True), *map(column, shown)],
         list(rows.values()),
         Facts(AGREEMENTS, found),
         [

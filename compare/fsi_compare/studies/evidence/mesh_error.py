@@ -150,7 +150,7 @@ ERRORS: Sequence[Column[Wave]] = (
         left=True,
     ),
     Column("mesh", "mesh", lambda w: _mesh_words(w[0]), left=True),
-    Column("method", "method", lambda w: w[0].request.method.name, text=lambda w: w[0].request.method.label, left=True),
+    Column("method", "method", lambda w: w[0].request.method.name, text=lambda w: w[0].method_label, left=True),
     _error("error", "pressure_relative_L2", PRESSURE_HEAD, lambda e: e.pressure),
     _error("reference's own", "pressure_reference_own", PRESSURE_HEAD, lambda e: e.own_pressure),
     _error("error", "radial_relative_L2", RADIAL_HEAD, lambda e: e.displacement),

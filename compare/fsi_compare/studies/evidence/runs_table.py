@@ -13,9 +13,7 @@ from ...reporting.work_column import work_column
 RUNS: Sequence[Column[StudyRun]] = (
     Column("group", "group", lambda run: run.request.group, left=True),
     Column("case", "case", lambda run: run.request.case, left=True),
-    Column(
-        "method", "method", lambda run: run.request.method.name, text=lambda run: run.request.method.label, left=True
-    ),
+    Column("method", "method", lambda run: run.request.method.name, text=lambda run: run.method_label, left=True),
     Column("values", "values", lambda run: values_of(run), left=True),
     Column(
         "outcome",

@@ -154,7 +154,7 @@ def draw_swings(
     axes = figure.add_subplot()
     for run, style, color in zip(runs, ("-", "--"), ("black", "tab:orange")):
         swing = swing_on_the_axis(run, period)
-        axes.plot(swing.z, np.abs(swing.p), style, color=color, label=run.program)
+        axes.plot(swing.z, np.abs(swing.p), style, color=color, label=run.words)
     inside = swing_on_the_axis(next(iter(runs)), period).between(first, last)
     waves = np.stack([np.exp(sign * 1j * k * inside.z) for k in numbers for sign in (-1, 1)], axis=1)
     fitted = waves @ np.linalg.lstsq(waves, inside.p, rcond=None)[0]

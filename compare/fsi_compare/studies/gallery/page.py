@@ -8,6 +8,7 @@ from ...reporting.column import Column
 from ...reporting.layout import Table
 from ...reporting.report import Report
 from ...results.run import RunResults
+from ...runs.coupling import coupling_kind
 from ...runs.work_units import NOTE, per_step
 from .mesh_chain import as_typed, with_places
 from .running import Outcome
@@ -113,7 +114,8 @@ NUMBERS: Sequence[Column[Number]] = (
 
 # Of (program, its run).
 COSTS: Sequence[Column[Tuple[str, SceneRun]]] = (
-    Column("driver", "program", lambda r: r[0], driver, left=True),
+    Column("driver", "program", lambda r: r[0], left=True, text=lambda r: r[1].words),
+    Column(csv="coupling_kind", value=lambda r: coupling_kind(r[1].summary), behind=True),
     Column("unknowns", "unknowns", lambda r: r[1].summary.get("unknowns", {}).get("coupled")),
     Column("steps", "steps", lambda r: total(r[1], "steps")),
     work_column("work units per step", "work_units_per_step", lambda r: per_step(r[1].summary)),

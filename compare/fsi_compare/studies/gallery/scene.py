@@ -27,6 +27,7 @@ from ...base.files import exists, is_file, is_folder, listed, read_text
 from ...base.suggestions import nearest
 from ...results.run import RunResults, open_run
 from ...results.table import Table
+from ...runs.coupling import coupling_words
 from ...runs.run_folder import read_finished
 
 BOTH = ("fsi-monolithic", "fsi-partitioned")
@@ -70,6 +71,11 @@ class SceneRun:
     program: str
     summary: Dict[str, Any]
     seconds: float
+
+    @property
+    def words(self) -> str:
+        """For legends: `monolithic`, `partitioned (interface, iqn-ils)`."""
+        return coupling_words(self.program, self.summary)
 
     @property
     def results(self) -> RunResults:

@@ -130,9 +130,7 @@ class Benchmark:
     def _draw(self, axes: Any, runs: SceneRuns, known: Known) -> None:
         for run, (style, color) in zip(runs, LINES):
             times, values = self.values(run, known.name)
-            axes.plot(
-                times / (1 if self.static else 1000), values, style, color=color, linewidth=0.8, label=run.program
-            )
+            axes.plot(times / (1 if self.static else 1000), values, style, color=color, linewidth=0.8, label=run.words)
         for side in (1, -1) if known.amplitude else (0,):
             label = "published extremes" if side else "published"
             axes.axhline(

@@ -117,7 +117,7 @@ def cost(costs: Sequence[StepCost]) -> str:
     if fast:
         parts.append(f"{_seconds(fast)} with our monolithic solver")
     if rival:
-        label = f"{rival.run.request.method.label}{_times(rival, fast)}"
+        label = f"{rival.run.method_label}{_times(rival, fast)}"
         parts.append(f"{_seconds(rival)} with the quickest partitioned scheme ({label})")
     for name, words in ((PAPER_MONOLITHIC, "the paper's monolithic solver"), (PAPER_PARTITIONED, "its fixed point")):
         if name in here and here[name] is not rival:

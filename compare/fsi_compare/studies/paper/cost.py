@@ -73,7 +73,7 @@ class StepCost:
 
     @property
     def label(self) -> str:
-        return self.run.request.method.label
+        return self.run.method_label
 
 
 def step_cost(run: StudyRun, cycles: Optional[float] = None) -> StepCost:

@@ -206,7 +206,7 @@ def _phases(report: Report, runs: PaperRuns, costs: Sequence[paper_cost.StepCost
     for run in shown:
         by_mesh.setdefault(mesh_of(run), []).append(run)
     for mesh, group in by_mesh.items():
-        labels = [run.request.method.label for run in group]
+        labels = [run.method_label for run in group]
         report.figure(
             f"phases_{mesh}",
             lambda: phase_figure(group, labels, f"Where the time goes, {mesh} mesh"),

@@ -7,6 +7,7 @@ from typing import Optional, Tuple
 
 from ...base.errors import InputError
 from ...base.files import is_file, read_object
+from ...runs.coupling import chosen_scheme, coupling_kind
 from ...runs.columns import Columns, read_columns
 from ...runs.pressure_waves import PressureWaves
 from ...runs.run_folder import has_pressure, read_pressure_line
@@ -67,6 +68,16 @@ class StudyRun:
 
     def has(self, file: str) -> bool:
         return is_file(self.folder / file)
+
+    @property
+    def method_label(self) -> str:
+        """As the study names the method; a partitioned one with its kind of coupling, and with its scheme where the study leaves
+        that to the driver: `IQN-ILS, interface`."""
+        method = self.request.method
+        if method.program != "fsi-partitioned":
+            return method.label
+        scheme = None if "partitioned.scheme" in self.request.settings else chosen_scheme(self.summary)
+        return ", ".join(word for word in (method.label, coupling_kind(self.summary), scheme) if word)
 
     @property
     def steps(self) -> int:

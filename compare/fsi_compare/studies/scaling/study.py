@@ -99,7 +99,7 @@ def evaluate(context: Context) -> int:
         meshes = {_mesh(run) for run in found} if group != "weak" else set()
         by_line: Dict[str, List[Measured]] = {}
         for run in found:
-            method = run.request.method.label
+            method = run.method_label
             label = f"{method}, {_mesh(run)}" if len(meshes) > 1 else method
             processes = runner.processes_of(run.request)
             by_line.setdefault(label, []).append(measure(run, label, processes, runner.threads, cores))

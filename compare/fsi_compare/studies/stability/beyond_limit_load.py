@@ -237,7 +237,7 @@ def limit_load_table(runs: Sequence[Inflated], settings: Settings) -> Table:
 def _alike(label: str, mesh: str, there: Sequence[Inflated]) -> List[Alike]:
     alike: Dict[Tuple[str, ...], List[str]] = {}
     for run in there:
-        alike.setdefault(tuple(run.shown), []).append(run.cell.run.request.method.label)
+        alike.setdefault(tuple(run.shown), []).append(run.cell.run.method_label)
     return [
         Alike(label, mesh, _methods(list(dict.fromkeys(labels)), len(alike)), shown) for shown, labels in alike.items()
     ]

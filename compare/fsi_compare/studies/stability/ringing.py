@@ -55,7 +55,7 @@ def _points(settings: Settings) -> List[Column[Point]]:
     return [
         Column("quantity", value=lambda point: settings.label(point[0][0]), left=True),
         Column("value", value=lambda point: point[0][1], left=True),
-        Column("methods", value=lambda point: ", ".join(c.run.request.method.label for c in point[1]), left=True),
+        Column("methods", value=lambda point: ", ".join(c.run.method_label for c in point[1]), left=True),
         Column("amplitude in {unit}", unit="Pa", value=lambda point: _range(_known(map(_amplitude, point[1])))),
         Column(
             "largest pressure in {unit}",

@@ -92,7 +92,7 @@ def _detail(cell: Cell) -> str:
     command = with_name(cell.run.command)
     if cell.outcome == WRONG:
         assert cell.against is not None, "a wrong run was held against another"
-        return f", off by {cell.off:.1e} from {cell.against.request.method.label}; `{command}`"
+        return f", off by {cell.off:.1e} from {cell.against.method_label}; `{command}`"
     return f": {without_folder(cell.run.message)}; `{command}`"
 
 
@@ -212,7 +212,7 @@ def _columns(settings: Settings) -> List[Column[Cell]]:
         Column(csv="case", value=lambda c: c.run.request.case),
         Column("quantity", "quantity", lambda c: quantity(c.run), settings.label, left=True),
         Column("value", "value", lambda c: c.run.request.values[quantity(c.run)], show, left=True),
-        Column("method", "method", lambda c: c.method, text=lambda c: c.run.request.method.label, left=True),
+        Column("method", "method", lambda c: c.method, text=lambda c: c.run.method_label, left=True),
         Column("outcome", "outcome", lambda c: c.outcome, left=True),
         Column(csv="status", value=lambda c: c.run.status),
         Column(csv="message", value=lambda c: without_folder(c.run.message)),

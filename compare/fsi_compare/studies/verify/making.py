@@ -6,6 +6,7 @@ from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError, ProgramError, say_note, say_warning
 from ...base.files import absolute
+from ...runs.coupling import chosen_scheme
 from ..running.runner import Runner
 from ..running.study_run import REFUSED, StudyRun
 from .adapting import Adapted, adapting_member, nodes_of
@@ -14,7 +15,6 @@ from .family import Member, Requests
 from .paying import about_unpaid, unpaid
 from .quantities import curves_of
 from .results import FamilyRuns
-from .tolerances import chosen_scheme
 
 
 class Maker:

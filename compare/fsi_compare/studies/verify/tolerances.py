@@ -8,7 +8,7 @@
 | partitioned, any other scheme | `partitioned.tolerance`; `force_tolerance` besides, where demanded |
 
 Where the case names no scheme, the driver chooses one by the scene (partitioned/scheme_choice.cpp), which a case file alone does
-not tell: a run's `summary.json` does (chosen_scheme).
+not tell: a run's `summary.json` does (runs/coupling.py).
 """
 
 from typing import Any, Dict, Mapping, Optional
@@ -19,13 +19,6 @@ NEWTON_TOLERANCE = 1e-3  # the same
 GAP_TOLERANCE = 1e-6  # the same
 DEFAULT_SCHEME = "robin-neumann-inexact"  # around vessels
 BY_ERROR = (DEFAULT_SCHEME, "block-newton")  # schemes that end by the error of a step, others by the interface's gap
-
-
-def chosen_scheme(summary: Mapping[str, Any]) -> Optional[str]:
-    """The coupling scheme of a run of `fsi-partitioned`, by its `summary.json`; None: it does not say."""
-    choice = _section(_section(summary, "choices"), "partitioned.scheme")
-    value = choice.get("value")
-    return value if isinstance(value, str) else None
 
 
 def names_scheme(entries: Mapping[str, Any]) -> bool:
