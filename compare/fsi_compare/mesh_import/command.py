@@ -2,18 +2,18 @@
 knows."""
 
 import argparse
-import contextlib
-import io
 from pathlib import Path
-from typing import Any, List, TextIO, Tuple
+from typing import List, TextIO, Tuple
 
 import numpy as np
 
 from ..base.errors import InputError, printable
-from ..base.files import exists, folder, replacing
+from ..base.files import folder, replacing
 from ..base.options import Commands, add_command
-from .groups import KINDS, Block, FoundMesh, Group, choose_groups, dimensions_of, found_mesh
-from .vtu import read_vtu
+from .groups import Group, choose_groups
+from .parts import FoundMesh, count_in, dimensions_of, found_mesh, shown_names
+from .raw_mesh import ELEMENTS, KINDS, Block
+from .readers import read_mesh
 
 
 def add_parser(commands: Commands, version: str) -> None:
@@ -36,17 +36,16 @@ def convert_mesh(options: argparse.Namespace) -> int:
     file = str(options.mesh)
     if not 0 < options.scale < float("inf"):
         raise InputError("", "--scale", f"{options.scale:g} is no factor", "give 1000 for a mesh in m")
-    mesh = found_mesh(file, _read(options.mesh), options.scale)
+    mesh = found_mesh(file, read_mesh(options.mesh), options.scale)
     if options.list:
-        for name, masks in mesh.cells.items():
-            words = {1: "lines", 2: "triangles", 3: "tetrahedra"}
-            counts = [
-                f"{sum(int(m.sum()) for b, m in zip(mesh.blocks, masks) if b.dimension == d)} {words[d]}"
-                for d in dimensions_of(mesh, masks)
-            ]
+        for name, places in mesh.cells.items():
+            counts = [f"{count_in(mesh, places, d)} {ELEMENTS[d]}" for d in dimensions_of(mesh, places)]
             print(printable(f"{name:<32} {', '.join(counts)}"))
-        for name, mask in mesh.points_of.items():
-            print(printable(f"{name:<32} {int(mask.sum())} points"))
+        for name, at in mesh.points_of.items():
+            print(printable(f"{name:<32} {len(at)} points"))
+    if mesh.passed_over:
+        print(printable(f"Passed over, since they say no parts: {shown_names(mesh.passed_over)}"))
+    if options.list:
         return 0
     if options.output is None:
         raise InputError("", "--output", "is not given", "give -o FILE.msh, or --list")
@@ -64,25 +63,6 @@ def _pair(text: str) -> Tuple[str, str]:
     if not (name and equals and part) or '"' in name:
         raise InputError("", "--group", f"'{text}' is no NAME=PART", "write, for one, --group fluid=region:1")
     return name, part
-
-
-def _read(path: Path) -> Any:
-    if not exists(path):
-        raise InputError(path, "", "no such file", "give a mesh that meshio reads: VTU, MED, Exodus, ...")
-    try:
-        import meshio  # takes a while to load
-    except ImportError:
-        raise InputError("meshio", "", "is not there", "install the Debian package python3-meshio") from None
-    if path.suffix.lower() == ".vtu":
-        return read_vtu(path)
-    try:
-        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
-            return meshio.read(path)
-    except (Exception, SystemExit) as error:  # meshio ends the program for a file that it does not know
-        said = " ".join(str(error).split()) or type(error).__name__
-        if isinstance(error, SystemExit):
-            said = "unknown or damaged"
-        raise InputError(path, "", f"meshio cannot read it: {said[:300]}", "save it as VTU, for one") from None
 
 
 def _turn(mesh: FoundMesh, groups: List[Group]) -> int:

@@ -47,7 +47,7 @@ class VtkFile:
     """The arrays of one file. `contents` is the kind of data set that is asked for, `PolyData` for one. Raises InputError."""
 
     def __init__(self, path: Path, contents: str) -> None:
-        self.path = path
+        self.path, self.contents = path, contents
         text = path.read_bytes()
         # What is appended raw is no XML: it is cut out, from the underscore on.
         found = re.search(rb"<AppendedData[^>]*>\s*_", text)
@@ -113,3 +113,25 @@ class VtkFile:
             parts.append(self.unpack(data[at : at + count]))
             at += count
         return b"".join(parts)
+
+
+def scalars_of(
+    file: VtkFile, piece: Any, place: str, count: int, passed_over: Dict[str, None]
+) -> Dict[str, np.ndarray]:
+    """Arrays of one number an entry below `place` of a piece. Others are not decoded: files of results may have hundreds.
+    `passed_over` gets a word on each of these, once."""
+    found = {}
+    for element in piece.findall(f"{place}/DataArray"):
+        name, components = element.get("Name", ""), int(element.get("NumberOfComponents") or 1)
+        if element.get("type") not in TYPES:
+            passed_over[f"{name} (no numbers)"] = None
+            continue
+        if components > 1:
+            passed_over[f"{name} ({components} components)"] = None
+            continue
+        values = file.array(element)
+        if len(values) != count:
+            problem = f"has {len(values)} numbers for {count} {'points' if place == 'PointData' else 'cells'}"
+            raise InputError(file.path, name, problem, f"write it anew as {EXTENSIONS[file.contents]}")
+        found[name] = values
+    return found

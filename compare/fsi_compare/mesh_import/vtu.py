@@ -1,5 +1,5 @@
 """Reads meshes of VTK's XML format (.vtu). meshio 5.3.5 under Python 3.13 refuses most that have
-appended arrays in base64, which is how VTK writes them."""
+appended arrays in base64, which is how VTK writes them; meshio 5.0.0 knows no Lagrange cells, which dolfinx writes."""
 
 from pathlib import Path
 from typing import Any, Dict, List, Tuple
@@ -7,7 +7,8 @@ from typing import Any, Dict, List, Tuple
 import numpy as np
 
 from ..base.errors import InputError
-from .vtk_xml import DAMAGES, VtkFile
+from .raw_mesh import RawMesh
+from .vtk_xml import DAMAGES, VtkFile, scalars_of
 
 # VTK's numbers of cells: meshio's name and how many nodes.
 CELLS = {
@@ -29,50 +30,55 @@ CELLS = {
     28: ("quad9", 9),
     29: ("hexahedron27", 27),
 }
+# Lagrange cells of VTK by their number and how many nodes, where they are cells of the table above.
+LAGRANGE = {(68, 2): 3, (68, 3): 21, (69, 3): 5, (69, 6): 22, (71, 4): 10, (71, 10): 24}
 
 
-def read_vtu(path: Path) -> Any:
-    """The cells of all pieces, those of a kind in one block, with the fields of cells and points: a mesh as meshio gives
-    it. Raises InputError."""
+def read_vtu(path: Path) -> RawMesh:
+    """The cells of all pieces, those of a kind in one block, with the fields of cells and points that have one number each.
+    Raises InputError."""
     try:
         return _read(VtkFile(path, "UnstructuredGrid"))
     except DAMAGES as error:
         raise InputError(path, "", f"cannot be read: {error}", "write the mesh anew as .vtu") from None
 
 
-def _read(file: VtkFile) -> Any:
-    import meshio  # takes a while to load
-
+def _read(file: VtkFile) -> RawMesh:
     points: List[np.ndarray] = []
     point_data: Dict[str, List[np.ndarray]] = {}
     blocks: Dict[int, List[np.ndarray]] = {}  # by kind, of each piece that has such cells
     cell_data: Dict[str, Dict[int, List[np.ndarray]]] = {}
+    passed_over: Dict[str, None] = {}
     first = 0
     for piece in file.root.iter("Piece"):
         there = piece.find("Points/DataArray")
         if there is None:
             continue
         points.append(file.array(there).reshape(-1, 3))
-        for element in piece.findall("PointData/DataArray"):
-            point_data.setdefault(element.get("Name", ""), []).append(file.array(element))
-        fields = {element.get("Name", ""): file.array(element) for element in piece.findall("CellData/DataArray")}
-        for kind, which, nodes in _cells(file, piece):
+        for name, values in scalars_of(file, piece, "PointData", len(points[-1]), passed_over).items():
+            point_data.setdefault(name, []).append(values)
+        cells = _cells(file, piece)
+        count = sum(len(which) for _, which, _ in cells)
+        fields = scalars_of(file, piece, "CellData", count, passed_over)
+        for kind, which, nodes in cells:
             if np.any((nodes < 0) | (nodes >= len(points[-1]))):
                 raise InputError(file.path, "connectivity", "names a point that is not there", "write the mesh anew")
             blocks.setdefault(kind, []).append(nodes + first)
             for name, values in fields.items():
                 cell_data.setdefault(name, {}).setdefault(kind, []).append(values[which])
         first += len(points[-1])
-    cells = [(CELLS[kind][0], np.concatenate(parts)) for kind, parts in blocks.items()]
     # A field that some piece lacks is none of the mesh.
     whole = {
         name: [np.concatenate(of_kinds.get(kind, [])) for kind in blocks]
         for name, of_kinds in cell_data.items()
         if all(len(of_kinds.get(kind, [])) == len(parts) for kind, parts in blocks.items())
     }
-    at_points = {name: np.concatenate(parts) for name, parts in point_data.items() if len(parts) == len(points)}
-    return meshio.Mesh(
-        np.concatenate(points) if points else np.zeros((0, 3)), cells, point_data=at_points, cell_data=whole
+    return RawMesh(
+        np.concatenate(points) if points else np.zeros((0, 3)),
+        [(CELLS[kind][0], np.concatenate(parts)) for kind, parts in blocks.items()],
+        whole,
+        {name: np.concatenate(parts) for name, parts in point_data.items() if len(parts) == len(points)},
+        passed_over=list(passed_over),
     )
 
 
@@ -86,6 +92,8 @@ def _cells(file: VtkFile, piece: Any) -> List[Tuple[int, np.ndarray, np.ndarray]
     lengths = np.diff(ends, prepend=0)
     if len(ends) != len(kinds) or np.any(lengths < 0) or (len(ends) and ends[-1] > len(corners)):
         raise InputError(file.path, "offsets", "do not fit the cells", "write the mesh anew as .vtu")
+    for (lagrange, count), kind in LAGRANGE.items():
+        kinds[(kinds == lagrange) & (lengths == count)] = kind
     found = []
     for kind in np.unique(kinds):
         if int(kind) not in CELLS:

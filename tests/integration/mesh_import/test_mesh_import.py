@@ -73,6 +73,34 @@ class MeshImport(FolderTest):
             words = ("--scale", 1000, "--group", "fluid=part:1", "--group", "inlet=part:2", "--group", "outlet=part:3")
             self.expect_tube(self.imported(self.base / "tube.vtu", *words), order)
 
+    def test_vtu_whose_cells_have_numbers_of_their_own(self):
+        """As SimVascular writes it: ids of cells and points beside the region's number."""
+        points, solid, sides = self.lumen()
+        count = len(solid[1])
+        data = {"ModelRegionID": [np.ones(count, np.int32)], "GlobalElementID": [np.arange(1, count + 1)]}
+        ids = {"GlobalNodeID": np.arange(1, len(points) + 1), "velocity": np.ones((len(points), 3))}
+        meshio.Mesh(points, [solid], ids, data).write(self.base / "tube.vtu")
+        words = ("--opening", "inlet=0,0,0", "--opening", "outlet=0,0,3", "--scale", 1000)
+        process = self.imported(self.base / "tube.vtu", "--group", "fluid=ModelRegionID:1", *words)
+        self.expect_tube(process)
+        for name in (
+            "GlobalElementID (numbers of cells)",
+            "GlobalNodeID (numbers of points)",
+            "velocity (3 components)",
+        ):
+            self.assertIn(name, process.stdout)
+        listed = execute(MESH, "import", self.base / "tube.vtu", "--list")
+        self.assertRegex(listed.stdout, rf"(?m)^ModelRegionID:1 +{count} tetrahedra")
+        self.assertNotIn("ElementID:", listed.stdout)
+
+    def test_vtu_without_arrays(self):
+        points, solid, _ = self.lumen()
+        meshio.Mesh(points, [solid]).write(self.base / "tube.vtu")
+        listed = execute(MESH, "import", self.base / "tube.vtu", "--list")
+        self.assertRegex(listed.stdout, rf"(?m)^all +{len(solid[1])} tetrahedra")
+        words = ("--opening", "inlet=0,0,0", "--opening", "outlet=0,0,3", "--scale", 1000)
+        self.expect_tube(self.imported(self.base / "tube.vtu", "--group", "fluid=all", *words))
+
     def test_med_and_abaqus_with_names_of_their_own(self):
         points, solid, sides = self.lumen()
         blocks = [solid, *sides]

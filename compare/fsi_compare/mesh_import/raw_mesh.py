@@ -1,0 +1,86 @@
+"""What a file of a mesh holds, before any of it is called a part."""
+
+from dataclasses import dataclass, field
+from typing import Any, Dict, List, Tuple
+
+import numpy as np
+
+# Simplices by meshio's names: dimension, order, gmsh's number, gmsh's order of the nodes.
+KINDS: Dict[str, Tuple[int, int, int, Tuple[int, ...]]] = {
+    "line": (1, 1, 1, (0, 1)),
+    "line3": (1, 2, 8, (0, 1, 2)),
+    "triangle": (2, 1, 2, (0, 1, 2)),
+    "triangle6": (2, 2, 9, (0, 1, 2, 3, 4, 5)),
+    "tetra": (3, 1, 4, (0, 1, 2, 3)),
+    "tetra10": (3, 2, 11, (0, 1, 2, 3, 4, 5, 6, 7, 9, 8)),
+}
+CORNERS = {kind: dimension + 1 for kind, (dimension, _, _, _) in KINDS.items()}
+ELEMENTS = {1: "lines", 2: "triangles", 3: "tetrahedra"}  # by dimension, for messages
+
+
+@dataclass
+class Block:
+    """Elements of one kind."""
+
+    kind: str
+    nodes: np.ndarray  # (elements, nodes of each), from 0
+
+    @property
+    def dimension(self) -> int:
+        return KINDS[self.kind][0]
+
+
+@dataclass
+class RawMesh:
+    """Arrays have an entry an element, NaN where an element has none; sets hold places, from 0."""
+
+    points: np.ndarray  # (points, 2 or 3), the file's unit
+    blocks: List[Tuple[str, np.ndarray]]  # meshio's name of the kind, any kind; nodes of each element
+    cell_data: Dict[str, List[np.ndarray]] = field(default_factory=dict)  # an array a block
+    point_data: Dict[str, np.ndarray] = field(default_factory=dict)
+    cell_sets: Dict[str, List[np.ndarray]] = field(default_factory=dict)  # places in each block
+    point_sets: Dict[str, np.ndarray] = field(default_factory=dict)
+    passed_over: List[str] = field(default_factory=list)  # what the reader left out, for messages
+
+
+def of_meshio(mesh: Any) -> RawMesh:
+    """What meshio has read, without the names that some of its formats keep elsewhere."""
+    blocks = [(block.type, np.asarray(block.data)) for block in mesh.cells]
+    nothing = np.zeros(0, dtype=np.int64)
+    sets = {
+        name: [nothing if entry is None else np.asarray(entry, dtype=np.int64) for entry in entries]
+        for name, entries in mesh.cell_sets.items()
+    }
+    found = RawMesh(
+        np.asarray(mesh.points, dtype=float),
+        blocks,
+        {name: [np.asarray(values) for values in data] for name, data in mesh.cell_data.items()},
+        {name: np.asarray(values) for name, values in mesh.point_data.items()},
+        sets,
+        {name: np.asarray(entries, dtype=np.int64) for name, entries in mesh.point_sets.items()},
+    )
+    families = getattr(mesh, "cell_tags", None) or {}  # of MED: number -> names
+    for number, names in families.items():
+        places = [np.flatnonzero(values == number) for values in found.cell_data.get("cell_tags", [])]
+        for name in names:
+            known = found.cell_sets.get(name, [nothing for _ in places])
+            found.cell_sets[name] = [np.union1d(a, b) for a, b in zip(known, places)]
+    _name_physical_groups(found, getattr(mesh, "field_data", None) or {})
+    return found
+
+
+def _name_physical_groups(mesh: RawMesh, field_data: Dict[str, Any]) -> None:
+    """$PhysicalNames of a gmsh file: name -> number and dimension. Of format 4 meshio makes sets of cells of them; of
+    format 2.2 the numbers alone stand with the cells."""
+    numbers = mesh.cell_data.get("gmsh:physical")
+    for name, data in field_data.items():
+        pair = np.asarray(data).ravel()
+        if numbers is None or len(pair) != 2 or str(name) in mesh.cell_sets or not np.all(pair == np.round(pair)):
+            continue
+        number, dimension = int(pair[0]), int(pair[1])
+        places = [
+            np.flatnonzero((values == number) & (kind in KINDS and KINDS[kind][0] == dimension))
+            for values, (kind, _) in zip(numbers, mesh.blocks)
+        ]
+        if any(len(p) for p in places):
+            mesh.cell_sets[str(name)] = places
