@@ -39,7 +39,7 @@ FLOORS = (
     ("",),
 )
 LIBRARY = ("", "library")  # modules: what `import fsi_compare` is
-LIBRARIES = ("numpy", "matplotlib", "h5py", "meshio", "jinja2", "markupsafe")
+LIBRARIES = ("numpy", "matplotlib", "h5py", "meshio", "netCDF4", "jinja2", "markupsafe")
 # Imports by a name that is computed are seen by no check: only where every module that it may name lies below.
 COMPUTED = ("studies.kinds",)
 

@@ -19,7 +19,7 @@ IDENTITIES = frozenset(
     + ("globalcellids", "globalpointids", "pedigreeelementid", "pedigreenodeid", "objectid")
 )
 # Arrays that say parts, however many values they have.
-REGIONS = frozenset(("modelregionid", "modelfaceid", "gmsh:physical", "gmsh:geometrical", "medit:ref", "cell_tags"))
+REGIONS = frozenset(("modelregionid", "modelfaceid", "gmsh:physical", "gmsh:geometrical", "medit:ref"))
 MOST_VALUES = 1000  # of an array that says parts
 SHOWN = 12  # names in one line
 
@@ -56,7 +56,7 @@ def found_mesh(file: str, mesh: RawMesh, scale: float) -> FoundMesh:
     found = FoundMesh(points, blocks, passed_over=list(mesh.passed_over))
     for name, entries in mesh.cell_sets.items():
         found.cells[name] = [entries[i] for i in kept]
-    numbered = set()
+    numbered = set(mesh.unnamed)
     for name, data in mesh.cell_data.items():
         values = _numbers([data[i] for i in kept])
         reason = _no_parts(name, values, "cell")

@@ -1,7 +1,7 @@
 """What a file of a mesh holds, before any of it is called a part."""
 
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Tuple
+from typing import Any, Dict, List, Set, Tuple
 
 import numpy as np
 
@@ -40,6 +40,7 @@ class RawMesh:
     point_data: Dict[str, np.ndarray] = field(default_factory=dict)
     cell_sets: Dict[str, List[np.ndarray]] = field(default_factory=dict)  # places in each block
     point_sets: Dict[str, np.ndarray] = field(default_factory=dict)
+    unnamed: Set[str] = field(default_factory=set)  # of the sets of cells: those that have a number only
     passed_over: List[str] = field(default_factory=list)  # what the reader left out, for messages
 
 
@@ -50,6 +51,7 @@ def of_meshio(mesh: Any) -> RawMesh:
     sets = {
         name: [nothing if entry is None else np.asarray(entry, dtype=np.int64) for entry in entries]
         for name, entries in mesh.cell_sets.items()
+        if name != "gmsh:bounding_entities"  # of meshio 5.0.0: tags of gmsh's entities, no places of elements
     }
     found = RawMesh(
         np.asarray(mesh.points, dtype=float),
@@ -59,12 +61,6 @@ def of_meshio(mesh: Any) -> RawMesh:
         sets,
         {name: np.asarray(entries, dtype=np.int64) for name, entries in mesh.point_sets.items()},
     )
-    families = getattr(mesh, "cell_tags", None) or {}  # of MED: number -> names
-    for number, names in families.items():
-        places = [np.flatnonzero(values == number) for values in found.cell_data.get("cell_tags", [])]
-        for name in names:
-            known = found.cell_sets.get(name, [nothing for _ in places])
-            found.cell_sets[name] = [np.union1d(a, b) for a, b in zip(known, places)]
     _name_physical_groups(found, getattr(mesh, "field_data", None) or {})
     return found
 

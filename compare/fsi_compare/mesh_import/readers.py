@@ -7,17 +7,43 @@ from typing import Callable, Dict
 
 from ..base.errors import InputError
 from ..base.files import exists
+from .abaqus import read_abaqus
+from .exodus import read_exodus
+from .med import read_med
 from .raw_mesh import RawMesh, of_meshio
 from .vtu import read_vtu
+from .xdmf import read_xdmf
 
-# By the end of a file's name, in lower case. What meshio reads well, or reads at all, is left to it.
-READERS: Dict[str, Callable[[Path], RawMesh]] = {".vtu": read_vtu}
+# By the end of a file's name, in lower case: what meshio has wrong, as each of these says at its top. What meshio reads well, or reads at all, is left to it.
+READERS: Dict[str, Callable[[Path], RawMesh]] = {
+    ".vtu": read_vtu,
+    ".xdmf": read_xdmf,
+    ".xmf": read_xdmf,
+    ".med": read_med,
+    ".inp": read_abaqus,
+    **{name: read_exodus for name in (".e", ".exo", ".ex2", ".exii", ".g", ".gen")},
+}
+# What no reader takes, by the end of its name: what it is, and the way in.
+REFUSED = {
+    ".unv": ("a universal file of I-DEAS", "turn it by gmsh FILE.unv -save -o FILE.msh, or write it as MED"),
+    ".neu": ("a neutral file of Gambit", "write the mesh as Exodus, Abaqus (.inp) or .vtu"),
+    ".pvtu": ("a list of .vtu files", "give these, one after the other, with --join"),
+    ".pvd": ("a list of .vtu files", "give the one of a time"),
+    ".vtm": ("a list of files of VTK", "give the .vtu files in it"),
+    ".cas": ("a case of Fluent", "write the mesh as .vtu, Exodus or MED"),
+    ".frd": ("results of CalculiX", "give the deck, .inp"),
+    ".feb": ("a model of FEBio", "export the mesh from FEBio Studio as .vtk or Abaqus, .inp"),
+    ".vtp": ("a surface", "give the mesh of the volume first, and this as NAME=FILE.vtp"),
+}
 
 
 def read_mesh(path: Path) -> RawMesh:
     """Raises InputError."""
     if not exists(path):
         raise InputError(path, "", "no such file", "give a mesh that meshio reads: VTU, MED, Exodus, ...")
+    if path.suffix.lower() in REFUSED:
+        what, remedy = REFUSED[path.suffix.lower()]
+        raise InputError(path, "", f"is {what}, which no reader takes", remedy)
     return READERS.get(path.suffix.lower(), _read_by_meshio)(path)
 
 

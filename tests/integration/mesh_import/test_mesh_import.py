@@ -149,12 +149,16 @@ class MeshImport(FolderTest):
         meshio.Mesh(points, [solid], cell_data={"part": [np.ones(len(solid[1]), int)]}).write(self.base / "tube.vtu")
         cube = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
         meshio.Mesh(cube, [("hexahedron", np.array([[0, 1, 3, 2, 4, 5, 7, 6]]))]).write(self.base / "cube.vtu")
-        for name in ("text.vtu", "text.med"):
+        for name in ("text.vtu", "text.med", "text.unv", "text.inp", "text.e", "text.xdmf"):
             (self.base / name).write_text("no mesh")
         for file, options, words in (
             ("none.vtu", (), ("none.vtu: no such file",)),
             ("text.vtu", (), ("text.vtu: is no XML",)),
-            ("text.med", (), ("meshio cannot read it",)),
+            ("text.med", (), ("cannot be read as MED",)),
+            ("text.unv", (), ("is a universal file of I-DEAS, which no reader takes",)),
+            ("text.inp", (), ("line 1: 'no mesh' stands before any keyword",)),
+            ("text.e", (), ("cannot be read as Exodus",)),
+            ("text.xdmf", (), ("is no XML",)),
             ("cube.vtu", (), ("holds hexahedron in place of tetrahedra",)),
             ("tube.vtu", (), ("--group: is not given", "part:1 (tetrahedra)")),
             ("tube.vtu", ("--group", "fluid=prt:1"), ("no part prt:1", "did you mean part:1?")),

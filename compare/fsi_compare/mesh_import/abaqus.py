@@ -1,0 +1,406 @@
+"""Reads meshes of Abaqus and CalculiX decks (.inp).
+
+meshio 5.0.0 and 5.3.5 follow no *INCLUDE of a mesh, join parts and instances without their names, know no *SURFACE, and end
+with "'NoneType' object is not subscriptable" at what they do not know.
+Numbers of nodes and faces: Abaqus 2016, Elements Guide, 28.1.3 (triangles) and 28.1.4 (tetrahedra).
+"""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Dict, Iterable, Iterator, List, Mapping, NamedTuple, NoReturn, Optional, Sequence, Tuple
+
+import numpy as np
+
+from ..base.errors import InputError
+from ..base.files import read_bytes
+from .raw_mesh import RawMesh
+
+# Nodes of faces S1, S2, ...: corners, then middles of edges.
+FACES: Dict[str, Tuple[str, Tuple[Tuple[int, ...], ...]]] = {
+    "tetra": ("triangle", ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))),
+    "tetra10": ("triangle6", ((0, 1, 2, 4, 5, 6), (0, 3, 1, 7, 8, 4), (1, 3, 2, 8, 9, 5), (2, 3, 0, 9, 7, 6))),
+    "triangle": ("line", ((0, 1), (1, 2), (2, 0))),
+    "triangle6": ("line3", ((0, 1, 3), (1, 2, 4), (2, 0, 5))),
+}
+# Types of elements begin with one of these, by dimension; the number of nodes follows, then letters of the formulation.
+FAMILIES = {
+    3: ("DC3D", "AC3D", "C3D", "F3D"),
+    2: ("CPS", "CPE", "CPEG", "CAX", "CGAX", "DCAX", "DC2D", "AC2D", "STRI", "M3D", "SFM3D", "DS", "S", "R3D"),
+    1: ("T3D", "T2D"),
+}
+OF_COUNT = {
+    3: {4: "tetra", 10: "tetra10", 5: "pyramid", 6: "wedge", 15: "wedge15", 8: "hexahedron", 20: "hexahedron20"},
+    2: {3: "triangle", 6: "triangle6", 4: "quad", 8: "quad8", 9: "quad9"},
+    1: {2: "line", 3: "line3"},
+}
+# Those whose number says something else.
+OTHER_TYPES = {"STRI65": (2, 6), "B21": (1, 2), "B31": (1, 2), "B22": (1, 3), "B32": (1, 3)}
+MOVING = ("SYSTEM", "NGEN", "NFILL", "NCOPY", "ELGEN", "ELCOPY", "NMAP")
+DEEPEST = 20  # of includes within includes
+REMEDY = "mend that line"
+
+
+class Line(NamedTuple):
+    """Of a deck or of a file that it includes."""
+
+    file: Path
+    number: int
+    text: str
+
+
+@dataclass
+class Part:
+    """Each has numbers of nodes and elements of its own. What is outside of parts has an empty name."""
+
+    name: str
+    nodes: Dict[int, int] = field(default_factory=dict)  # number -> place among all points
+    elements: Dict[int, Tuple[str, int]] = field(default_factory=dict)  # number -> block, place in it
+    node_sets: Dict[str, List[int]] = field(default_factory=dict)  # name in upper case -> numbers
+    element_sets: Dict[str, List[int]] = field(default_factory=dict)
+
+
+def read_abaqus(path: Path) -> RawMesh:
+    """Sets of elements and nodes, and surfaces, by their names: `NAME:surface` for a surface that shares it with a set.
+    Raises InputError with the line."""
+    return _Deck(path).mesh()
+
+
+def _lines(path: Path, depth: int = 0, asked: Optional[Line] = None) -> Iterator[Line]:
+    """Without comments and empty lines; those of included files in their place."""
+    missing = "give the deck with all that it includes"
+    try:
+        data = read_bytes(path, missing, "write the deck anew")
+    except InputError as error:
+        if asked is None:
+            raise
+        raise InputError(asked.file, f"line {asked.number}", f"{asked.text}: {error}") from None
+    if b"\0" in data[:4096]:
+        raise InputError(path, "", "is no text, as decks are", "write the mesh as .inp, or as .vtu")
+    for number, raw in enumerate(data.decode("utf-8", "replace").splitlines(), 1):
+        text = raw.strip()
+        if not text or text.startswith("**"):
+            continue
+        line = Line(path, number, text)
+        word, options = _keyword(text) if text.startswith("*") else ("", {})
+        if word != "INCLUDE":
+            yield line
+            continue
+        if not options.get("INPUT"):
+            _refuse(line, "*INCLUDE names no INPUT=FILE")
+        if depth >= DEEPEST:
+            _refuse(line, f"has more than {DEEPEST} levels of *INCLUDE")
+        yield from _lines(path.parent / options["INPUT"], depth + 1, line)
+
+
+def _keyword(text: str) -> Tuple[str, Dict[str, str]]:
+    """NODE and {NSET: name} of "*Node, nset=name"; options without a value have an empty one."""
+    head, *rest = [part.strip() for part in text[1:].split(",")]
+    options = {}
+    for entry in rest:
+        key, _, value = entry.partition("=")
+        options[key.strip().upper()] = value.strip().strip('"')
+    return " ".join(head.upper().split()), options
+
+
+def _refuse(line: Line, problem: str, remedy: str = REMEDY) -> NoReturn:
+    raise InputError(line.file, f"line {line.number}", problem, remedy)
+
+
+def _wanted(key: Line, options: Dict[str, str], name: str) -> str:
+    value = options.get(name, "")
+    if not value:
+        _refuse(key, f"{key.text.split(',')[0]} has no {name}=")
+    return value
+
+
+def _words(line: Line) -> List[str]:
+    return [word.strip() for word in line.text.split(",") if word.strip()]
+
+
+def _shape(said: str) -> Tuple[int, int]:
+    """Dimension and nodes of a type of elements: 3 and 10 of C3D10MH; 0 for one that is not known."""
+    for name, found in OTHER_TYPES.items():
+        if said.startswith(name):
+            return found
+    for dimension, families in FAMILIES.items():
+        for family in families:
+            rest = said[len(family) :]
+            digits = rest[: len(rest) - len(rest.lstrip("0123456789"))]
+            if said.startswith(family) and digits and int(digits) in OF_COUNT[dimension]:
+                return dimension, int(digits)
+    return 0, 0
+
+
+class _Deck:
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.points: List[Tuple[float, ...]] = []
+        self.blocks: Dict[str, List[List[int]]] = {}  # kind -> nodes of each element
+        self.facets: Dict[str, List[np.ndarray]] = {}  # kind -> nodes of those of surfaces
+        self.parts: Dict[str, Part] = {"": Part("")}
+        self.current = self.parts[""]
+        self.instances: Dict[str, Part] = {}  # by name in upper case
+        # By the first spelling of a name, since decks do not tell cases apart: block, places in it.
+        self.sets: Dict[str, List[Tuple[str, List[int]]]] = {}
+        self.surfaces: Dict[str, List[Tuple[str, List[int]]]] = {}
+        self.point_sets: Dict[str, List[int]] = {}
+        self.spelling: Dict[str, str] = {}
+        self.passed_over: Dict[str, None] = {}
+        key: Optional[Line] = None
+        data: List[Line] = []
+        for line in _lines(path):
+            if line.text.startswith("*"):
+                self._section(key, data)
+                key, data = line, []
+            elif key is None:
+                _refuse(line, f"'{line.text[:40]}' stands before any keyword")
+            else:
+                data.append(line)
+        self._section(key, data)
+
+    def mesh(self) -> RawMesh:
+        if not self.points:
+            raise InputError(self.path, "", "holds no *NODE", "give the deck that has the mesh")
+        blocks = [(kind, np.array(rows, dtype=np.int64)) for kind, rows in self.blocks.items() if rows]
+        order = {kind: i for i, (kind, _) in enumerate(blocks)}
+        order |= {f"facets {kind}": len(blocks) + i for i, kind in enumerate(self.facets)}
+        blocks += [(kind, np.concatenate(rows)) for kind, rows in self.facets.items()]
+        sets = {}
+        for table, word in ((self.sets, ""), (self.surfaces, ":surface")):
+            for name, entries in table.items():
+                places: List[List[int]] = [[] for _ in blocks]
+                for block, there in entries:
+                    places[order[block]] += there
+                sets[name + (word if name in sets else "")] = [np.unique(np.array(p, dtype=np.int64)) for p in places]
+        points = {name: np.unique(np.array(p, dtype=np.int64)) for name, p in self.point_sets.items()}
+        return RawMesh(
+            np.array(self.points), blocks, cell_sets=sets, point_sets=points, passed_over=list(self.passed_over)
+        )
+
+    def _section(self, key: Optional[Line], data: List[Line]) -> None:
+        """A keyword and the lines behind it. Those that say no mesh are left."""
+        if key is None:
+            return
+        word, options = _keyword(key.text)
+        if options.get("INPUT") and word in ("NODE", "ELEMENT", "NSET", "ELSET"):
+            data = data + list(_lines(key.file.parent / options["INPUT"], 1, key))
+        if word == "PART":
+            name = _wanted(key, options, "NAME").upper()
+            self.current = self.parts.setdefault(name, Part(name))
+        elif word in ("END PART", "ASSEMBLY", "END ASSEMBLY"):
+            self.current = self.parts[""]
+        elif word == "INSTANCE":
+            self._instance(key, options, data)
+        elif word == "NODE":
+            self._nodes(key, options, data)
+        elif word == "ELEMENT":
+            self._elements(key, options, data)
+        elif word == "NSET":
+            self._node_set(key, options, data)
+        elif word == "ELSET":
+            self._element_set(key, options, data)
+        elif word == "SURFACE":
+            self._surface(key, options, data)
+        elif word in MOVING:
+            _refuse(key, f"*{word} makes or moves nodes or elements, which is not read", "write the mesh itself out")
+
+    def _instance(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
+        part = self.parts.get(_wanted(key, options, "PART").upper())
+        if part is None:
+            _refuse(key, f"there is no part {options['PART']}")
+        if data:
+            _refuse(data[0], "an instance that is moved or turned is not read", "write the mesh in its place")
+        if any(other is part for other in self.instances.values()):
+            _refuse(key, f"a second instance of the part {options['PART']} is not read", "write the mesh in its place")
+        self.instances[_wanted(key, options, "NAME").upper()] = part
+
+    def _nodes(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
+        if options.get("SYSTEM", "R").upper() != "R":
+            _refuse(key, f"coordinates of the system {options['SYSTEM']} are not read", "write x, y and z")
+        numbers = []
+        for line in data:
+            words = line.text.split(",")
+            try:
+                number = int(words[0])
+                place = tuple(float(word) for word in words[1:4] if word.strip())
+            except ValueError:
+                _refuse(line, f"'{line.text[:60]}' is no node")
+            if len(place) < 2:
+                _refuse(line, f"node {number} has {len(place)} coordinates")
+            if number in self.current.nodes:
+                _refuse(line, f"node {number} is there twice")
+            self.current.nodes[number] = len(self.points)
+            self.points.append(place if len(place) == 3 else (*place, 0.0))
+            numbers.append(number)
+        if options.get("NSET"):
+            self._take_nodes(self.current, options["NSET"], numbers)
+
+    def _elements(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
+        said = _wanted(key, options, "TYPE").upper()
+        dimension, count = _shape(said)
+        if not dimension:
+            _refuse(key, f"elements of the type {said} are not known", "leave them out of the deck")
+        kind = OF_COUNT[dimension][count]
+        rows = self.blocks.setdefault(kind, [])
+        numbers, nodes = self._element_rows(data, said, count)
+        self.current.elements.update(
+            zip(numbers, ((kind, place) for place in range(len(rows), len(rows) + len(nodes))))
+        )
+        rows += nodes
+        if options.get("ELSET"):
+            self._take_elements(self.current, options["ELSET"], numbers)
+
+    def _element_rows(self, data: List[Line], said: str, count: int) -> Tuple[List[int], List[List[int]]]:
+        """Numbers and nodes of elements; one may go on in the next line."""
+        known, taken = self.current.nodes, self.current.elements
+        numbers: List[int] = []
+        rows: List[List[int]] = []
+        fresh = set()
+        words: List[str] = []
+        for line in data:
+            words += line.text.rstrip(",").split(",")
+            if len(words) <= count:
+                continue
+            if len(words) > count + 1:
+                _refuse(line, f"element {words[0]} has {len(words) - 1} nodes, its type {said} {count}")
+            try:
+                number = int(words[0])
+                rows.append([known[int(word)] for word in words[1:]])
+            except ValueError:
+                _refuse(line, f"'{line.text[:60]}' is no element")
+            except KeyError as error:
+                _refuse(line, f"element {words[0]} has the node {error.args[0]}, which is not there")
+            if number in taken or number in fresh:
+                _refuse(line, f"element {number} is there twice")
+            fresh.add(number)
+            numbers.append(number)
+            words = []
+        if words:
+            _refuse(data[-1], f"element {words[0]} has {len(words) - 1} nodes, its type {said} {count}")
+        return numbers, rows
+
+    def _owner(self, key: Line, options: Dict[str, str]) -> Part:
+        """The part whose numbers a set has."""
+        if not options.get("INSTANCE"):
+            return self.current
+        part = self.instances.get(options["INSTANCE"].upper())
+        if part is None:
+            _refuse(key, f"there is no instance {options['INSTANCE']}")
+        return part
+
+    def _node_set(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
+        name, part = _wanted(key, options, "NSET"), self._owner(key, options)
+        numbers = _set_numbers(options, data, part.nodes, part.node_sets, f"the set {name} has the node")
+        if options.get("ELSET"):  # the nodes of a set of elements
+            elements = part.element_sets.get(options["ELSET"].upper())
+            if elements is None:
+                _refuse(key, f"there is no set {options['ELSET']}")
+            number_of = {place: number for number, place in part.nodes.items()}
+            places = {p for n in elements for p in self.blocks[part.elements[n][0]][part.elements[n][1]]}
+            numbers += sorted(number_of[place] for place in places)
+        self._take_nodes(part, name, numbers)
+
+    def _element_set(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
+        name, part = _wanted(key, options, "ELSET"), self._owner(key, options)
+        numbers = _set_numbers(options, data, part.elements, part.element_sets, f"the set {name} has the element")
+        # Sets that Abaqus/CAE makes for surfaces are marked so.
+        self._take_elements(part, name, numbers, "INTERNAL" not in options)
+
+    def _spelled(self, name: str) -> str:
+        return self.spelling.setdefault(name.upper(), name)
+
+    def _take_nodes(self, part: Part, name: str, numbers: List[int]) -> None:
+        part.node_sets.setdefault(name.upper(), []).extend(numbers)
+        self.point_sets.setdefault(self._spelled(name), []).extend(part.nodes[n] for n in numbers)
+
+    def _take_elements(self, part: Part, name: str, numbers: List[int], shown: bool = True) -> None:
+        part.element_sets.setdefault(name.upper(), []).extend(numbers)
+        if shown:
+            self.sets.setdefault(self._spelled(name), []).extend(_by_block(part, numbers))
+
+    def _surface(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
+        name, kind = _wanted(key, options, "NAME"), options.get("TYPE", "ELEMENT").upper()
+        if kind not in ("ELEMENT", "NODE"):
+            self.passed_over[f"{name} (a surface of the type {kind})"] = None
+            return
+        entries = self.surfaces.setdefault(self._spelled(name), [])
+        for line in data:
+            words = [word.strip() for word in line.text.split(",")]
+            if kind == "NODE":
+                part, numbers = self._named(line, words[0], nodes=True)
+                self.point_sets.setdefault(self._spelled(name), []).extend(part.nodes[n] for n in numbers)
+                continue
+            part, numbers = self._named(line, words[0], nodes=False)
+            for block, places in _by_block(part, numbers):
+                entries.append(self._faces(line, block, places, words[1].upper() if len(words) > 1 else ""))
+        if not entries:
+            del self.surfaces[self._spelled(name)]
+
+    def _faces(self, line: Line, block: str, places: List[int], side: str) -> Tuple[str, List[int]]:
+        """Block and places of the facets that a line of a surface names; of shells these are the elements."""
+        if side in ("", "SPOS", "SNEG"):
+            if block.startswith("tetra"):
+                _refuse(line, "names no face of its cells", "write S1 to S4 behind the set")
+            return block, places
+        number = int(side[1:]) if side[0] == "S" and side[1:].isdigit() else 0
+        if block not in FACES or not 1 <= number <= len(FACES[block][1]):
+            _refuse(line, f"{side} is no face of a {block}")
+        facet, corners = FACES[block]
+        rows = np.array([self.blocks[block][p] for p in places], dtype=np.int64)[:, list(corners[number - 1])]
+        known = self.facets.setdefault(facet, [])
+        start = sum(len(f) for f in known)
+        known.append(rows)
+        return f"facets {facet}", list(range(start, start + len(rows)))
+
+    def _named(self, line: Line, entry: str, nodes: bool) -> Tuple[Part, List[int]]:
+        """Part and numbers of "SET", "INSTANCE.SET" or of one number. Sets that an assembly names are of their part."""
+        instance, dot, rest = entry.partition(".")
+        parts: Iterable[Part] = [self.current] if self.current.name else self.parts.values()
+        if dot and instance.upper() in self.instances:
+            parts, entry = [self.instances[instance.upper()]], rest
+        for part in parts:
+            known = part.node_sets if nodes else part.element_sets
+            there: Mapping[int, object] = part.nodes
+            if not nodes:
+                there = part.elements
+            if entry.upper() in known:
+                return part, known[entry.upper()]
+            if entry.isdigit() and int(entry) in there:
+                return part, [int(entry)]
+        _refuse(line, f"there is no set of {'nodes' if nodes else 'elements'} {entry}")
+
+
+def _set_numbers(
+    options: Dict[str, str], data: List[Line], there: Mapping[int, object], known: Dict[str, List[int]], words: str
+) -> List[int]:
+    """Numbers of a set, which may name other sets. `words` begin the message for one that is not there."""
+    numbers: List[int] = []
+    for line in data:
+        entries, found = _words(line), []
+        if "GENERATE" in options:
+            try:
+                first, last = int(entries[0]), int(entries[1])
+                found = list(range(first, last + 1, int(entries[2]) if len(entries) > 2 else 1))
+            except (ValueError, IndexError):
+                _refuse(line, f"'{line.text[:60]}' is no FIRST, LAST, STEP")
+        else:
+            for entry in entries:
+                if entry.isdigit():
+                    found.append(int(entry))
+                elif entry.upper() in known:
+                    found += known[entry.upper()]
+                else:
+                    _refuse(line, f"there is no set {entry}")
+        missing = next((n for n in found if n not in there), None)
+        if missing is not None:
+            _refuse(line, f"{words} {missing}, which is not there")
+        numbers += found
+    return numbers
+
+
+def _by_block(part: Part, numbers: Sequence[int]) -> List[Tuple[str, List[int]]]:
+    found: Dict[str, List[int]] = {}
+    for number in numbers:
+        block, place = part.elements[number]
+        found.setdefault(block, []).append(place)
+    return list(found.items())

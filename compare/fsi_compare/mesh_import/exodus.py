@@ -1,0 +1,179 @@
+"""Reads meshes of Exodus II (.e, .exo, .ex2, .g), which are netCDF files.
+
+meshio 5.0.0 and 5.3.5 leave out names of blocks and all side sets, do not know `TRISHELL`, and take `TETRA4` for a kind of
+their own, `tetra4`, that nothing else of meshio knows. A block whose type is `TETRA` has cells of ten nodes where its nodes
+are ten, as Cubit writes it; meshio goes by the name alone.
+Numbers of nodes and sides: L. A. Schoof, V. R. Yarberry, EXODUS II: A Finite Element Data Model, SAND92-2137, figure 4 and table 1.
+"""
+
+import re
+import warnings
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Tuple
+
+import numpy as np
+
+from ..base.errors import InputError
+from .raw_mesh import RawMesh
+
+# By the letters with which a block's type begins, longest first, and how many nodes its elements have.
+SHAPES = ["TRISHELL", "TRIANGLE", "TETRA", "TRUSS", "BEAM", "BAR", "TET", "TRI", "SHELL", "QUAD", "HEX", "WEDGE"]
+SHAPES += ["PYRAMID", "SPHERE", "CIRCLE", "NODE"]
+KIND_OF = {
+    **{(name, count): kind for name in ("TETRA", "TET") for count, kind in ((4, "tetra"), (10, "tetra10"))},
+    **{
+        (name, count): kind
+        for name in ("TRISHELL", "TRIANGLE", "TRI")
+        for count, kind in ((3, "triangle"), (6, "triangle6"))
+    },
+    **{(name, count): kind for name in ("TRUSS", "BEAM", "BAR") for count, kind in ((2, "line"), (3, "line3"))},
+    ("SHELL", 3): "triangle",
+    ("SHELL", 6): "triangle6",
+}
+OTHERS = {"SHELL": "quad", "QUAD": "quad", "HEX": "hexahedron", "WEDGE": "wedge", "PYRAMID": "pyramid"}
+POINTS = ("SPHERE", "CIRCLE", "NODE")
+# Nodes of sides 1, 2, ...: corners, then middles of edges. Of shells the first two sides are their faces.
+SIDES: Dict[str, Tuple[str, Tuple[Tuple[int, ...], ...]]] = {
+    "tetra": ("triangle", ((0, 1, 3), (1, 2, 3), (0, 3, 2), (0, 2, 1))),
+    "tetra10": ("triangle6", ((0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6), (0, 2, 1, 6, 5, 4))),
+    "triangle": ("line", ((0, 1), (1, 2), (2, 0))),
+    "triangle6": ("line3", ((0, 1, 3), (1, 2, 4), (2, 0, 5))),
+}
+REMEDY = "write it anew as Exodus II"
+
+
+def read_exodus(path: Path) -> RawMesh:
+    """Blocks, side sets and node sets by their names, or as `block:ID`, `sideset:ID` and `nodeset:ID`. Raises InputError."""
+    try:
+        with warnings.catch_warnings():
+            # netCDF4 1.6.2 beside numpy 1.24 of Debian 12: "numpy.ndarray size changed", which changes nothing here.
+            warnings.simplefilter("ignore")
+            import netCDF4  # takes a while to load
+    except ImportError:
+        raise InputError("netCDF4", "", "is not there", "install the Debian package python3-netcdf4") from None
+    try:
+        with netCDF4.Dataset(path) as file:
+            file.set_auto_mask(False)
+            return _read(path, file)
+    except (OSError, ValueError, KeyError, IndexError, TypeError, AttributeError, RuntimeError, OverflowError) as error:
+        raise InputError(path, "", f"cannot be read as Exodus: {error}", REMEDY) from None
+
+
+def _read(path: Path, file: Any) -> RawMesh:
+    if "num_nodes" not in file.dimensions:
+        raise InputError(path, "", "holds no mesh of Exodus", REMEDY)
+    mesh = RawMesh(_points(file), [])
+    nothing = np.zeros(0, dtype=np.int64)
+    names = _names(file, "eb", "block", "num_el_blk")
+    starts = [0]  # elements are numbered through all blocks
+    for number, name in enumerate(names, 1):
+        connectivity = file.variables.get(f"connect{number}")
+        if connectivity is None:  # a block without elements
+            starts.append(starts[-1])
+            mesh.blocks.append(("vertex", np.zeros((0, 1), dtype=np.int64)))
+            continue
+        nodes = np.asarray(connectivity[:], dtype=np.int64) - 1
+        mesh.blocks.append((_kind(path, name, str(connectivity.elem_type), nodes.shape[1]), nodes))
+        starts.append(starts[-1] + len(nodes))
+    count = len(names)
+    for number, name in enumerate(names):
+        _join(
+            mesh, name, [np.arange(len(nodes)) if i == number else nothing for i, (_, nodes) in enumerate(mesh.blocks)]
+        )
+    for number, name in enumerate(_names(file, "ss", "sideset", "num_side_sets"), 1):
+        if f"elem_ss{number}" not in file.variables:
+            continue
+        elements = np.asarray(file.variables[f"elem_ss{number}"][:], dtype=np.int64) - 1
+        sides = np.asarray(file.variables[f"side_ss{number}"][:], dtype=np.int64)
+        _add_sides(path, mesh, name, elements, sides, starts, count)
+    for number, name in enumerate(_names(file, "ns", "nodeset", "num_node_sets"), 1):
+        if f"node_ns{number}" in file.variables:
+            mesh.point_sets[name] = np.asarray(file.variables[f"node_ns{number}"][:], dtype=np.int64) - 1
+    for entries in mesh.cell_sets.values():
+        entries += [nothing] * (len(mesh.blocks) - len(entries))
+    mesh.unnamed = {name for name in mesh.cell_sets if name.startswith(("block:", "sideset:"))}
+    for number, name in enumerate(_texts(file, "name_elem_var"), 1):
+        _add_values(file, mesh, number, name, count)
+    return mesh
+
+
+def _points(file: Any) -> np.ndarray:
+    if "coord" in file.variables:
+        return np.asarray(file.variables["coord"][:], dtype=float).T
+    axes = [file.variables[f"coord{axis}"][:] for axis in "xyz" if f"coord{axis}" in file.variables]
+    return np.stack(axes, axis=1).astype(float)
+
+
+def _texts(file: Any, variable: str) -> List[str]:
+    if variable not in file.variables:
+        return []
+    rows = np.asarray(file.variables[variable][:])
+    return [b"".join(row.tolist()).split(b"\0")[0].decode("utf-8", "replace").strip() for row in rows]
+
+
+def _names(file: Any, short: str, word: str, dimension: str) -> List[str]:
+    count = len(file.dimensions[dimension]) if dimension in file.dimensions else 0
+    texts = _texts(file, f"{short}_names")
+    numbers = (
+        file.variables[f"{short}_prop1"][:].tolist() if f"{short}_prop1" in file.variables else range(1, count + 1)
+    )
+    return [(texts[i] if i < len(texts) else "") or f"{word}:{numbers[i]}" for i in range(count)]
+
+
+def _kind(path: Path, block: str, said: str, count: int) -> str:
+    shape = next((s for s in SHAPES if said.upper().startswith(s)), "")
+    if (shape, count) in KIND_OF:
+        return KIND_OF[shape, count]
+    if shape in POINTS:
+        return "vertex"
+    if shape in OTHERS:
+        return OTHERS[shape]
+    problem = f"has elements of the type {said} with {count} nodes"
+    raise InputError(path, block, problem, "mesh it by tetrahedra of 4 or 10 nodes, or by triangles of 3 or 6")
+
+
+def _join(mesh: RawMesh, name: str, places: List[np.ndarray]) -> None:
+    """Blocks and sets of one name are one part."""
+    known = mesh.cell_sets.get(name, [])
+    known += [np.zeros(0, dtype=np.int64)] * (len(places) - len(known))
+    mesh.cell_sets[name] = [np.concatenate(pair) for pair in zip(known, places)]
+
+
+def _add_sides(
+    path: Path, mesh: RawMesh, name: str, elements: np.ndarray, sides: np.ndarray, starts: List[int], count: int
+) -> None:
+    """A block of facets for each kind, and the set that holds them."""
+    if len(elements) != len(sides) or np.any((elements < 0) | (elements >= starts[count])):
+        raise InputError(path, name, "names an element that is not there", REMEDY)
+    for block in range(count):
+        kind, nodes = mesh.blocks[block]
+        here = (elements >= starts[block]) & (elements < starts[block + 1])
+        if not here.any():
+            continue
+        facets = _facets(path, name, kind, nodes[elements[here] - starts[block]], sides[here])
+        if facets is None:
+            raise InputError(path, name, f"holds sides of a {kind}", "mesh it by tetrahedra or triangles")
+        mesh.blocks.append(facets)
+        places = [np.zeros(0, dtype=np.int64) for _ in mesh.blocks]
+        places[-1] = np.arange(len(facets[1]))
+        _join(mesh, name, places)
+
+
+def _facets(path: Path, name: str, kind: str, nodes: np.ndarray, sides: np.ndarray) -> Optional[Tuple[str, np.ndarray]]:
+    """Sides of elements of one kind, `nodes` and `sides` one a row."""
+    if kind not in SIDES:
+        return None
+    facet, corners = SIDES[kind]
+    if np.any((sides < 1) | (sides > len(corners))):
+        raise InputError(path, name, f"names side {int(sides.max())} of a {kind}, which has {len(corners)}", REMEDY)
+    return facet, np.take_along_axis(nodes, np.array(corners)[sides - 1], axis=1)
+
+
+def _add_values(file: Any, mesh: RawMesh, number: int, name: str, count: int) -> None:
+    """A field of elements at its first time; NaN in blocks that have none."""
+    values = [np.full(len(nodes), np.nan) for _, nodes in mesh.blocks]
+    for variable in file.variables:
+        match = re.fullmatch(rf"vals_elem_var{number}eb(\d+)", variable)
+        if match and int(match.group(1)) <= count and len(file.variables[variable]):
+            values[int(match.group(1)) - 1] = np.asarray(file.variables[variable][0], dtype=float)
+    mesh.cell_data[name] = values

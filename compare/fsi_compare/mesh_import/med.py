@@ -1,0 +1,109 @@
+"""Reads meshes of MED (.med), which are HDF5 files.
+
+meshio 5.0.0 and 5.3.5 demand a group `GRO` of every family; gmsh 4 writes it for physical groups only, and `NOEUD` not at all.
+They also demand a family number for every kind of element where one kind has it, and cut names where they hold letters beyond
+ASCII. Layout: the MED file format of EDF and CEA, version 3 and 4.
+"""
+
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Tuple
+
+import numpy as np
+
+from ..base.errors import InputError
+from .raw_mesh import RawMesh
+
+# Tetrahedra of MED turn the other way round than VTK's; middles of edges are in VTK's order.
+KINDS = {
+    "PO1": ("vertex", 1),
+    "SE2": ("line", 2),
+    "SE3": ("line3", 3),
+    "TR3": ("triangle", 3),
+    "TR6": ("triangle6", 6),
+    "TE4": ("tetra", 4),
+    "T10": ("tetra10", 10),
+    "QU4": ("quad", 4),
+    "QU8": ("quad8", 8),
+    "QU9": ("quad9", 9),
+    "HE8": ("hexahedron", 8),
+    "H20": ("hexahedron20", 20),
+    "H27": ("hexahedron27", 27),
+    "PE6": ("wedge", 6),
+    "P15": ("wedge15", 15),
+    "PY5": ("pyramid", 5),
+    "P13": ("pyramid13", 13),
+}
+SOLID = {"TE4": (0, 2, 1, 3), "T10": (0, 2, 1, 3, 6, 5, 4, 7, 9, 8)}  # to VTK's turn
+REMEDY = "write it anew as MED, or as .vtu"
+
+
+def read_med(path: Path) -> RawMesh:
+    """Groups of elements and nodes by their names; families of elements without a group as `family:NAME`. Raises
+    InputError."""
+    import h5py  # takes a while to load
+
+    try:
+        with h5py.File(path, "r") as file:
+            return _read(path, file)
+    except (OSError, ValueError, KeyError, IndexError, TypeError, AttributeError, RuntimeError) as error:
+        raise InputError(path, "", f"cannot be read as MED: {error}", REMEDY) from None
+
+
+def _read(path: Path, file: Any) -> RawMesh:
+    meshes = list(file.get("ENS_MAA", ()))
+    if len(meshes) != 1:
+        problem = f"holds {len(meshes)} meshes{': ' if meshes else ''}{', '.join(meshes)}"
+        raise InputError(path, "ENS_MAA", problem, "write one mesh into a file of its own")
+    whole = file["ENS_MAA"][meshes[0]]
+    step = whole
+    if "NOE" not in whole:
+        steps = list(whole)
+        if len(steps) != 1:
+            raise InputError(path, meshes[0], f"has {len(steps)} states of the mesh in time", "write one of them")
+        step = whole[steps[0]]
+    coordinates = step["NOE"]["COO"]
+    count = int(coordinates.attrs["NBR"])
+    mesh = RawMesh(np.asarray(coordinates[()], dtype=float).reshape(-1, count).T, [])
+    families = file["FAS"][meshes[0]] if meshes[0] in file.get("FAS", ()) else whole.get("FAS")
+    numbers: List[Optional[np.ndarray]] = []
+    for name, group in step.get("MAI", {}).items():
+        kind, nodes = KINDS.get(name, (f"polyhedron ({name})", 0))
+        if not nodes:
+            raise InputError(path, name, "is a kind of element that is not known", "mesh it by tetrahedra or triangles")
+        there = np.asarray(group["NOD"][()], dtype=np.int64).reshape(nodes, -1).T - 1
+        if name in SOLID:
+            there = there[:, list(SOLID[name])]
+        mesh.blocks.append((kind, there))
+        numbers.append(np.asarray(group["FAM"][()], dtype=np.int64) if "FAM" in group else None)
+    for text, unnamed, wanted in _families(families, "ELEME"):
+        places = [np.zeros(0, np.int64) if n is None else np.flatnonzero(n == wanted) for n in numbers]
+        if not any(len(p) for p in places):
+            continue
+        known = mesh.cell_sets.get(text)
+        mesh.cell_sets[text] = places if known is None else [np.union1d(a, b) for a, b in zip(known, places)]
+        if unnamed:
+            mesh.unnamed.add(text)
+    if "FAM" in step["NOE"]:
+        of_points = np.asarray(step["NOE"]["FAM"][()], dtype=np.int64)
+        sets: Dict[str, np.ndarray] = {}
+        for text, unnamed, wanted in _families(families, "NOEUD"):
+            if not unnamed:
+                sets[text] = np.union1d(sets.get(text, np.zeros(0, np.int64)), np.flatnonzero(of_points == wanted))
+        mesh.point_sets = {text: points for text, points in sets.items() if len(points)}
+    mesh.passed_over += [f"{name} (a field)" for name in file.get("CHA", ())]
+    return mesh
+
+
+def _families(families: Any, place: str) -> List[Tuple[str, bool, int]]:
+    """Name of a group, or of a family without one, which of the two, and the family's number; each group of each family."""
+    found = []
+    for family, content in (families[place] if families is not None and place in families else {}).items():
+        number = int(content.attrs["NUM"])
+        if number == 0:
+            continue  # what is in no family
+        names = content["GRO"]["NOM"][()] if "GRO" in content else ()
+        texts = [
+            bytes(np.asarray(name, dtype=np.int8)).split(b"\0")[0].decode("utf-8", "replace").strip() for name in names
+        ]
+        found += [(text, False, number) for text in texts] or [(f"family:{family}", True, number)]
+    return found
