@@ -1,7 +1,11 @@
 #include "meshes/converted.hpp"
 
+#include <sstream>
+
 #include "base/child_program.hpp"
 #include "base/error.hpp"
+#include "meshes/mesh_report.hpp"
+#include "run/program.hpp"
 
 namespace fsi {
 
@@ -10,7 +14,19 @@ void refuse_file(const std::string& file, const std::string& said_of, std::strin
   throw InputError(file, "", said, "");
 }
 
-std::string converted(const std::string& file, const std::vector<std::string>& words) {
+namespace {
+
+/// Those of fsi-compare, as this program's.
+void repeat_warnings(const std::string& errors) {
+  const std::string mark = "fsi-compare: warning: ";
+  std::istringstream lines(errors);
+  for (std::string line; std::getline(lines, line);)
+    if (line.rfind(mark, 0) == 0) warn(mesh_program, line.substr(mark.size()));
+}
+
+}  // namespace
+
+std::string converted(const std::string& file, const std::vector<std::string>& words, bool quiet) {
   const auto program = beside_this_program("fsi-compare");
   if (program.empty())
     throw InputError("fsi-compare", "", "is not beside fsi-mesh, which needs it to read other formats",
@@ -18,7 +34,10 @@ std::string converted(const std::string& file, const std::vector<std::string>& w
   std::vector<std::string> command{program.string()};
   command.insert(command.end(), words.begin(), words.end());
   const ChildEnd end = run_child(command);
-  if (end.code == 0) return end.output;
+  if (end.code == 0) {
+    if (!quiet) repeat_warnings(end.errors);
+    return end.output;
+  }
   std::string said = end.errors.substr(0, end.errors.find('\n'));
   if (const std::string mark = "fsi-compare: error: "; said.rfind(mark, 0) == 0) said.erase(0, mark.size());
   refuse_file(file, file, said.empty() ? "fsi-compare ended without a message" : said);

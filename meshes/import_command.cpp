@@ -1,6 +1,7 @@
 #include "meshes/import_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <memory>
@@ -25,20 +26,29 @@ namespace fsi {
 namespace {
 
 struct ImportRequest {
-  std::string file;
+  std::vector<std::string> files;
   std::vector<std::string> groups, openings;
-  double scale = 1;
+  double scale = 1, join = 0;
   int order = 0;
   bool list = false;
   MeshOutput output;
 };
 
-/// meshio is Python's, so fsi-compare reads the file. Returns what it printed.
+/// What messages call the mesh.
+std::string named(const ImportRequest& request) {
+  return fmt::format("{}", fmt::join(request.files, " "));
+}
+
+/// The readers are Python's, so fsi-compare reads the files. Returns what it printed.
 std::string convert(const ImportRequest& request, const std::vector<std::string>& more) {
-  std::vector<std::string> words{"convert-mesh", request.file, "--scale", fmt::format("{}", request.scale)};
+  std::vector<std::string> words{"convert-mesh", "--scale", fmt::format("{}", request.scale)};
+  if (request.join != 0) words.insert(words.end(), {"--join", fmt::format("{}", request.join)});
   for (const auto& group : request.groups) words.insert(words.end(), {"--group", group});
   words.insert(words.end(), more.begin(), more.end());
-  return converted(request.file, words);
+  words.emplace_back("--");
+  words.insert(words.end(), request.files.begin(), request.files.end());
+  // Of several files the message names the one at fault.
+  return converted(request.files.size() == 1 ? request.files.front() : "", words, request.output.quiet);
 }
 
 template <int Dim, int Order>
@@ -50,7 +60,7 @@ AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file
   const auto openings = flat_parts_of(request.openings);
   const int dimension = gmsh_dimension(file);
   if (dimension != 3 && !openings.empty())
-    throw InputError(request.file, "--opening", "is for meshes of volumes", "name curves by --group");
+    throw InputError(named(request), "--opening", "is for meshes of volumes", "name curves by --group");
   // Second-order cells keep their order unless another is asked for.
   const int order = request.order > 0 ? request.order : gmsh_order(parse_gmsh(file), dimension);
   AnyMesh mesh;
@@ -60,7 +70,7 @@ AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file
     else
       mesh = order == 1 ? read_mesh<2, 1>(file) : read_mesh<2, 2>(file);
   } catch (const InputError& error) {
-    refuse_file(request.file, file.string(), error.what());
+    refuse_file(named(request), file.string(), error.what());
   }
   std::visit(
       [&](auto& read) {
@@ -89,7 +99,12 @@ void make(const ImportRequest& request) {
 MeshCommand import_command(CLI::App& app) {
   auto* options = app.add_subcommand("import", "A mesh of another program: VTU, MED, Exodus, Abaqus, ... (by meshio)");
   const auto request = std::make_shared<ImportRequest>();
-  options->add_option("file", request->file, "The mesh: simplices, in any format that meshio reads")->required();
+  options
+      ->add_option(
+          "files", request->files,
+          "The mesh: simplices, as VTU, XDMF, Exodus, MED, Abaqus or what meshio reads; NAME=FILE: all cells of "
+          "the file, or triangles of a .vtp, are NAME")
+      ->required();
   options->add_flag("--list", request->list, "Say which parts the file names or numbers, and write nothing");
   options->add_option("--group", request->groups,
                       "NAME=PART: a volume or surface of this name, from a part that --list shows; sets of points give "
@@ -98,6 +113,10 @@ MeshCommand import_command(CLI::App& app) {
                       "NAME=X,Y,Z: surface of the fluid, the flat part of its boundary on which this point lies");
   options->add_option("--scale", request->scale, "From the file's unit of length to mm: 1000 for a mesh in m")
       ->capture_default_str();
+  options->add_option(
+      "--join", request->join,
+      "Points at most so far apart, mm, are one; unless given, those of different files that agree in single "
+      "precision");
   options->add_option("--order", request->order, "1: straight edges; 2: quadratic cells; the file's unless given")
       ->check(CLI::Range(1, 2));
   add_output_options(*options, request->output, false);

@@ -3,17 +3,19 @@ knows."""
 
 import argparse
 from pathlib import Path
-from typing import List, TextIO, Tuple
+from typing import Dict, List, Sequence, TextIO, Tuple
 
 import numpy as np
 
-from ..base.errors import InputError, printable
-from ..base.files import folder, replacing
+from ..base.errors import InputError, printable, say_warning
+from ..base.files import replacing
 from ..base.options import Commands, add_command
-from .groups import Group, choose_groups
-from .parts import FoundMesh, count_in, dimensions_of, found_mesh, shown_names
+from .groups import Group, as_sides, choose_groups
+from .joining import distances_to
+from .parts import FoundMesh, count_in, dimensions_of, shown_names
 from .raw_mesh import ELEMENTS, KINDS, Block
-from .readers import read_mesh
+from .sources import Source, join, read_sources, source_of
+from .touching import contacts, doubled_words, gap_words
 
 
 def add_parser(commands: Commands, version: str) -> None:
@@ -24,38 +26,88 @@ def add_parser(commands: Commands, version: str) -> None:
         "a mesh that meshio reads as a gmsh file; use fsi-mesh import, which checks it, too",
         "Writes a mesh of simplices that meshio reads (VTU, MED, Exodus, ...) as gmsh 2.2 with named groups.",
     )
-    command.add_argument("mesh", metavar="FILE", type=folder)
+    command.add_argument("meshes", metavar="FILE", nargs="+", help="or NAME=FILE: all cells of it are NAME")
     command.add_argument("-o", "--output", metavar="FILE.msh", type=Path)
     command.add_argument("--group", metavar="NAME=PART", action="append", default=[])
     command.add_argument("--scale", metavar="FACTOR", type=float, default=1.0, help="from the file's unit to mm")
+    command.add_argument("--join", metavar="TOLERANCE", type=float, help="points so far apart are one, mm")
     command.add_argument("--list", action="store_true", help="say what parts the file has, and write nothing")
 
 
 def convert_mesh(options: argparse.Namespace) -> int:
     """The command. Raises InputError."""
-    file = str(options.mesh)
     if not 0 < options.scale < float("inf"):
         raise InputError("", "--scale", f"{options.scale:g} is no factor", "give 1000 for a mesh in m")
-    mesh = found_mesh(file, read_mesh(options.mesh), options.scale)
+    if options.join is not None and not 0 < options.join < float("inf"):
+        raise InputError("", "--join", f"{options.join:g} is no distance", "give mm, for one 0.001")
+    if not options.list and options.output is None:
+        raise InputError("", "--output", "is not given", "give -o FILE.msh, or --list")
+    sources = [source_of(text) for text in options.meshes]
+    file = sources[0].file if len(sources) == 1 else " ".join(options.meshes)
+    mesh, ends = read_sources(sources, options.scale)
+    said = join(file, mesh, ends, options.join or 0.0)
+    if mesh.passed_over:
+        said.append(f"Passed over, since they say no parts: {shown_names(mesh.passed_over)}")
     if options.list:
         for name, places in mesh.cells.items():
             counts = [f"{count_in(mesh, places, d)} {ELEMENTS[d]}" for d in dimensions_of(mesh, places)]
             print(printable(f"{name:<32} {', '.join(counts)}"))
         for name, at in mesh.points_of.items():
             print(printable(f"{name:<32} {len(at)} points"))
-    if mesh.passed_over:
-        print(printable(f"Passed over, since they say no parts: {shown_names(mesh.passed_over)}"))
-    if options.list:
-        return 0
-    if options.output is None:
-        raise InputError("", "--output", "is not given", "give -o FILE.msh, or --list")
-    groups = choose_groups(file, mesh, [_pair(text) for text in options.group])
+    else:
+        said += _convert(file, mesh, sources, options)
+    for line in said:
+        print(printable(line))
+    return 0
+
+
+def _convert(file: str, mesh: FoundMesh, sources: Sequence[Source], options: argparse.Namespace) -> List[str]:
+    """Writes the mesh; returns what was done to it."""
+    wanted = [(source.name, source.name) for source in sources if source.name]
+    groups = choose_groups(file, mesh, wanted + [_pair(text) for text in options.group])
+    _require_sides(file, mesh, groups, sources)
+    _warn_of_gaps(mesh, groups)
     turned = _turn(mesh, groups)
-    if turned:
-        print(f"{turned} cells were turned inside out and are turned back")
     with replacing(options.output) as temporary, open(temporary, "w", encoding="utf-8") as out:
         _write(out, mesh, groups)
-    return 0
+    return [f"{turned} cells were turned inside out and are turned back"] if turned else []
+
+
+def _require_sides(file: str, mesh: FoundMesh, groups: List[Group], sources: Sequence[Source]) -> None:
+    """Facets of another file than the cells' are to be sides of cells."""
+    missing = as_sides(mesh, groups)
+    if not missing or len(sources) == 1:
+        return
+    group, corners = missing[0]
+    at = next((source.file for source in sources if source.name == group.name), file)
+    used = [block.nodes.ravel() for g in groups if g.dimension == mesh.dimension for block in g.parts]
+    cells, loose = np.unique(np.concatenate(used)), np.setdiff1d(np.unique(corners), np.concatenate(used))
+    count = sum(len(block.nodes) for block in group.parts)
+    problem = f"{len(corners)} of its {count} {ELEMENTS[group.dimension]} are sides of no cell"
+    if not len(loose):
+        raise InputError(at, group.name, f"{problem}, though their corners are", "give the faces of this very mesh")
+    span = float(np.ptp(mesh.points[cells], axis=0).max())
+    farthest = float(distances_to(mesh.points[loose], mesh.points[cells], span).max())
+    problem += f"; {len(loose)} of their corners are up to {farthest:.3g} mm from the cells' points"
+    raise InputError(at, group.name, problem, f"give --join {1.1 * farthest:.2g}, if that is a small part of an edge")
+
+
+def _warn_of_gaps(mesh: FoundMesh, groups: List[Group]) -> None:
+    """A volume that shares no side with another one is alone: no interface."""
+    volumes: Dict[str, List[Block]] = {}
+    for group in groups:
+        if group.dimension == mesh.dimension:
+            volumes.setdefault(group.name, []).extend(group.parts)
+    found = contacts(mesh.points, volumes, mesh.dimension)
+    alone = False
+    for name in volumes:
+        mine = [contact for contact in found if name in (contact.first, contact.second)]
+        if mine and not any(contact.sides for contact in mine):
+            say_warning(f"{name} touches no other part: {'; '.join(gap_words(contact) for contact in mine)}")
+            alone = True
+    doubled = "" if alone else doubled_words(mesh.points, [block for parts in volumes.values() for block in parts])
+    if doubled:
+        say_warning(doubled)
 
 
 def _pair(text: str) -> Tuple[str, str]:

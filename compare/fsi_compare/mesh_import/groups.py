@@ -136,3 +136,27 @@ def facets_between(mesh: FoundMesh, points: np.ndarray) -> List[Block]:
         if len(inside):
             blocks.append(Block(block.kind, inside))
     return blocks
+
+
+def as_sides(mesh: FoundMesh, groups: Sequence[Group]) -> List[Tuple[Group, np.ndarray]]:
+    """Gives facets the nodes of the cells' sides that have their corners, so that facets of first order fit cells of second.
+    Returns the groups with facets that are sides of no cell of the groups, and the corners of these."""
+    cells = [block for group in groups if group.dimension == mesh.dimension for block in group.parts]
+    facets = [(group, block) for group in groups if group.dimension < mesh.dimension for block in group.parts]
+    found = [np.zeros(len(block.nodes), dtype=bool) for _, block in facets]
+    for side in sides_of(cells, mesh.dimension):
+        corners = CORNERS[side.kind]
+        lists = [side.nodes[:, :corners], *(block.nodes[:, :corners] for _, block in facets)]
+        keys = np.split(corner_keys(side.kind, np.concatenate(lists)), np.cumsum([len(rows) for rows in lists])[:-1])
+        order = np.argsort(keys[0], kind="stable")
+        for (_, block), there, wanted in zip(facets, found, keys[1:]):
+            at = order[np.minimum(np.searchsorted(keys[0][order], wanted), len(order) - 1)]
+            sides = keys[0][at] == wanted
+            there |= sides
+            if sides.all():
+                block.kind, block.nodes = side.kind, side.nodes[at]
+    return [
+        (group, block.nodes[~there][:, : CORNERS[block.kind]])
+        for (group, block), there in zip(facets, found)
+        if not there.all()
+    ]

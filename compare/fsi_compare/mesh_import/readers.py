@@ -11,6 +11,7 @@ from .abaqus import read_abaqus
 from .exodus import read_exodus
 from .med import read_med
 from .raw_mesh import RawMesh, of_meshio
+from .vtp import read_faces
 from .vtu import read_vtu
 from .xdmf import read_xdmf
 
@@ -45,6 +46,13 @@ def read_mesh(path: Path) -> RawMesh:
         what, remedy = REFUSED[path.suffix.lower()]
         raise InputError(path, "", f"is {what}, which no reader takes", remedy)
     return READERS.get(path.suffix.lower(), _read_by_meshio)(path)
+
+
+def read_surface(path: Path) -> RawMesh:
+    """A surface of VTK (.vtp) beside a mesh of cells. Raises InputError."""
+    if not exists(path):
+        raise InputError(path, "", "no such file", "give a surface, .vtp")
+    return read_faces(path)
 
 
 def _read_by_meshio(path: Path) -> RawMesh:

@@ -7,7 +7,8 @@ from typing import Dict, List, Optional
 import numpy as np
 
 from ..base.errors import InputError
-from .vtk_xml import DAMAGES, VtkFile
+from .raw_mesh import RawMesh
+from .vtk_xml import DAMAGES, VtkFile, scalars_of
 
 
 @dataclass
@@ -46,6 +47,46 @@ def _read(file: VtkFile) -> Surface:
             parts.setdefault(element.get("Name", ""), []).append(file.array(element))
     surface.fields = {name: np.concatenate(found) for name, found in parts.items()}
     return surface
+
+
+def read_faces(path: Path) -> RawMesh:
+    """Its triangles as a mesh, with fields of one number a triangle or point. Raises InputError."""
+    try:
+        return _read_faces(VtkFile(path, "PolyData"))
+    except DAMAGES as error:
+        raise InputError(path, "", f"cannot be read: {error}", "write the surface anew as .vtp") from None
+
+
+def _read_faces(file: VtkFile) -> RawMesh:
+    points: List[np.ndarray] = []
+    triangles: List[np.ndarray] = []
+    cell_data: Dict[str, List[np.ndarray]] = {}
+    passed_over: Dict[str, None] = {}
+    first = 0
+    for piece in file.root.iter("Piece"):
+        there = piece.find("Points/DataArray")
+        if there is None:
+            continue
+        others = [int(piece.get(f"NumberOf{kind}") or 0) for kind in ("Verts", "Lines", "Strips")]
+        if any(others):
+            raise InputError(file.path, "", "holds vertices, lines or strips", "write its surface as triangles")
+        points.append(file.array(there).reshape(-1, 3))
+        arrays = {a.get("Name"): a for a in piece.findall("Polys/DataArray")}
+        if "offsets" in arrays:
+            nodes, ends = file.array(arrays["connectivity"]).astype(np.int64), file.array(arrays["offsets"])
+            if np.any(np.diff(ends.astype(np.int64), prepend=0) != 3) or len(nodes) != 3 * len(ends):
+                raise InputError(file.path, "Polys", "holds polygons that are no triangles", "triangulate the surface")
+            if np.any((nodes < 0) | (nodes >= len(points[-1]))):
+                raise InputError(file.path, "connectivity", "names a point that is not there", "write the mesh anew")
+            triangles.append(nodes.reshape(-1, 3) + first)
+            for name, values in scalars_of(file, piece, "CellData", len(ends), passed_over).items():
+                cell_data.setdefault(name, []).append(values)
+        first += len(points[-1])
+    if not triangles:
+        raise InputError(file.path, "", "holds no polygons", "write the surface anew as .vtp")
+    whole = {name: [np.concatenate(parts)] for name, parts in cell_data.items() if len(parts) == len(triangles)}
+    blocks = [("triangle", np.concatenate(triangles))]
+    return RawMesh(np.concatenate(points), blocks, whole, passed_over=list(passed_over))
 
 
 def scalar_field(surface: Surface, name: str, path: Path) -> np.ndarray:

@@ -20,6 +20,163 @@ Physical Surface("outlet") = {2};
 """
 
 
+PIPE = """
+SetFactory("OpenCASCADE");
+Cylinder(1) = {0, 0, 0, 0, 0, 6, 1};
+Cylinder(2) = {0, 0, 0, 0, 0, 6, 1.3};
+BooleanFragments{ Volume{2}; Delete; }{ Volume{1}; Delete; }
+Mesh.MeshSizeMax = 0.6;
+Physical Volume("fluid") = {1};
+Physical Volume("wall") = {2};
+"""
+
+
+class SeveralFiles(FolderTest):
+    """Lumen and wall of a pipe in a file each, with points of their own, and the openings as surfaces of VTK."""
+
+    @classmethod
+    @functools.cache
+    def pipe(cls, order=1):
+        """Points, mm; cells of fluid and wall; triangles of inlet and outlet, of the fluid."""
+        (cls.base / "pipe.geo").write_text(PIPE)
+        file = cls.base / "pipe.msh"
+        process = execute(MESH, "geo", cls.base / "pipe.geo", "-o", file, "-q", "--order", order, "--format", "2.2")
+        assert process.returncode == 0, process.stderr
+        mesh = meshio.read(file)
+        kind = "tetra" if order == 1 else "tetra10"
+        tags = {name: int(data[0]) for name, data in mesh.field_data.items() if name in ("fluid", "wall")}
+        physical = mesh.cell_data_dict["gmsh:physical"][kind]
+        cells = mesh.cells_dict[kind]
+        fluid, wall = (cells[physical == tags[name]] for name in ("fluid", "wall"))
+        sides = np.concatenate([fluid[:, list(side)] for side in ((0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3))])
+        ends = [sides[np.all(np.abs(mesh.points[sides, 2] - z) < 1e-9, axis=1)] for z in (0, 6)]
+        return mesh.points, fluid, wall, ends
+
+    def write_medium(self, name, points, cells):
+        used, numbers = np.unique(cells, return_inverse=True)
+        kind = "tetra" if cells.shape[1] == 4 else "tetra10"
+        meshio.Mesh(points[used], [(kind, numbers.reshape(cells.shape))]).write(self.base / name)
+
+    def write_surface(self, name, points, triangles):
+        used, numbers = np.unique(triangles, return_inverse=True)
+        array = '<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="ascii">{}</DataArray>'
+        at = array.format("Float32", "Points", 3, " ".join(map(str, points[used].astype(np.float32).ravel())))
+        nodes = array.format("Int64", "connectivity", 1, " ".join(map(str, numbers.ravel())))
+        ends = array.format("Int64", "offsets", 1, " ".join(map(str, range(3, 3 * len(triangles) + 1, 3))))
+        ids = array.format("Int32", "GlobalElementID", 1, " ".join(map(str, range(len(triangles)))))
+        (self.base / name).write_text(
+            '<VTKFile type="PolyData" byte_order="LittleEndian"><PolyData>'
+            f'<Piece NumberOfPoints="{len(used)}" NumberOfPolys="{len(triangles)}"><Points>{at}</Points>'
+            f"<Polys>{nodes}{ends}</Polys><CellData>{ids}</CellData></Piece></PolyData></VTKFile>"
+        )
+
+    def imported(self, *options, files=("fluid=lumen.vtu", "wall=wall.vtu", "inlet=inlet.vtp", "outlet=outlet.vtp")):
+        (self.base / "out.msh").unlink(missing_ok=True)
+        return execute(MESH, "import", *files, "-o", "out.msh", "--format", "2.2", *options, cwd=self.base)
+
+    def write(self, order=1, wall_shift=0.0, face_shift=0.0):
+        points, fluid, wall, (inlet, outlet) = self.pipe(order)
+        self.write_medium("lumen.vtu", points, fluid)
+        self.write_medium("wall.vtu", points + [0, wall_shift, 0], wall)
+        self.write_surface("inlet.vtp", points + [0, 0, face_shift], inlet)
+        self.write_surface("outlet.vtp", points, outlet)
+        return points, fluid, wall, inlet, outlet
+
+    def expect_whole(self, process, written, order=1):
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertEqual(process.stderr, "")
+        points, fluid, wall, inlet, outlet = written
+        kind = "tetrahedra" if order == 1 else "quadratic tetrahedra"
+        self.assertIn(f"{len(points)} nodes, {len(fluid) + len(wall)} {kind}\n", process.stdout)
+        mesh = meshio.read(self.base / "out.msh")
+        of = {tag: name for name, (tag, _) in mesh.field_data.items()}
+        kind = "triangle" if order == 1 else "triangle6"
+        names = [of[tag] for tag in mesh.cell_data_dict["gmsh:physical"][kind]]
+        self.assertEqual((names.count("inlet"), names.count("outlet")), (len(inlet), len(outlet)))
+
+    def test_lumen_wall_and_faces_become_one_mesh_of_either_order(self):
+        for order in (1, 2):
+            with self.subTest(order=order):
+                written = self.write(order)
+                process = self.imported()
+                self.expect_whole(process, written, order)
+                self.assertRegex(process.stdout, r"(?m)^\d+ points of the files are those of a file before")
+
+    def test_join_makes_near_points_one_and_says_which(self):
+        written = self.write(wall_shift=1e-3, face_shift=2e-3)  # across: their points are sqrt(5) 1e-3 apart at a rim
+        joined = self.imported("--join", 0.003)
+        self.expect_whole(joined, written)
+        self.assertRegex(
+            joined.stdout, r"(?m)^--join 0.003: \d+ points are joined to others, the farthest 0.00224 mm apart\.$"
+        )
+        apart = self.imported("--join", 0.003, "-q")
+        self.assertEqual((apart.returncode, apart.stdout, apart.stderr), (0, "", ""))
+        process = self.imported()
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("error: inlet.vtp: inlet: ", process.stderr)
+        self.assertRegex(process.stderr, r"are up to 0.002 mm from the cells' points; give --join 0.0022")
+
+    def test_media_that_do_not_touch_are_warned_of(self):
+        points, fluid, wall, *_ = self.write(wall_shift=1e-3)
+        process = self.imported(files=("fluid=lumen.vtu", "wall=wall.vtu"))
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertRegex(
+            process.stderr,
+            r"^fsi-mesh: warning: fluid touches no other part: fluid and wall share no points and no side, their nearest "
+            r"points are 0.001 mm apart: try --join 0.002\n",
+        )
+        # Doubled nodes of one file are joined as well.
+        twice = np.concatenate([points, points])
+        meshio.Mesh(
+            twice,
+            [("tetra", np.concatenate([fluid, wall + len(points)]))],
+            cell_data={"m": [np.repeat([1, 2], [len(fluid), len(wall)])]},
+        ).write(self.base / "doubled.vtu")
+        words = ("--group", "fluid=m:1", "--group", "wall=m:2")
+        self.assertIn("try --join 1e-06", self.imported(*words, files=("doubled.vtu",)).stderr)
+        process = self.imported(*words, "--join", 1e-6, files=("doubled.vtu",))
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.assertIn(f"{len(points)} nodes", process.stdout)
+
+    def test_parts_of_several_files_bear_the_files_names_where_they_must(self):
+        points, fluid, wall, inlet, _ = self.write()
+        for name, cells in (("a.vtu", fluid), ("b.vtu", wall)):
+            data = {"ModelRegionID": [np.full(len(cells), 1)]}
+            meshio.Mesh(points, [("tetra", cells)], cell_data=data).write(self.base / name)
+        words = ("--group", "fluid=a/ModelRegionID:1", "--group", "wall=b/ModelRegionID:1")
+        process = self.imported(*words, files=("a.vtu", "b.vtu"))
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        meshio.xdmf.write(self.base / "c.xdmf", meshio.Mesh(points, [("tetra", fluid)]), data_format="XML")
+        facets = meshio.Mesh(points, [("triangle", inlet)], cell_data={"f": [np.full(len(inlet), 4)]})
+        meshio.xdmf.write(self.base / "f.xdmf", facets, data_format="XML")
+        process = self.imported("--group", "fluid=all", "--group", "inlet=f:4", files=("c.xdmf", "f.xdmf"))
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertIn('"inlet"', (self.base / "out.msh").read_text())
+
+    def test_what_is_wrong_is_named_with_its_file_and_nothing_is_left(self):
+        points, fluid, wall, inlet, _ = self.write()
+        self.write_surface("far.vtp", points, wall[:5, :3])
+        (self.base / "text.vtp").write_text("no surface")
+        lumen = ("fluid=lumen.vtu",)
+        for files, options, words in (
+            ((*lumen, "wall=none.vtu"), (), "error: none.vtu: no such file"),
+            ((*lumen, "inlet=text.vtp"), (), "error: text.vtp: is no XML"),
+            ((*lumen, "fluid=wall.vtu"), (), "error: fluid: is the name of two files"),
+            ((*lumen, "inlet="), (), "error: inlet: 'inlet=' names no file"),
+            (("inlet.vtp",), (), "error: inlet.vtp: is a surface, which no reader takes"),
+            ((*lumen, "inlet=far.vtp"), (), "error: far.vtp: inlet: "),
+            (lumen, ("--join", 5), "--join: 5 mm is as long as an edge of a cell"),
+            (lumen, ("--join", -1), "--join: -1 is no distance"),
+            (lumen, ("--group", "wall=fluid"), "--group wall: fluid shares"),
+        ):
+            with self.subTest(files=files, options=options):
+                process = self.imported(*options, files=files)
+                self.assertEqual(process.returncode, 1, process.stdout)
+                self.assertEqual(len(process.stderr.splitlines()), 1, process.stderr)
+                self.assertIn(words, process.stderr)
+                self.assertEqual([f.name for f in self.base.iterdir() if "out." in f.name or "import" in f.name], [])
+
+
 class MeshImport(FolderTest):
     @classmethod
     @functools.cache

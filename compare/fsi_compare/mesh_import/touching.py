@@ -1,0 +1,99 @@
+"""Where volumes of a mesh touch: by which sides, or how far they are apart."""
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import List, Mapping, Sequence
+
+import numpy as np
+
+from .groups import boundary_of, corner_keys
+from .joining import TooMany, near_pairs, nearest_distance
+from .raw_mesh import CORNERS, Block
+
+
+@dataclass
+class Contact:
+    """Of two volumes, or of two areas in two dimensions."""
+
+    first: str
+    second: str
+    sides: int  # that both have
+    points: int  # that both have, on the surfaces
+    distance: float  # mm between the nearest points where no side is shared, infinite beyond a tenth of the mesh
+
+
+def contacts(points: np.ndarray, volumes: Mapping[str, Sequence[Block]], dimension: int) -> List[Contact]:
+    """Of each two of the volumes, by name."""
+    surfaces = {name: boundary_of(blocks, dimension) for name, blocks in volumes.items()}
+    nodes = {
+        name: np.unique(np.concatenate([b.nodes[:, : CORNERS[b.kind]].ravel() for b in blocks]))
+        for name, blocks in surfaces.items()
+    }
+    span = float(np.ptp(points[np.concatenate(list(nodes.values()))], axis=0).max()) if nodes else 0.0
+    found = []
+    for a, b in combinations(volumes, 2):
+        shared = _shared_sides(surfaces[a], surfaces[b])
+        distance = 0.0 if shared else nearest_distance(points[nodes[a]], points[nodes[b]], span / 10)
+        found.append(Contact(a, b, shared, len(np.intersect1d(nodes[a], nodes[b])), distance))
+    return found
+
+
+def _shared_sides(first: Sequence[Block], second: Sequence[Block]) -> int:
+    count = 0
+    for a in first:
+        for b in second:
+            if CORNERS[a.kind] == CORNERS[b.kind]:
+                corners = CORNERS[a.kind]
+                keys = corner_keys(a.kind, np.concatenate([a.nodes[:, :corners], b.nodes[:, :corners]]))
+                count += len(np.intersect1d(keys[: len(a.nodes)], keys[len(a.nodes) :]))
+    return count
+
+
+def gap_words(contact: Contact) -> str:
+    """Of two volumes without a side in common."""
+    what = f"{contact.first} and {contact.second} share {contact.points or 'no'} points and no side"
+    if contact.distance == float("inf"):
+        return f"{what}, and are far apart"
+    if contact.distance == 0 and contact.points:
+        return f"{what}"
+    return (
+        f"{what}, their nearest points are {contact.distance:.3g} mm apart: try --join {join_for(contact.distance):.2g}"
+    )
+
+
+def join_for(distance: float) -> float:
+    """A tolerance for --join, mm."""
+    return max(2 * distance, 1e-6)
+
+
+def shortest_edge(blocks: Sequence[Block], points: np.ndarray) -> float:
+    """Between vertices, mm."""
+    shortest = float("inf")
+    for block in blocks:
+        corners = points[block.nodes[:, : CORNERS[block.kind]]]
+        for a in range(corners.shape[1]):
+            for b in range(a):
+                shortest = min(shortest, float(np.linalg.norm(corners[:, a] - corners[:, b], axis=1).min()))
+    return shortest
+
+
+def doubled_words(points: np.ndarray, blocks: Sequence[Block]) -> str:
+    """Of vertices that are nearer to each other than any edge of a cell is long: doubled, or left of an interface that
+    does not fit. Empty where there are none."""
+    edge = shortest_edge(blocks, points)
+    corners = np.unique(np.concatenate([b.nodes[:, : CORNERS[b.kind]].ravel() for b in blocks]))
+    if edge <= 0:
+        return ""  # flat cells are the mesh check's
+    try:
+        i, j, distances = near_pairs(points[corners], points[corners], edge / 4)
+    except TooMany:
+        return ""
+    kept = i < j
+    if not kept.any():
+        return ""
+    place = ", ".join(f"{x:.4g}" for x in points[corners[i[kept][0]]])
+    farthest = float(distances[kept].max())
+    return (
+        f"{int(kept.sum())} pairs of points are at most {farthest:.3g} mm apart, a part of the shortest edge ({edge:.3g} mm), one "
+        f"at ({place}) mm: where they are doubled, --join {join_for(farthest):.2g} makes them one"
+    )
