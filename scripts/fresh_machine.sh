@@ -6,6 +6,7 @@
 #                     README's two commands, scripts/quickstart.sh and scripts/test.sh, as root, and then, with everything
 #                     installed, as an ordinary user. FOLDER is for the machine, new or empty; without it a temporary one
 #   --no-tests          without scripts/test.sh
+#   --serial            both commands with --serial: programs without MPI
 #   --short             packages, configuring, one program, and a run of it
 #   --package FILE.deb  not the sources: installs a Debian package and runs the commands of docs/tutorial.md by its programs
 #   --container         not README's commands: the steps of containers/Containerfile, and the entry point of what they make
@@ -30,7 +31,7 @@ fail() {
   exit 1
 }
 
-mode=clone tests=yes suite=bookworm level="" package="" debs="" cache="" keep=no folder="" log=$top/build/fresh_machine.log
+mode=clone tests=yes serial="" suite=bookworm level="" package="" debs="" cache="" keep=no folder="" log=$top/build/fresh_machine.log
 choose() {
   [ "$mode" = clone ] || fail "--$1 beside --$mode: these are different things to try; give one of them"
   mode=$1
@@ -43,6 +44,7 @@ while [ $# -gt 0 ]; do
   case "$1" in
     --help) sed -n '2,/^set /s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" && exit 0 ;;
     --no-tests) tests=no ;;
+    --serial) serial=--serial ;;
     --short | --container) choose "${1#--}" ;;
     --package) choose package && package=$2 && shift ;;
     --suite) suite=$2 && shift ;;
@@ -63,6 +65,7 @@ done
 case "$suite" in bookworm | trixie | testing) ;; *) fail "--suite $suite: the suites are bookworm, trixie and testing" ;; esac
 [ "$mode" != container ] || [ "$suite" = bookworm ] || fail "--suite beside --container: the container file names its own Debian"
 case "$level" in "" | v2 | v3 | v4) ;; *) fail "--level $level: the levels are v2, v3 and v4" ;; esac
+[ -z "$serial" ] || [ "$mode" = clone ] || fail "--serial beside --$mode: it is for README's commands"
 [ -z "$level" ] || /lib64/ld-linux-x86-64.so.2 --help | grep -q "x86-64-$level (supported" ||
   fail "--level $level: this machine's processor does not have it; a level can only be lowered"
 [ "$mode" != package ] || dpkg-deb --field "$package" Package >/dev/null 2>&1 ||
@@ -107,7 +110,8 @@ remove_machine() {
 # In namespaces of their own: what is mounted goes, and what still runs is killed, with the first process there; and that
 # one with unshare, and that with this script, however it ends.
 run_stages() {
-  export fresh_mode=$mode fresh_tests=$tests fresh_suite=$suite fresh_level=$level fresh_debs=${debs:+$(cd "$debs" && pwd)} fresh_log=$log
+  export fresh_mode=$mode fresh_tests=$tests fresh_serial=$serial fresh_suite=$suite fresh_level=$level
+  export fresh_debs=${debs:+$(cd "$debs" && pwd)} fresh_log=$log
   export fresh_package=${package:+$(realpath "$package")} fresh_ccache=${cache:+$(cd "$cache" && pwd)} fresh_folder=$folder
   setpriv --pdeathsig KILL unshare --mount --propagation private --pid --mount-proc --fork --kill-child \
     bash "$here/fresh_machine/stages.sh" &

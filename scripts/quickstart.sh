@@ -3,6 +3,7 @@
 # coarse mesh and reports on that run. Then builds the partitioned driver, runs the same case, compares the pressure waves,
 # and makes the short form of the paper's study: three materials, the paper's tables and figures beside ours. May be run
 # again; it replaces its own results only.
+#   scripts/quickstart.sh --serial   programs without MPI, for one process: where the machine's PETSc and MPI are no pair
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -10,6 +11,15 @@ build=build/release # where README's next commands look
 results=results/quickstart
 case_file=meshes/artery/neo-hookean.toml
 mesh=meshes/artery/artery-coarse.msh # beside the case file, which finds it by its name
+
+mpi=() # as the build folder has it, otherwise with MPI
+for argument in "$@"; do
+  if [ "$argument" != --serial ]; then
+    echo "quickstart.sh: error: unknown option '$argument'; the only one is --serial" >&2
+    exit 1
+  fi
+  mpi=(-DFSI_MPI=OFF)
+done
 
 stages=()
 stage() {
@@ -28,7 +38,7 @@ stage() {
 build_programs() {
   local options=()
   [ -f "$build/CMakeCache.txt" ] || options=(-DFSI_TESTS=OFF)
-  cmake --preset release "${options[@]}"
+  cmake --preset release "${mpi[@]}" "${options[@]}"
   cmake --build "$build" --target "$@"
 }
 

@@ -11,6 +11,7 @@
 #                           drivers where --all takes them by turns, and the drivers with sanitizers
 #   scripts/test.sh --levels  all that depends on the width of vectors for the levels x86-64-v2, -v3 and -v4, with
 #                           warnings as errors, and its unit tests where this processor has the level
+#   scripts/test.sh --serial  the quick tests of programs without MPI: where the machine's PETSc and MPI are no pair
 # CONTRIBUTING.md says how many minutes that takes on which kind of machine.
 # Ends with ctest's summary; any failure ends it earlier or makes its exit code non-zero.
 set -euo pipefail
@@ -21,13 +22,15 @@ fail() {
   exit 1
 }
 
-what=quick
+what=quick mpi=()
 for argument in "$@"; do
   case "$argument" in
     --all | --long | --levels) what=${argument#--} ;;
-    *) fail "unknown option '$argument'; those there are: --all, --long, --levels" ;;
+    --serial) mpi=(-DFSI_MPI=OFF) ;;
+    *) fail "unknown option '$argument'; those there are: --all, --long, --levels, --serial" ;;
   esac
 done
+[ "$what" = quick ] || [ ${#mpi[@]} -eq 0 ] || fail "--serial beside --$what: it is for the quick tests"
 
 # Whether this machine's processor has a level, x86-64-v3 for one. Processors of other kinds have none.
 has_level() { /lib64/ld-linux-x86-64.so.2 --help 2>/dev/null | grep -q "$1 (supported"; }
@@ -84,7 +87,8 @@ levels)
   done
   ;;
 quick)
-  cmake --preset release -DFSI_TESTS=ON -DFSI_TEST_CASES=OFF -DFSI_UNIT_TESTS=ON -DFSI_WARNINGS_AS_ERRORS=OFF
+  cmake --preset release "${mpi[@]}" -DFSI_TESTS=ON -DFSI_TEST_CASES=OFF -DFSI_UNIT_TESTS=ON \
+    -DFSI_WARNINGS_AS_ERRORS=OFF
   cmake --build --preset release --target quick_tests
   run_tests build/release -L '^quick$'
   ;;

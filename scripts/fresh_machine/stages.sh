@@ -7,6 +7,7 @@ log=$fresh_log suite=$fresh_suite level=$fresh_level debs_folder=$fresh_debs cca
 measured=$fresh_folder not_measured=ccache
 root=$fresh_folder/root
 clone=/home/user/fsi-duo # in there
+serial=(${fresh_serial:+"$fresh_serial"})
 for part in table level root container; do
   # shellcheck disable=SC1090
   . "$here/$part.sh"
@@ -49,14 +50,16 @@ check_level() {
 
 try_clone() {
   stage "clone" make_clone
-  stage "quickstart, as root" as_root scripts/quickstart.sh
+  give_debs "$root"
+  stage "quickstart, as root" as_root scripts/quickstart.sh "${serial[@]}"
   print_own_stages
   check_level
-  [ "$fresh_tests" = no ] || stage "tests, as root" as_root CI=true scripts/test.sh
+  [ "$fresh_tests" = no ] || stage "tests, as root" as_root CI=true scripts/test.sh "${serial[@]}"
+  take_debs "$root"
   give_to_user
-  stage "quickstart, as user" as_user scripts/quickstart.sh
+  stage "quickstart, as user" as_user scripts/quickstart.sh "${serial[@]}"
   print_own_stages
-  [ "$fresh_tests" = no ] || stage "tests, as user" as_user scripts/test.sh
+  [ "$fresh_tests" = no ] || stage "tests, as user" as_user scripts/test.sh "${serial[@]}"
 }
 
 # Without the tests' packages, as they are not configured.
