@@ -109,12 +109,10 @@ class Endings(ProcessTest):
 
     def test_what_one_finds_wrong_ends_all(self):
         other = self.base / "missing.toml"
-        command = self.command(self.base / "one")
-        finished = execute(
-            *together(
-                1, *command, ":", "-n", 1, *[other if str(word) == str(NEO_HOOKEAN) else word for word in command]
-            )
-        )
+        program, case, *rest = self.command(self.base / "one")
+        # Not two programs on one command line of mpirun, which Open MPI 5.0.7 does not survive.
+        choice = 'case=$1; [ "$OMPI_COMM_WORLD_RANK" != 1 ] || case=$2; shift 2; exec "$0" "$case" "$@"'
+        finished = execute(*together(2, "sh", "-c", choice, program, case, other, *rest))
         self.assertEqual(finished.returncode, 1)
         self.assertEqual(len(errors_of(finished.stderr)), 1, finished.stderr)
         self.assertIn("error (process 2 of 2): ", finished.stderr)
