@@ -12,7 +12,8 @@ from ..base.files import replacing
 from ..base.options import Commands, add_command
 from .groups import Group, as_sides, choose_groups
 from .joining import distances_to
-from .parts import FoundMesh, count_in, dimensions_of, shown_names
+from .listing import listing
+from .parts import FoundMesh, shown_names
 from .raw_mesh import ELEMENTS, KINDS, Block
 from .sources import Source, join, read_sources, source_of
 from .touching import contacts, doubled_words, gap_words
@@ -49,11 +50,7 @@ def convert_mesh(options: argparse.Namespace) -> int:
     if mesh.passed_over:
         said.append(f"Passed over, since they say no parts: {shown_names(mesh.passed_over)}")
     if options.list:
-        for name, places in mesh.cells.items():
-            counts = [f"{count_in(mesh, places, d)} {ELEMENTS[d]}" for d in dimensions_of(mesh, places)]
-            print(printable(f"{name:<32} {', '.join(counts)}"))
-        for name, at in mesh.points_of.items():
-            print(printable(f"{name:<32} {len(at)} points"))
+        said = listing(mesh, options.meshes, sources, options.scale, options.join or 0.0) + said
     else:
         said += _convert(file, mesh, sources, options)
     for line in said:

@@ -24,12 +24,14 @@ class Contact:
 
 def contacts(points: np.ndarray, volumes: Mapping[str, Sequence[Block]], dimension: int) -> List[Contact]:
     """Of each two of the volumes, by name."""
+    if len(volumes) < 2:
+        return []
     surfaces = {name: boundary_of(blocks, dimension) for name, blocks in volumes.items()}
     nodes = {
         name: np.unique(np.concatenate([b.nodes[:, : CORNERS[b.kind]].ravel() for b in blocks]))
         for name, blocks in surfaces.items()
     }
-    span = float(np.ptp(points[np.concatenate(list(nodes.values()))], axis=0).max()) if nodes else 0.0
+    span = float(np.ptp(points[np.concatenate(list(nodes.values()))], axis=0).max())
     found = []
     for a, b in combinations(volumes, 2):
         shared = _shared_sides(surfaces[a], surfaces[b])

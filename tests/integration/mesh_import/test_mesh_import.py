@@ -3,6 +3,7 @@
 import functools
 import math
 import re
+import shlex
 import unittest
 
 import meshio
@@ -101,6 +102,22 @@ class SeveralFiles(FolderTest):
                 process = self.imported()
                 self.expect_whole(process, written, order)
                 self.assertRegex(process.stdout, r"(?m)^\d+ points of the files are those of a file before")
+
+    def test_the_command_that_the_list_gives_makes_the_mesh(self):
+        points, fluid, wall, inlet, outlet = self.write()
+        files = ("fluid=lumen.vtu", "wall=wall.vtu", "inlet=inlet.vtp", "outlet=outlet.vtp")
+        listed = execute(MESH, "import", *files, "--list", cwd=self.base)
+        self.assertEqual((listed.returncode, listed.stderr), (0, ""))
+        self.assertRegex(listed.stdout, r"(?m)^fluid and wall touch: \d+ triangles, \d+ points\.$")
+        self.assertRegex(listed.stdout, rf"(?m)^inlet +{len(inlet)} triangles +area [\d.]+ unit\^2, flat ")
+        command = shlex.split(re.search(r"(?m)^  fsi-mesh (import .*)$", listed.stdout).group(1))
+        self.assertNotIn("--opening", command)
+        process = execute(MESH, *command, "--format", "2.2", "-q", cwd=self.base)
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        made = meshio.read(self.base / "imported.msh")
+        (self.base / "imported.msh").unlink()  # other tests see that nothing is left
+        self.assertEqual(set(made.field_data) - {"all"}, {"fluid", "wall", "inlet", "outlet"})
+        self.assertEqual(len(made.points), len(points))
 
     def test_join_makes_near_points_one_and_says_which(self):
         written = self.write(wall_shift=1e-3, face_shift=2e-3)  # across: their points are sqrt(5) 1e-3 apart at a rim
@@ -214,7 +231,7 @@ class MeshImport(FolderTest):
             self.assertEqual(process.returncode, 0, process.stderr)
             listed = execute(MESH, "import", file, "--list")
             for name, kind in (("fluid", "tetrahedra"), ("inlet", "triangles"), ("outlet", "triangles")):
-                self.assertRegex(listed.stdout, rf"(?m)^{name} +\d+ {kind}$")
+                self.assertRegex(listed.stdout, rf"(?m)^{name} +\d+ {kind} ")
             process = self.imported(file)
             self.assertEqual(process.returncode, 0, process.stderr)
             text = (self.base / "out.msh").read_text()
@@ -282,7 +299,7 @@ class MeshImport(FolderTest):
         mesh.write(self.base / "tube.e")
         listed = execute(MESH, "import", self.base / "tube.e", "--list")
         self.assertEqual(listed.returncode, 0, listed.stderr)
-        self.assertRegex(listed.stdout, r"(?m)^in +\d+ points$")
+        self.assertRegex(listed.stdout, r"(?m)^in +\d+ points ")
         mesh.write(self.base / "tube.vtu")  # which has no sets: openings by where they are
         words = ("--group", "fluid=part:1", "--opening", "inlet=0,0,0", "--opening", "outlet=0,0,3")
         self.expect_tube(self.imported(self.base / "tube.vtu", *words))

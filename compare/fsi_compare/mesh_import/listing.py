@@ -1,0 +1,238 @@
+"""What `fsi-mesh import --list` says: the parts of a mesh, its size, what touches, and the command that takes it in."""
+
+import shlex
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Dict, List, Sequence, Tuple
+
+import numpy as np
+
+from ..base.errors import printable
+from .groups import facets_between
+from .parts import WHOLE, FoundMesh, count_in, dimensions_of
+from .raw_mesh import CORNERS, ELEMENTS, Block
+from .sources import Source
+from .touching import contacts, doubled_words, gap_words
+
+UNITS = (("mm", 1.0), ("cm", 10.0), ("m", 1000.0))
+# The longest extent of vessels, mm: one of 0.7 in the file's unit is hardly 0.7 mm, one of 70 hardly 700 mm.
+LONGEST, SHORTEST = 700.0, 0.7
+FLAT = 1e-3  # area of a flat part over that of its facets, less than 1 by this
+FLUID, SOLID = ("fluid", "lumen", "blood"), (
+    "wall",
+    "solid",
+    "structure",
+    "tissue",
+    "vessel",
+    "artery",
+    "media",
+    "adventitia",
+)
+MOST_VOLUMES = 12  # whose contacts are looked for, each with each
+MOST_LINES = 200  # of parts
+
+
+@dataclass
+class _Extent:
+    """Of a part, in the file's unit."""
+
+    measure: float  # volume, area or length
+    box: np.ndarray
+    flat: bool = False
+
+
+def listing(mesh: FoundMesh, words: Sequence[str], sources: Sequence[Source], scale: float, join: float) -> List[str]:
+    """Lines. `words` are the files as the user gave them; the mesh is scaled already."""
+    lines = _table(mesh, scale)
+    volumes = _volumes(mesh)
+    lines += _touching(mesh, volumes)
+    factor = scale
+    if scale == 1:
+        factor, said = _unit(float(_box(mesh.points, _cells(mesh, WHOLE)).max()))
+        lines.append(said)
+    return lines + _command(mesh, volumes, words, sources, factor, join)
+
+
+def _cells(mesh: FoundMesh, name: str) -> List[Block]:
+    places = mesh.cells[name]
+    top = max(dimensions_of(mesh, places), default=0)
+    return [Block(b.kind, b.nodes[p]) for b, p in zip(mesh.blocks, places) if b.dimension == top and len(p)]
+
+
+def _box(points: np.ndarray, blocks: Sequence[Block]) -> np.ndarray:
+    used = np.zeros(len(points), dtype=bool)
+    for block in blocks:
+        used[block.nodes.ravel()] = True
+    there = points[used]
+    return there.max(axis=0) - there.min(axis=0) if len(there) else np.zeros(3)
+
+
+def _extent(points: np.ndarray, blocks: Sequence[Block]) -> _Extent:
+    """By the vertices."""
+    measure, flat = 0.0, False
+    for block in blocks:
+        corners = points[block.nodes[:, : CORNERS[block.kind]]]
+        edges = corners[:, 1:] - corners[:, :1]
+        if block.dimension == 3:
+            measure += float(np.abs(np.einsum("ij,ij->i", np.cross(edges[:, 0], edges[:, 1]), edges[:, 2])).sum()) / 6
+        elif block.dimension == 2:
+            areas = np.cross(edges[:, 0], edges[:, 1]) / 2
+            sizes = np.linalg.norm(areas, axis=1)
+            measure += float(sizes.sum())
+            axis = areas[int(np.argmax(sizes))]
+            # Facets of a file may point either way.
+            along = np.abs(areas @ axis) / (np.linalg.norm(axis) or 1.0)
+            flat = bool(along.sum() > (1 - FLAT) * sizes.sum() > 0)
+        else:
+            measure += float(np.linalg.norm(edges[:, 0], axis=1).sum())
+    return _Extent(measure, _box(points, blocks), flat)
+
+
+def _table(mesh: FoundMesh, scale: float) -> List[str]:
+    """One line a part: its elements, its measure, its size under each guess of the unit; in mm where the scale is given."""
+    units = UNITS if scale == 1 else (("mm", 1.0),)
+    rows = [["part", "elements", "measure", *(f"size, mm, if in {unit}" for unit, _ in units)]]
+    if scale != 1:
+        rows[0][3] = "size, mm"
+    for name, places in mesh.cells.items():
+        counts = ", ".join(f"{count_in(mesh, places, d)} {ELEMENTS[d]}" for d in dimensions_of(mesh, places))
+        top = max(dimensions_of(mesh, places), default=0)
+        extent = _extent(mesh.points, _cells(mesh, name))
+        unit = ("mm" if scale != 1 else "unit") + ("" if top == 1 else f"^{top}")
+        words = {3: "volume", 2: "area", 1: "length"}
+        measure = f"{words[top]} {extent.measure:.4g} {unit}" if top else ""
+        rows.append([name, counts or "none", measure + (", flat" if extent.flat and mesh.dimension == 3 else "")])
+        rows[-1] += [" x ".join(f"{x * factor:.3g}" for x in extent.box) for _, factor in units]
+    for name, points in mesh.points_of.items():
+        box = np.ptp(mesh.points[points], axis=0) if len(points) else np.zeros(3)
+        rows.append([name, f"{len(points)} points", ""])
+        rows[-1] += [" x ".join(f"{x * factor:.3g}" for x in box) for _, factor in units]
+    left = len(rows) - 1 - MOST_LINES
+    rows = rows[: MOST_LINES + 1]
+    widths = [max(len(printable(row[k])) for row in rows) for k in range(len(rows[0]))]
+    lines = ["  ".join(f"{printable(cell):<{width}}" for cell, width in zip(row, widths)).rstrip() for row in rows]
+    return lines + ([f"... and {left} parts more"] if left > 0 else [])
+
+
+def _volumes(mesh: FoundMesh) -> Dict[str, List[Block]]:
+    """Parts of cells, none of which shares a cell with another: named ones first."""
+    found: Dict[str, List[Block]] = {}
+    taken = [np.zeros(len(block.nodes), dtype=bool) for block in mesh.blocks]
+    for name in sorted(mesh.cells, key=lambda name: (name == WHOLE, *_rank(mesh, name))):
+        places = mesh.cells[name]
+        here = [(t, p) for t, p, b in zip(taken, places, mesh.blocks) if b.dimension == mesh.dimension and len(p)]
+        if here and not any(t[p].any() for t, p in here):
+            found[name] = _cells(mesh, name)
+            for t, p in here:
+                t[p] = True
+    return found
+
+
+def _rank(mesh: FoundMesh, name: str) -> Tuple[bool, bool, bool]:
+    """Of names for the same elements the least tells most: gmsh, for one, writes "Volume1" beside "fluid"."""
+    known = any(word in name.lower() for word in (*FLUID, *SOLID))
+    return name in mesh.numbered, not known, name[-1:].isdigit()
+
+
+def _touching(mesh: FoundMesh, volumes: Dict[str, List[Block]]) -> List[str]:
+    lines = []
+    some = dict(list(volumes.items())[:MOST_VOLUMES])
+    sides = "triangles" if mesh.dimension == 3 else "edges"
+    for contact in contacts(mesh.points, some, mesh.dimension):
+        if contact.sides:
+            lines.append(
+                f"{contact.first} and {contact.second} touch: {contact.sides} {sides}, {contact.points} points."
+            )
+        else:
+            lines.append(f"{gap_words(contact)}.")
+    doubled = doubled_words(mesh.points, [block for blocks in volumes.values() for block in blocks])
+    return [printable(line) for line in lines + ([f"{doubled}."] if doubled else [])]
+
+
+def _unit(longest: float) -> Tuple[float, str]:
+    """A factor to mm by the longest extent, in words."""
+    fits = [(unit, factor) for unit, factor in UNITS if SHORTEST <= longest * factor <= LONGEST]
+    if not fits:
+        return (
+            1.0,
+            f"Unit: no vessel is {longest:.3g} mm, cm or m long; give --scale FACTOR, from the file's unit to mm.",
+        )
+    options = ", ".join(f"--scale {factor:g} if {unit}" for unit, factor in fits)
+    said = "the file does not say it; by its size" if len(fits) > 1 else "by its size"
+    unit, factor = fits[0]
+    more = f"; the command below takes it for {unit}" if len(fits) > 1 else ""
+    return factor, f"Unit: {said} {' or '.join(unit for unit, _ in fits)} ({options}){more}."
+
+
+def _command(
+    mesh: FoundMesh,
+    volumes: Dict[str, List[Block]],
+    words: Sequence[str],
+    sources: Sequence[Source],
+    factor: float,
+    join: float,
+) -> List[str]:
+    """The call that makes the mesh of a case, with names where a guess is to be had."""
+    given = [source.name for source in sources if source.name]
+    groups = []
+    if not given:
+        groups = list(_roles(mesh, volumes).items())
+    cells = [block for blocks in volumes.values() for block in blocks]
+    surfaces = [
+        name
+        for name, places in mesh.cells.items()
+        if dimensions_of(mesh, places) == [mesh.dimension - 1] and name not in given
+    ]
+    if mesh.dimension == 3:
+        surfaces = [name for name in surfaces if _extent(mesh.points, _cells(mesh, name)).flat]
+    seen: List[set] = []
+    for name in sorted(
+        surfaces, key=lambda name: _rank(mesh, name)
+    ):  # the same facets under a name and a number are one opening
+        here = {tuple(sorted(row)) for b in _cells(mesh, name) for row in b.nodes[:, : CORNERS[b.kind]].tolist()}
+        if not any(here & other for other in seen):
+            seen.append(here)
+            groups.append((_name(name), name))
+    if not surfaces and mesh.dimension == 3 and not given:
+        flat = FoundMesh(mesh.points, cells)
+        for name, points in mesh.points_of.items():
+            facets = facets_between(flat, points)
+            if facets and _extent(mesh.points, facets).flat:
+                groups.append((_name(name), name))
+    target = Path(sources[0].path.name).with_suffix(".msh").name
+    target = "imported.msh" if len(sources) > 1 or target == sources[0].path.name else target
+    command = ["fsi-mesh", "import", *words, "-o", target]
+    command += ["--scale", f"{factor:g}"] if factor != 1 else []
+    command += ["--join", f"{join:g}"] if join else []
+    for name, part in groups:
+        command += ["--group", f"{name}={part}"]
+    text = " ".join(shlex.quote(word) for word in command)
+    openings = len(groups) > len(volumes) or len(given) > len(volumes)
+    note = "" if openings or mesh.dimension == 2 else " --opening NAME=X,Y,Z"
+    found = ["The command; names are guesses:" if groups else "The command:", printable(f"  {text}{note}")]
+    if note:
+        found.append("  with an --opening for each flat end of the fluid, X,Y,Z a point on it, mm")
+    return found
+
+
+def _roles(mesh: FoundMesh, volumes: Dict[str, List[Block]]) -> Dict[str, str]:
+    """Names for the volumes: by what they are called, else the fluid is the one whose box lies within the others'."""
+    roles: Dict[str, str] = {}
+    rest = []
+    for part in volumes:
+        if "fluid" not in roles and any(word in part.lower() for word in FLUID):
+            roles["fluid"] = part
+        elif any(word in part.lower() for word in SOLID):
+            roles["wall" if "wall" not in roles else _name(part)] = part
+        else:
+            rest.append(part)
+    rest.sort(key=lambda part: float(np.sort(_box(mesh.points, volumes[part]))[1]))
+    for part in rest:
+        free = next((name for name in ("fluid", "wall") if name not in roles), "")
+        roles[free or _name(part)] = part
+    return roles
+
+
+def _name(part: str) -> str:
+    """A part's name as a group's."""
+    return "".join(c if c.isalnum() or c in "_-" else "_" for c in part)
