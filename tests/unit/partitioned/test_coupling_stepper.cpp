@@ -761,6 +761,30 @@ TEST(CouplingStepper, AToleranceLeavesThePressureTheSameErrorAtEachStepLength) {
   EXPECT_GT(worst("midpoint", 0.0078125, ToleranceOf::displacement), 0.1) << "so that the above means something";
 }
 
+// A run whose inexact passes have led nowhere goes on with passes that solve both media, after a restart, too.
+TEST(CouplingStepper, GoesOnBySolvedPassesWhereInexactOnesWereGivenUp) {
+  const Case setup = short_pulse("robin-neumann-inexact", 1e-9, "euler");
+  const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery()),
+             other = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
+  const Loads loads(setup);
+  NewtonOptions newton;
+  newton.tolerance = 1e-11;
+  NewtonStepper<2> whole(*scene, loads, newton, number_scene(*scene));
+  Coupled inexact(*other, loads, setup), solved(*other, loads, setup);
+  WrittenMemory given_up = memory_of(inexact);
+  EXPECT_EQ(given_up.numbers.count("solved_passes"), 0U);
+  given_up.numbers["solved_passes"] = 1;
+  solved.keep(given_up.turn());
+  State a = scene->at_rest(), b = other->at_rest();
+  for (int step = 0; step < 3; ++step) {
+    whole.advance(a);
+    const StepReport report = solved.advance(b);
+    EXPECT_GT(report.newton_iterations, 3 * report.outer_iterations) << "inexact passes take about two";
+    EXPECT_LT(norm(difference(a.now.wall, b.now.wall)), 1e-6 * norm(a.now.wall)) << "step " << step + 1;
+  }
+  EXPECT_EQ(memory_of(solved).numbers.count("solved_passes"), 1U);
+}
+
 /// TR-BDF2 whose second stages meet a load that no wall bears, once `breaks` is set.
 class Breaking : public TimeIntegrator {
  public:
