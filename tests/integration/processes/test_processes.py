@@ -35,7 +35,9 @@ def together(processes, *command):
 
 def errors_of(text):
     """The program's own messages, without warnings and what the launcher says."""
-    return [line for line in text.splitlines() if line.startswith("fsi-") and ": warning: " not in line]
+    # Open MPI 5 lets a message follow an unfinished line of progress without a new line.
+    lines = re.sub(r"\x1b\[K[^\n]*?(?=fsi-\w+: )", "\n", text).splitlines()
+    return [line for line in lines if line.startswith("fsi-") and ": warning: " not in line]
 
 
 def children(process):
