@@ -53,6 +53,14 @@ def found_mesh(file: str, mesh: RawMesh, scale: float) -> FoundMesh:
     for block in blocks:
         if np.any((block.nodes < 0) | (block.nodes >= len(points))):
             raise InputError(file, block.kind, "names a point that is not there", "write the mesh anew")
+        if not np.isfinite(points[block.nodes.ravel()]).all():
+            raise InputError(file, block.kind, "has a point whose coordinates are no numbers", "write the mesh anew")
+    for name, at in mesh.point_sets.items():
+        if np.any((at < 0) | (at >= len(points))):
+            raise InputError(file, name, "names a point that is not there", "write the mesh anew")
+    for name, entries in mesh.cell_sets.items():
+        if any(np.any((e < 0) | (e >= len(n))) for e, (_, n) in zip(entries, mesh.blocks)):
+            raise InputError(file, name, "names a cell that is not there", "write the mesh anew")
     found = FoundMesh(points, blocks, passed_over=list(mesh.passed_over))
     for name, entries in mesh.cell_sets.items():
         found.cells[name] = [entries[i] for i in kept]

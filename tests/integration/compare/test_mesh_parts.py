@@ -95,6 +95,25 @@ class MeshParts(unittest.TestCase):
         with self.assertRaisesRegex(InputError, "names no parts; give NAME=PART; its parts are all .tetrahedra."):
             choose_groups("a.vtu", parts, [])
 
+    def test_points_and_sets_that_cannot_be_are_refused(self):
+        points, cells = cube(2)
+        lost = points.copy()
+        lost[cells[0, 0]] = np.nan
+        for raw, words in (
+            (RawMesh(lost, [("tetra", cells)]), "tetra: has a point whose coordinates are no numbers"),
+            (RawMesh(points, [("tetra", cells + 1)]), "tetra: names a point that is not there"),
+            (
+                RawMesh(points, [("tetra", cells)], point_sets={"s": np.array([27])}),
+                "s: names a point that is not there",
+            ),
+            (
+                RawMesh(points, [("tetra", cells)], cell_sets={"s": [np.array([48])]}),
+                "s: names a cell that is not there",
+            ),
+        ):
+            with self.assertRaisesRegex(InputError, words):
+                found_mesh("a.vtu", raw, 1.0)
+
     def test_the_boundary_of_a_cube_is_its_sides(self):
         points, cells = cube(3)
         for blocks in ([Block("tetra", cells)], [Block("tetra", cells[:70]), Block("tetra", cells[70:])]):
