@@ -1,8 +1,9 @@
 """Reads meshes of Abaqus and CalculiX decks (.inp).
 
-meshio 5.0.0 and 5.3.5 follow no *INCLUDE of a mesh, join parts and instances without their names, know no *SURFACE, and end
-with "'NoneType' object is not subscriptable" at what they do not know.
-Numbers of nodes and faces: Abaqus 2016, Elements Guide, 28.1.3 (triangles) and 28.1.4 (tetrahedra).
+meshio 5.0.0 reads an included file as a mesh of its own, so that nodes and elements in two files do not meet, leaves out its
+sets of cells, knows no *SURFACE, *PART or *INSTANCE, takes C3D4H for a kind of its own, `tetra4`, and ends with "'NoneType'
+object is not subscriptable" at what it does not know.
+Numbers of nodes and faces: Abaqus, Elements Guide, sections on triangular and on tetrahedral solid elements.
 """
 
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""Which elements of a mesh bear which name: groups of cells, and of facets of their boundary, by the parts of a file."""
+"""Which elements of a mesh bear which name: of cells, and of facets of their boundary, by the parts of a file."""
 
 from dataclasses import dataclass
 from typing import Dict, List, Sequence, Tuple
@@ -122,8 +122,8 @@ def boundary_of(blocks: Sequence[Block], dimension: int) -> List[Block]:
 
 
 def facets_between(mesh: FoundMesh, points: np.ndarray) -> List[Block]:
-    """Sides of cells on the mesh's boundary with all nodes among these points; with all corners among them where the set
-    holds corners only, as sets of quadratic cells in Abaqus decks may."""
+    """Sides of cells on the mesh's boundary with all nodes among these points; with all corners where the set holds
+    corners only, as sets of quadratic cells in Abaqus decks may."""
     mask = np.zeros(len(mesh.points), dtype=bool)
     mask[points] = True
     blocks = []
@@ -139,7 +139,7 @@ def facets_between(mesh: FoundMesh, points: np.ndarray) -> List[Block]:
 
 
 def as_sides(mesh: FoundMesh, groups: Sequence[Group]) -> List[Tuple[Group, np.ndarray]]:
-    """Gives facets the nodes of the cells' sides that have their corners, so that facets of first order fit cells of second.
+    """Gives facets the nodes of the cells' sides that have their corners: facets of first order fit cells of second.
     Returns the groups with facets that are sides of no cell of the groups, and the corners of these."""
     cells = [block for group in groups if group.dimension == mesh.dimension for block in group.parts]
     facets = [(group, block) for group in groups if group.dimension < mesh.dimension for block in group.parts]

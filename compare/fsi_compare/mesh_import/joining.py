@@ -1,7 +1,7 @@
 """Points that are one: of meshes in several files, or doubled in one file.
 
-Places are sorted into cubes as long as the tolerance, so that near ones lie in the same or in neighbouring cubes. The work
-is that of sorting.
+Places are sorted into cubes as long as the tolerance, so that near ones lie in the same or in neighbouring cubes. The
+work is that of sorting.
 """
 
 from itertools import product

@@ -89,7 +89,7 @@ def _extent(points: np.ndarray, blocks: Sequence[Block]) -> _Extent:
 
 
 def _table(mesh: FoundMesh, scale: float) -> List[str]:
-    """One line a part: its elements, its measure, its size under each guess of the unit; in mm where the scale is given."""
+    """One line a part: its elements, its measure, its size under each guess of the unit, or by the scale that is given."""
     units = UNITS if scale == 1 else (("mm", 1.0),)
     rows = [["part", "elements", "measure", *(f"size, mm, if in {unit}" for unit, _ in units)]]
     if scale != 1:

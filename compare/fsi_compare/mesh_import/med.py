@@ -1,8 +1,7 @@
 """Reads meshes of MED (.med), which are HDF5 files.
 
-meshio 5.0.0 and 5.3.5 demand a group `GRO` of every family; gmsh 4 writes it for physical groups only, and `NOEUD` not at all.
-They also demand a family number for every kind of element where one kind has it, and cut names where they hold letters beyond
-ASCII. Layout: the MED file format of EDF and CEA, version 3 and 4.
+meshio 5.0.0 demands a group `GRO` of every family; gmsh 4 writes it for physical groups only. It turns no tetrahedra, which
+in MED go the other way round than in VTK, and ends at names of groups with letters beyond ASCII.
 """
 
 from pathlib import Path

@@ -1,7 +1,7 @@
 """What of a mesh may bear a name: its parts, made of the sets and of the numbers that a file has.
 
 An array of whole numbers says parts where its values are few, and numbers the elements where they are many: `ModelRegionID`
-of SimVascular is the one, `GlobalElementID` the other. All steps are linear in elements, but for sorting.
+of SimVascular is one, `GlobalElementID` the other. All steps are linear in elements, but for sorting.
 """
 
 from dataclasses import dataclass, field

@@ -15,7 +15,8 @@ from .vtp import read_faces
 from .vtu import read_vtu
 from .xdmf import read_xdmf
 
-# By the end of a file's name, in lower case: what meshio has wrong, as each of these says at its top. What meshio reads well, or reads at all, is left to it.
+# By the end of a file's name, in lower case: what meshio has wrong, as each of these says at its top.
+# What meshio reads well, or reads at all, is left to it.
 READERS: Dict[str, Callable[[Path], RawMesh]] = {
     ".vtu": read_vtu,
     ".xdmf": read_xdmf,

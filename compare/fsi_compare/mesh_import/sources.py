@@ -93,8 +93,8 @@ def _taken(name: str, mesh: FoundMesh, meshes: Sequence[FoundMesh]) -> bool:
 
 def join(file: str, mesh: FoundMesh, ends: Sequence[int], tolerance: float) -> List[str]:
     """Makes points one that are at most `tolerance` apart, mm; with 0 those of different files that agree in single
-    precision. The first of them stays where it is. Returns what was done, in sentences. Raises InputError where a cell would
-    lose an edge."""
+    precision. The first of them stays where it is. Returns what was done, in sentences. Raises InputError where a cell
+    would lose an edge."""
     used = np.zeros(len(mesh.points), dtype=bool)
     for block in mesh.blocks:
         used[block.nodes] = True

@@ -1,5 +1,5 @@
 """Reads meshes of VTK's XML format (.vtu). meshio 5.3.5 under Python 3.13 refuses most that have
-appended arrays in base64, which is how VTK writes them; meshio 5.0.0 knows no Lagrange cells, which dolfinx writes."""
+appended arrays in base64, which is how VTK writes them; meshio 5.0.0 gives Lagrange cells kinds of their own."""
 
 from pathlib import Path
 from typing import Any, Dict, List, Tuple

@@ -1,7 +1,7 @@
 """Reads meshes of XDMF (.xdmf), with their data in the document, in HDF5 or in binary files.
 
-meshio 5.0.0 and 5.3.5 take the names of topologies in one spelling only ("Tetrahedron", not "tetrahedron", which dolfinx
-writes), one grid a document, and no grid that includes the geometry of another one, as those of tags do.
+meshio 5.0.0 takes the names of topologies in one spelling only ("Tetrahedron", not "tetrahedron", which dolfinx writes), one
+grid a document, and no grid that includes the geometry of another one, as those of tags do.
 """
 
 import re
