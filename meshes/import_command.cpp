@@ -97,7 +97,7 @@ void make(const ImportRequest& request) {
 }  // namespace
 
 MeshCommand import_command(CLI::App& app) {
-  auto* options = app.add_subcommand("import", "A mesh of another program: VTU, MED, Exodus, Abaqus, ... (by meshio)");
+  auto* options = app.add_subcommand("import", "A mesh of another program: VTU, MED, Exodus, Abaqus, ...");
   const auto request = std::make_shared<ImportRequest>();
   options
       ->add_option(

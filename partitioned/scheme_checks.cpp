@@ -43,7 +43,7 @@ void note_foreign_options(const CouplingScheme& scheme, const Case& setup, std::
   note(option::gap_demands, given.absolute_tolerance != standard.absolute_tolerance, "absolute_tolerance", by_gap);
   note(option::force_tolerance, given.force_tolerance != standard.force_tolerance, "force_tolerance",
        "interface schemes; here the balance is a part of the residual");
-  note(option::velocity_gap, given.velocity_gap != standard.velocity_gap, "velocity_gap", "schemes of one pass a step");
+  note(option::velocity_gap, given.velocity_gap != standard.velocity_gap, "velocity_gap", "\"explicit\"");
   note(option::robin_coefficient, given.robin_coefficient.has_value(), "robin_coefficient",
        "the schemes that begin with robin-robin");
   note(option::relaxation, given.relaxation.has_value(), "relaxation", "interface schemes");

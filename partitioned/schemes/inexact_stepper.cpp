@@ -38,6 +38,12 @@ double rate(const std::vector<double>& of) {
   return std::pow(of[last] / of[last - back], 1.0 / static_cast<double>(back));
 }
 
+/// No pass is solved again when it agrees: with a linearised wall it would be off by what that leaves.
+PassAccuracy with_its_own_wall(PassAccuracy accuracy) {
+  accuracy.linearised_wall = false;
+  return accuracy;
+}
+
 double demand(const Case& setup) {
   if (setup.partitioned.tolerance) return *setup.partitioned.tolerance;
   const NewtonOptions& newton = setup.monolithic.newton;
@@ -80,15 +86,17 @@ template <int n>
 PassAccuracy InexactStepper<n>::first_accuracy() {
   gaps_.clear();
   changes_.clear();
-  return solves_ ? Base::first_accuracy() : first_pass;
+  return solves_ ? with_its_own_wall(Base::first_accuracy()) : first_pass;
 }
 
 template <int n>
 void InexactStepper<n>::next_accuracy(PassAccuracy& accuracy) {
-  if (solves_)
-    Base::next_accuracy(accuracy);
-  else
+  if (!solves_) {
     accuracy = Base::passes() < late ? later_passes : late_passes;
+    return;
+  }
+  Base::next_accuracy(accuracy);
+  accuracy = with_its_own_wall(accuracy);
 }
 
 template <int n>
@@ -103,12 +111,15 @@ template <int n>
 void InexactStepper<n>::solve_media() {
   solves_ = true;
   Scene<n>& scene = Base::scene();
-  if (determines_pressure(scene))
-    Base::go_on_by(std::make_unique<DirichletNeumann<n>>(scene, options_),
-                   accelerators::iqn_ils(options_, Base::space()));
-  else
+  if (determines_pressure(scene)) {
+    PartitionedData options = options_;
+    options.relaxation.reset();  // named for passes of Robin-Neumann, which do not overshoot
+    Base::go_on_by(std::make_unique<DirichletNeumann<n>>(scene, options),
+                   accelerators::iqn_ils(options, Base::space()));
+  } else {
     Base::go_on_by(std::make_unique<RobinNeumann<n>>(scene, options_),
                    accelerators::robin_iqn(options_, Base::space()));
+  }
   scene.profile.count("inexact passes given up");
 }
 

@@ -25,7 +25,7 @@ FACES: Dict[str, Tuple[str, Tuple[Tuple[int, ...], ...]]] = {
 }
 # Types of elements begin with one of these, by dimension; the number of nodes follows, then letters of the formulation.
 FAMILIES = {
-    3: ("DC3D", "AC3D", "C3D", "F3D"),
+    3: ("DC3D", "AC3D", "C3D"),
     2: ("CPS", "CPE", "CPEG", "CAX", "CGAX", "DCAX", "DC2D", "AC2D", "STRI", "M3D", "SFM3D", "DS", "S", "R3D"),
     1: ("T3D", "T2D"),
 }
@@ -56,13 +56,13 @@ class Part:
     name: str
     nodes: Dict[int, int] = field(default_factory=dict)  # number -> place among all points
     elements: Dict[int, Tuple[str, int]] = field(default_factory=dict)  # number -> block, place in it
-    node_sets: Dict[str, List[int]] = field(default_factory=dict)  # name in upper case -> numbers
-    element_sets: Dict[str, List[int]] = field(default_factory=dict)
+    node_sets: Dict[Tuple[str, str], List[int]] = field(default_factory=dict)  # scope and name in upper case -> numbers
+    element_sets: Dict[Tuple[str, str], List[int]] = field(default_factory=dict)
 
 
 def read_abaqus(path: Path) -> RawMesh:
-    """Sets of elements and nodes, and surfaces, by their names: `NAME:surface` for a surface that shares it with a set.
-    Raises InputError with the line."""
+    """Sets of elements and nodes, and surfaces, by their names: `NAME:surface` for a surface that shares it with a set,
+    `PART/NAME` for one whose name other parts, or the assembly, have, too. Raises InputError with the line."""
     return _Deck(path).mesh()
 
 
@@ -77,11 +77,18 @@ def _lines(path: Path, depth: int = 0, asked: Optional[Line] = None) -> Iterator
         raise InputError(asked.file, f"line {asked.number}", f"{asked.text}: {error}") from None
     if b"\0" in data[:4096]:
         raise InputError(path, "", "is no text, as decks are", "write the mesh as .inp, or as .vtu")
+    begun: Optional[Line] = None  # a keyword that goes on in the next line
     for number, raw in enumerate(data.decode("utf-8", "replace").splitlines(), 1):
         text = raw.strip()
         if not text or text.startswith("**"):
             continue
         line = Line(path, number, text)
+        if begun is not None:
+            line, begun = begun._replace(text=f"{begun.text} {text}"), None
+        if line.text.startswith("*") and line.text.endswith(","):
+            begun = line
+            continue
+        text = line.text
         word, options = _keyword(text) if text.startswith("*") else ("", {})
         if word != "INCLUDE":
             yield line
@@ -141,10 +148,10 @@ class _Deck:
         self.parts: Dict[str, Part] = {"": Part("")}
         self.current = self.parts[""]
         self.instances: Dict[str, Part] = {}  # by name in upper case
-        # By the first spelling of a name, since decks do not tell cases apart: block, places in it.
-        self.sets: Dict[str, List[Tuple[str, List[int]]]] = {}
-        self.surfaces: Dict[str, List[Tuple[str, List[int]]]] = {}
-        self.point_sets: Dict[str, List[int]] = {}
+        # By scope, the part or nothing, and the first spelling of a name, since decks do not tell cases apart: block, places.
+        self.sets: Dict[Tuple[str, str], List[Tuple[str, List[int]]]] = {}
+        self.surfaces: Dict[Tuple[str, str], List[Tuple[str, List[int]]]] = {}
+        self.point_sets: Dict[Tuple[str, str], List[int]] = {}
         self.spelling: Dict[str, str] = {}
         self.passed_over: Dict[str, None] = {}
         key: Optional[Line] = None
@@ -168,12 +175,15 @@ class _Deck:
         blocks += [(kind, np.concatenate(rows)) for kind, rows in self.facets.items()]
         sets = {}
         for table, word in ((self.sets, ""), (self.surfaces, ":surface")):
-            for name, entries in table.items():
+            for key, entries in table.items():
                 places: List[List[int]] = [[] for _ in blocks]
                 for block, there in entries:
                     places[order[block]] += there
+                name = _shown(key, table)
                 sets[name + (word if name in sets else "")] = [np.unique(np.array(p, dtype=np.int64)) for p in places]
-        points = {name: np.unique(np.array(p, dtype=np.int64)) for name, p in self.point_sets.items()}
+        points = {
+            _shown(key, self.point_sets): np.unique(np.array(p, dtype=np.int64)) for key, p in self.point_sets.items()
+        }
         return RawMesh(
             np.array(self.points), blocks, cell_sets=sets, point_sets=points, passed_over=list(self.passed_over)
         )
@@ -223,7 +233,7 @@ class _Deck:
             words = line.text.split(",")
             try:
                 number = int(words[0])
-                place = tuple(float(word) for word in words[1:4] if word.strip())
+                place = tuple(float(word) if word.strip() else 0.0 for word in words[1:4])  # a blank is a zero
             except ValueError:
                 _refuse(line, f"'{line.text[:60]}' is no node")
             if len(place) < 2:
@@ -291,9 +301,11 @@ class _Deck:
 
     def _node_set(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
         name, part = _wanted(key, options, "NSET"), self._owner(key, options)
-        numbers = _set_numbers(options, data, part.nodes, part.node_sets, f"the set {name} has the node")
+        numbers = _set_numbers(
+            options, data, part.nodes, self._known(part, part.node_sets), f"the set {name} has the node"
+        )
         if options.get("ELSET"):  # the nodes of a set of elements
-            elements = part.element_sets.get(options["ELSET"].upper())
+            elements = self._known(part, part.element_sets).get(options["ELSET"].upper())
             if elements is None:
                 _refuse(key, f"there is no set {options['ELSET']}")
             number_of = {place: number for number, place in part.nodes.items()}
@@ -303,39 +315,49 @@ class _Deck:
 
     def _element_set(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
         name, part = _wanted(key, options, "ELSET"), self._owner(key, options)
-        numbers = _set_numbers(options, data, part.elements, part.element_sets, f"the set {name} has the element")
+        known = self._known(part, part.element_sets)
+        numbers = _set_numbers(options, data, part.elements, known, f"the set {name} has the element")
         # Sets that Abaqus/CAE makes for surfaces are marked so.
         self._take_elements(part, name, numbers, "INTERNAL" not in options)
 
     def _spelled(self, name: str) -> str:
         return self.spelling.setdefault(name.upper(), name)
 
+    def _key(self, name: str) -> Tuple[str, str]:
+        """Of a set or surface that is said here: what parts call alike is not one."""
+        return self.current.name, self._spelled(name)
+
+    def _known(self, part: Part, sets: Dict[Tuple[str, str], List[int]]) -> Dict[str, List[int]]:
+        """Those of a part by names as they mean here: its own, and before them those that the assembly made of it."""
+        own = {name: numbers for (scope, name), numbers in sets.items() if scope == part.name}
+        return own | {name: numbers for (scope, name), numbers in sets.items() if scope == self.current.name}
+
     def _take_nodes(self, part: Part, name: str, numbers: List[int]) -> None:
-        part.node_sets.setdefault(name.upper(), []).extend(numbers)
-        self.point_sets.setdefault(self._spelled(name), []).extend(part.nodes[n] for n in numbers)
+        part.node_sets.setdefault((self.current.name, name.upper()), []).extend(numbers)
+        self.point_sets.setdefault(self._key(name), []).extend(part.nodes[n] for n in numbers)
 
     def _take_elements(self, part: Part, name: str, numbers: List[int], shown: bool = True) -> None:
-        part.element_sets.setdefault(name.upper(), []).extend(numbers)
+        part.element_sets.setdefault((self.current.name, name.upper()), []).extend(numbers)
         if shown:
-            self.sets.setdefault(self._spelled(name), []).extend(_by_block(part, numbers))
+            self.sets.setdefault(self._key(name), []).extend(_by_block(part, numbers))
 
     def _surface(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
         name, kind = _wanted(key, options, "NAME"), options.get("TYPE", "ELEMENT").upper()
         if kind not in ("ELEMENT", "NODE"):
             self.passed_over[f"{name} (a surface of the type {kind})"] = None
             return
-        entries = self.surfaces.setdefault(self._spelled(name), [])
+        entries = self.surfaces.setdefault(self._key(name), [])
         for line in data:
             words = [word.strip() for word in line.text.split(",")]
             if kind == "NODE":
                 part, numbers = self._named(line, words[0], nodes=True)
-                self.point_sets.setdefault(self._spelled(name), []).extend(part.nodes[n] for n in numbers)
+                self.point_sets.setdefault(self._key(name), []).extend(part.nodes[n] for n in numbers)
                 continue
             part, numbers = self._named(line, words[0], nodes=False)
             for block, places in _by_block(part, numbers):
                 entries.append(self._faces(line, block, places, words[1].upper() if len(words) > 1 else ""))
         if not entries:
-            del self.surfaces[self._spelled(name)]
+            del self.surfaces[self._key(name)]
 
     def _faces(self, line: Line, block: str, places: List[int], side: str) -> Tuple[str, List[int]]:
         """Block and places of the facets that a line of a surface names; of shells these are the elements."""
@@ -357,10 +379,17 @@ class _Deck:
         """Part and numbers of "SET", "INSTANCE.SET" or of one number. Sets that an assembly names are of their part."""
         instance, dot, rest = entry.partition(".")
         parts: Iterable[Part] = [self.current] if self.current.name else self.parts.values()
-        if dot and instance.upper() in self.instances:
+        whole = bool(dot) and instance.upper() in self.instances
+        if whole:
             parts, entry = [self.instances[instance.upper()]], rest
         for part in parts:
-            known = part.node_sets if nodes else part.element_sets
+            sets = part.node_sets if nodes else part.element_sets
+            # INSTANCE.SET is the part's own.
+            known = (
+                {name: n for (scope, name), n in sets.items() if scope == part.name}
+                if whole
+                else self._known(part, sets)
+            )
             there: Mapping[int, object] = part.nodes
             if not nodes:
                 there = part.elements
@@ -397,6 +426,12 @@ def _set_numbers(
             _refuse(line, f"{words} {missing}, which is not there")
         numbers += found
     return numbers
+
+
+def _shown(key: Tuple[str, str], table: Mapping[Tuple[str, str], object]) -> str:
+    """A name, with its part before it where others have the same."""
+    scope, name = key
+    return f"{scope}/{name}" if scope and sum(other == name for _, other in table) > 1 else name
 
 
 def _by_block(part: Part, numbers: Sequence[int]) -> List[Tuple[str, List[int]]]:

@@ -10,9 +10,9 @@ import numpy as np
 from ..base.errors import InputError, printable, say_warning
 from ..base.files import replacing
 from ..base.options import Commands, add_command
-from .groups import Group, as_sides, choose_groups
+from .groups import Group, as_sides, choose_groups, left_out
 from .joining import distances_to
-from .listing import listing
+from .listing import listing, unit_words
 from .parts import FoundMesh, shown_names
 from .raw_mesh import ELEMENTS, KINDS, Block
 from .sources import Source, join, read_sources, source_of
@@ -64,10 +64,16 @@ def _convert(file: str, mesh: FoundMesh, sources: Sequence[Source], options: arg
     groups = choose_groups(file, mesh, wanted + [_pair(text) for text in options.group])
     _require_sides(file, mesh, groups, sources)
     _warn_of_gaps(mesh, groups)
+    if options.scale == 1:
+        used = np.concatenate([block.nodes.ravel() for group in groups for block in group.parts])
+        if words := unit_words(float(np.ptp(mesh.points[used], axis=0).max())):
+            say_warning(words)
     turned = _turn(mesh, groups)
     with replacing(options.output) as temporary, open(temporary, "w", encoding="utf-8") as out:
         _write(out, mesh, groups)
-    return [f"{turned} cells were turned inside out and are turned back"] if turned else []
+    said = [f"{turned} cells were turned inside out and are turned back"] if turned else []
+    others = [] if wanted or options.group else left_out(mesh)
+    return said + ([f"Left out, since no --group names them: {shown_names(others)}"] if others else [])
 
 
 def _require_sides(file: str, mesh: FoundMesh, groups: List[Group], sources: Sequence[Source]) -> None:

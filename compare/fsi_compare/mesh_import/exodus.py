@@ -9,7 +9,7 @@ Numbers of nodes and sides: L. A. Schoof, V. R. Yarberry, EXODUS II: A Finite El
 import re
 import warnings
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Tuple
 
 import numpy as np
 
@@ -32,7 +32,7 @@ KIND_OF = {
 }
 OTHERS = {"SHELL": "quad", "QUAD": "quad", "HEX": "hexahedron", "WEDGE": "wedge", "PYRAMID": "pyramid"}
 POINTS = ("SPHERE", "CIRCLE", "NODE")
-# Nodes of sides 1, 2, ...: corners, then middles of edges. Of shells the first two sides are their faces.
+# Nodes of sides 1, 2, ...: corners, then middles of edges. Shells of triangles have two faces before them.
 SIDES: Dict[str, Tuple[str, Tuple[Tuple[int, ...], ...]]] = {
     "tetra": ("triangle", ((0, 1, 3), (1, 2, 3), (0, 3, 2), (0, 2, 1))),
     "tetra10": ("triangle6", ((0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6), (0, 2, 1, 6, 5, 4))),
@@ -65,15 +65,18 @@ def _read(path: Path, file: Any) -> RawMesh:
     mesh = RawMesh(_points(file), [])
     nothing = np.zeros(0, dtype=np.int64)
     names = _names(file, "eb", "block", "num_el_blk")
+    shells = []  # whether elements have two faces, by block
     starts = [0]  # elements are numbered through all blocks
     for number, name in enumerate(names, 1):
         connectivity = file.variables.get(f"connect{number}")
         if connectivity is None:  # a block without elements
             starts.append(starts[-1])
             mesh.blocks.append(("vertex", np.zeros((0, 1), dtype=np.int64)))
+            shells.append(False)
             continue
         nodes = np.asarray(connectivity[:], dtype=np.int64) - 1
         mesh.blocks.append((_kind(path, name, str(connectivity.elem_type), nodes.shape[1]), nodes))
+        shells.append("SHELL" in str(connectivity.elem_type).upper())
         starts.append(starts[-1] + len(nodes))
     count = len(names)
     for number, name in enumerate(names):
@@ -85,7 +88,7 @@ def _read(path: Path, file: Any) -> RawMesh:
             continue
         elements = np.asarray(file.variables[f"elem_ss{number}"][:], dtype=np.int64) - 1
         sides = np.asarray(file.variables[f"side_ss{number}"][:], dtype=np.int64)
-        _add_sides(path, mesh, name, elements, sides, starts, count)
+        _add_sides(path, mesh, name, elements, sides, starts, shells)
     for number, name in enumerate(_names(file, "ns", "nodeset", "num_node_sets"), 1):
         if f"node_ns{number}" in file.variables:
             mesh.point_sets[name] = np.asarray(file.variables[f"node_ns{number}"][:], dtype=np.int64) - 1
@@ -140,9 +143,10 @@ def _join(mesh: RawMesh, name: str, places: List[np.ndarray]) -> None:
 
 
 def _add_sides(
-    path: Path, mesh: RawMesh, name: str, elements: np.ndarray, sides: np.ndarray, starts: List[int], count: int
+    path: Path, mesh: RawMesh, name: str, elements: np.ndarray, sides: np.ndarray, starts: List[int], shells: List[bool]
 ) -> None:
     """A block of facets for each kind, and the set that holds them."""
+    count = len(shells)
     if len(elements) != len(sides) or np.any((elements < 0) | (elements >= starts[count])):
         raise InputError(path, name, "names an element that is not there", REMEDY)
     for block in range(count):
@@ -150,23 +154,31 @@ def _add_sides(
         here = (elements >= starts[block]) & (elements < starts[block + 1])
         if not here.any():
             continue
-        facets = _facets(path, name, kind, nodes[elements[here] - starts[block]], sides[here])
-        if facets is None:
-            raise InputError(path, name, f"holds sides of a {kind}", "mesh it by tetrahedra or triangles")
-        mesh.blocks.append(facets)
-        places = [np.zeros(0, dtype=np.int64) for _ in mesh.blocks]
-        places[-1] = np.arange(len(facets[1]))
-        _join(mesh, name, places)
+        for facet, rows in _facets(path, name, kind, shells[block], nodes[elements[here] - starts[block]], sides[here]):
+            mesh.blocks.append((facet, rows))
+            places = [np.zeros(0, dtype=np.int64) for _ in mesh.blocks]
+            places[-1] = np.arange(len(rows))
+            _join(mesh, name, places)
 
 
-def _facets(path: Path, name: str, kind: str, nodes: np.ndarray, sides: np.ndarray) -> Optional[Tuple[str, np.ndarray]]:
-    """Sides of elements of one kind, `nodes` and `sides` one a row."""
+def _facets(
+    path: Path, name: str, kind: str, shell: bool, nodes: np.ndarray, sides: np.ndarray
+) -> List[Tuple[str, np.ndarray]]:
+    """Sides of elements of one kind, `nodes` and `sides` one a row; of shells faces and edges apart."""
     if kind not in SIDES:
-        return None
+        raise InputError(path, name, f"holds sides of a {kind}", "mesh it by tetrahedra or triangles")
     facet, corners = SIDES[kind]
-    if np.any((sides < 1) | (sides > len(corners))):
-        raise InputError(path, name, f"names side {int(sides.max())} of a {kind}, which has {len(corners)}", REMEDY)
-    return facet, np.take_along_axis(nodes, np.array(corners)[sides - 1], axis=1)
+    faces = 2 if shell and kind.startswith("triangle") else 0
+    if np.any((sides < 1) | (sides > faces + len(corners))):
+        last = f"names side {int(sides.max())} of a {kind}, which has {faces + len(corners)}"
+        raise InputError(path, name, last, REMEDY)
+    edges = sides > faces
+    found = []
+    if not edges.all():
+        found.append((kind, nodes[~edges]))
+    if edges.any():
+        found.append((facet, np.take_along_axis(nodes[edges], np.array(corners)[sides[edges] - faces - 1], axis=1)))
+    return found
 
 
 def _add_values(file: Any, mesh: RawMesh, number: int, name: str, count: int) -> None:

@@ -22,16 +22,15 @@ def choose_groups(file: str, mesh: FoundMesh, wanted: Sequence[Tuple[str, str]])
     """Groups by the names that are wanted, (name, what the file calls it); all parts with a name of their own when none
     is. Raises InputError."""
     if not wanted:
-        wanted = [(name, name) for name in mesh.cells if name not in mesh.numbered]
+        wanted = [(name, name) for name in named_parts(mesh)]
         if not wanted:
             problem = "is not given, and the file names no parts"
             raise InputError(file, "--group", problem, f"give NAME=PART; {known_parts(mesh)}")
     groups: List[Group] = []
-    owners = [np.full(len(block.nodes), -1) for block in mesh.blocks]  # which of `wanted` has a cell
-    for number, (name, part) in enumerate(wanted):
+    taken: Dict[str, Tuple[str, List[np.ndarray]]] = {}  # group -> its last part, whether it has an element, by block
+    for name, part in wanted:
         if part in mesh.cells:
-            groups += _of_cells(file, mesh, name, mesh.cells[part])
-            _require_apart(file, mesh, wanted, number, owners)
+            groups += _of_cells(file, mesh, name, part, taken)
         elif part in mesh.points_of:
             blocks = facets_between(mesh, mesh.points_of[part])
             if not blocks:
@@ -51,33 +50,54 @@ def choose_groups(file: str, mesh: FoundMesh, wanted: Sequence[Tuple[str, str]])
     return groups
 
 
-def _of_cells(file: str, mesh: FoundMesh, name: str, places: Sequence[np.ndarray]) -> List[Group]:
+def named_parts(mesh: FoundMesh) -> List[str]:
+    """Parts of cells or facets with a name of their own."""
+    return [name for name in mesh.cells if name not in mesh.numbered and _dimensions(mesh, name)]
+
+
+def left_out(mesh: FoundMesh) -> List[str]:
+    """Named parts that become groups where --group asks for them, or never: for the log."""
+    sets = [name for name in mesh.cells if name not in mesh.numbered and not _dimensions(mesh, name)]
+    points = [name for name in mesh.points_of if name not in mesh.numbered]
+    return [f"{name} (no cells or sides)" for name in sets] + [f"{name} (points)" for name in points]
+
+
+def _dimensions(mesh: FoundMesh, part: str) -> List[int]:
+    """Of its cells and facets."""
+    return [d for d in dimensions_of(mesh, mesh.cells[part]) if d >= mesh.dimension - 1]
+
+
+def _of_cells(
+    file: str, mesh: FoundMesh, name: str, part: str, taken: Dict[str, Tuple[str, List[np.ndarray]]]
+) -> List[Group]:
+    """Groups of the part's elements that the name does not have yet. A cell is of one medium: sets of a file may overlap,
+    groups of volumes may not."""
+    places = mesh.cells[part]
+    if not _dimensions(mesh, part):
+        what = "cells or sides" if any(len(p) for p in places) else "elements"
+        raise InputError(file, f"--group {name}", f"the part {part} has no {what}", known_parts(mesh))
+    for other, (others_part, has) in taken.items():
+        shared = sum(
+            int(h[p].sum()) for block, p, h in zip(mesh.blocks, places, has) if block.dimension == mesh.dimension
+        )
+        if other != name and shared:
+            problem = f"{part} shares {shared} cells with {others_part}, which is {other}"
+            raise InputError(file, f"--group {name}", problem, "name parts by --group that have no cell in common")
+    has = taken[name][1] if name in taken else [np.zeros(len(block.nodes), dtype=bool) for block in mesh.blocks]
+    fresh = [p[~h[p]] for p, h in zip(places, has)]
+    for p, h in zip(fresh, has):
+        h[p] = True
+    taken[name] = (part, has)
     groups = []
-    for dimension in dimensions_of(mesh, places):
-        if dimension >= mesh.dimension - 1:
-            blocks = [
-                Block(block.kind, block.nodes[p])
-                for block, p in zip(mesh.blocks, places)
-                if block.dimension == dimension and len(p)
-            ]
+    for dimension in _dimensions(mesh, part):
+        blocks = [
+            Block(block.kind, block.nodes[p])
+            for block, p in zip(mesh.blocks, fresh)
+            if block.dimension == dimension and len(p)
+        ]
+        if blocks:
             groups.append(Group(name, dimension, blocks))
     return groups
-
-
-def _require_apart(
-    file: str, mesh: FoundMesh, wanted: Sequence[Tuple[str, str]], number: int, owners: List[np.ndarray]
-) -> None:
-    """A cell is of one medium: sets of a file may overlap, groups of volumes may not."""
-    name, part = wanted[number]
-    for block, places, owner in zip(mesh.blocks, mesh.cells[part], owners):
-        if block.dimension < mesh.dimension or not len(places):
-            continue
-        taken = owner[places]
-        if np.any(taken >= 0) and wanted[int(taken.max())][0] != name:
-            other, others_part = wanted[int(taken.max())]
-            problem = f"{part} shares {int((taken >= 0).sum())} cells with {others_part}, which is {other}"
-            raise InputError(file, f"--group {name}", problem, "name parts by --group that have no cell in common")
-        owner[places] = number
 
 
 # Vertices of a cell's sides, and the nodes in the middles of their edges behind them, in meshio's (VTK's) numbers.

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..base.errors import printable
 from .groups import facets_between
-from .parts import WHOLE, FoundMesh, count_in, dimensions_of
+from .parts import WHOLE, FoundMesh, count_in, dimensions_of, shown_names
 from .raw_mesh import CORNERS, ELEMENTS, Block
 from .sources import Source
 from .touching import contacts, doubled_words, gap_words
@@ -28,7 +28,7 @@ FLUID, SOLID = ("fluid", "lumen", "blood"), (
     "media",
     "adventitia",
 )
-MOST_VOLUMES = 12  # whose contacts are looked for, each with each
+MOST_VOLUMES = 4  # whose distances are looked for, each with each; of more what touches what
 MOST_LINES = 200  # of parts
 
 
@@ -69,7 +69,7 @@ def _box(points: np.ndarray, blocks: Sequence[Block]) -> np.ndarray:
 
 def _extent(points: np.ndarray, blocks: Sequence[Block]) -> _Extent:
     """By the vertices."""
-    measure, flat = 0.0, False
+    measure, areas_of = 0.0, [np.zeros((0, 3))]
     for block in blocks:
         corners = points[block.nodes[:, : CORNERS[block.kind]]]
         edges = corners[:, 1:] - corners[:, :1]
@@ -77,15 +77,20 @@ def _extent(points: np.ndarray, blocks: Sequence[Block]) -> _Extent:
             measure += float(np.abs(np.einsum("ij,ij->i", np.cross(edges[:, 0], edges[:, 1]), edges[:, 2])).sum()) / 6
         elif block.dimension == 2:
             areas = np.cross(edges[:, 0], edges[:, 1]) / 2
-            sizes = np.linalg.norm(areas, axis=1)
-            measure += float(sizes.sum())
-            axis = areas[int(np.argmax(sizes))]
-            # Facets of a file may point either way.
-            along = np.abs(areas @ axis) / (np.linalg.norm(axis) or 1.0)
-            flat = bool(along.sum() > (1 - FLAT) * sizes.sum() > 0)
+            measure += float(np.linalg.norm(areas, axis=1).sum())
+            areas_of.append(areas)
         else:
             measure += float(np.linalg.norm(edges[:, 0], axis=1).sum())
-    return _Extent(measure, _box(points, blocks), flat)
+    return _Extent(measure, _box(points, blocks), _are_flat(np.concatenate(areas_of)))
+
+
+def _are_flat(areas: np.ndarray) -> bool:
+    """Whether facets with these area vectors, which may point either way, lie in parallel planes."""
+    sizes = np.linalg.norm(areas, axis=1)
+    if not len(areas) or not sizes.sum() > 0:
+        return False
+    axis = areas[int(np.argmax(sizes))]
+    return bool((np.abs(areas @ axis) / np.linalg.norm(axis)).sum() > (1 - FLAT) * sizes.sum())
 
 
 def _table(mesh: FoundMesh, scale: float) -> List[str]:
@@ -135,18 +140,35 @@ def _rank(mesh: FoundMesh, name: str) -> Tuple[bool, bool, bool]:
 
 
 def _touching(mesh: FoundMesh, volumes: Dict[str, List[Block]]) -> List[str]:
-    lines = []
-    some = dict(list(volumes.items())[:MOST_VOLUMES])
     sides = "triangles" if mesh.dimension == 3 else "edges"
-    for contact in contacts(mesh.points, some, mesh.dimension):
+    few = len(volumes) <= MOST_VOLUMES
+    found = contacts(mesh.points, volumes, mesh.dimension, distances=few)
+    lines = []
+    for contact in found:
         if contact.sides:
             lines.append(
                 f"{contact.first} and {contact.second} touch: {contact.sides} {sides}, {contact.points} points."
             )
-        else:
+        elif few:
             lines.append(f"{gap_words(contact)}.")
+    touching = {name for contact in found if contact.sides for name in (contact.first, contact.second)}
+    if not few and len(touching) < len(volumes):
+        lines.append(
+            f"No side in common with another one has: {shown_names([n for n in volumes if n not in touching])}."
+        )
     doubled = doubled_words(mesh.points, [block for blocks in volumes.values() for block in blocks])
+    lines = lines[:MOST_LINES] + ([f"... and {len(lines) - MOST_LINES} more"] if len(lines) > MOST_LINES else [])
     return [printable(line) for line in lines + ([f"{doubled}."] if doubled else [])]
+
+
+def unit_words(longest: float) -> str:
+    """What to say of a mesh that is taken in mm and is no vessel's in that unit; empty where it may be."""
+    if SHORTEST <= longest <= LONGEST:
+        return ""
+    fits = [
+        f"--scale {factor:g} if it is in {unit}" for unit, factor in UNITS if SHORTEST <= longest * factor <= LONGEST
+    ]
+    return f"the mesh is {longest:.3g} mm long: {' or '.join(fits) or 'give --scale FACTOR, from its unit to mm'}"
 
 
 def _unit(longest: float) -> Tuple[float, str]:
@@ -208,10 +230,13 @@ def _command(
         command += ["--group", f"{name}={part}"]
     text = " ".join(shlex.quote(word) for word in command)
     openings = len(groups) > len(volumes) or len(given) > len(volumes)
-    note = "" if openings or mesh.dimension == 2 else " --opening NAME=X,Y,Z"
+    fluid = "fluid" in given or any(name == "fluid" for name, _ in groups)
+    note = "" if openings or mesh.dimension == 2 or not fluid else " --opening NAME=X,Y,Z"
     found = ["The command; names are guesses:" if groups else "The command:", printable(f"  {text}{note}")]
     if note:
         found.append("  with an --opening for each flat end of the fluid, X,Y,Z a point on it, mm")
+    if len(volumes) == 1 and fluid and not given and not any(word in next(iter(volumes)).lower() for word in FLUID):
+        found.append(f"  or, where that is a wall without fluid, --group wall={next(iter(volumes))} and no --opening")
     return found
 
 

@@ -65,19 +65,25 @@ def read_sources(sources: Sequence[Source], scale: float) -> Tuple[FoundMesh, Li
             nothing = np.zeros(0, dtype=np.int64)
             return [places[i - start] if start <= i < start + len(places) else nothing for i in range(count)]
 
+        def take(known: str) -> str:
+            if known in whole.cells or known in whole.points_of or (known in names and known != source.name):
+                problem = f"two of the files have the part {known}"
+                raise InputError(source.file, known, problem, "give the files names: NAME=FILE for each")
+            return known
+
         if source.name:
-            whole.cells[source.name] = spread(mesh.cells[WHOLE])
+            whole.cells[take(source.name)] = spread(mesh.cells[WHOLE])
         stem = source.name or source.path.stem
         for name, places in mesh.cells.items():
             if name == WHOLE:
                 continue
             known = f"{stem}/{name}" if source.name or _taken(name, mesh, meshes) else name
-            whole.cells[known] = spread(places)
+            whole.cells[take(known)] = spread(places)
             if name in mesh.numbered or source.name:
                 numbered.add(known)
         for name, points in mesh.points_of.items():
             known = f"{stem}/{name}" if source.name or _taken(name, mesh, meshes) else name
-            whole.points_of[known] = points + first
+            whole.points_of[take(known)] = points + first
         whole.passed_over += [f"{source.path.name}: {text}" for text in mesh.passed_over]
     if WHOLE not in whole.cells:
         top = whole.dimension

@@ -20,10 +20,13 @@ class Contact:
     sides: int  # that both have
     points: int  # that both have, on the surfaces
     distance: float  # mm between the nearest points where no side is shared, infinite beyond a tenth of the mesh
+    edge: float = float("inf")  # the shortest of both, mm
 
 
-def contacts(points: np.ndarray, volumes: Mapping[str, Sequence[Block]], dimension: int) -> List[Contact]:
-    """Of each two of the volumes, by name."""
+def contacts(
+    points: np.ndarray, volumes: Mapping[str, Sequence[Block]], dimension: int, distances: bool = True
+) -> List[Contact]:
+    """Of each two of the volumes, by name. Without distances only of those that share a side."""
     if len(volumes) < 2:
         return []
     surfaces = {name: boundary_of(blocks, dimension) for name, blocks in volumes.items()}
@@ -32,11 +35,20 @@ def contacts(points: np.ndarray, volumes: Mapping[str, Sequence[Block]], dimensi
         for name, blocks in surfaces.items()
     }
     span = float(np.ptp(points[np.concatenate(list(nodes.values()))], axis=0).max())
+    boxes = {name: (points[there].min(axis=0), points[there].max(axis=0)) for name, there in nodes.items()}
     found = []
     for a, b in combinations(volumes, 2):
-        shared = _shared_sides(surfaces[a], surfaces[b])
-        distance = 0.0 if shared else nearest_distance(points[nodes[a]], points[nodes[b]], span / 10)
-        found.append(Contact(a, b, shared, len(np.intersect1d(nodes[a], nodes[b])), distance))
+        common = len(np.intersect1d(nodes[a], nodes[b], assume_unique=True))
+        shared = _shared_sides(surfaces[a], surfaces[b]) if common else 0
+        distance = 0.0
+        if not shared:
+            if not distances:
+                continue
+            apart = np.maximum(boxes[a][0] - boxes[b][1], boxes[b][0] - boxes[a][1]).max()
+            near = apart <= span / 10
+            distance = nearest_distance(points[nodes[a]], points[nodes[b]], span / 10) if near else float("inf")
+        edge = float("inf") if shared else min(shortest_edge(volumes[name], points) for name in (a, b))
+        found.append(Contact(a, b, shared, common, distance, edge))
     return found
 
 
@@ -58,6 +70,8 @@ def gap_words(contact: Contact) -> str:
         return f"{what}, and are far apart"
     if contact.distance == 0 and contact.points:
         return f"{what}"
+    if join_for(contact.distance) > contact.edge / 2:
+        return f"{what}, their nearest points are {contact.distance:.3g} mm apart, as far as points of one of them"
     return (
         f"{what}, their nearest points are {contact.distance:.3g} mm apart: try --join {join_for(contact.distance):.2g}"
     )

@@ -9,7 +9,7 @@ import struct
 import xml.etree.ElementTree as ElementTree
 import zlib
 from pathlib import Path
-from typing import Any, Callable, Dict
+from typing import Any, Callable, Dict, Iterator, Tuple, TypeVar
 
 import numpy as np
 
@@ -135,3 +135,23 @@ def scalars_of(
             raise InputError(file.path, name, problem, f"write it anew as {EXTENSIONS[file.contents]}")
         found[name] = values
     return found
+
+
+Read = TypeVar("Read")
+
+
+def read_by(reader: Callable[[VtkFile], Read], path: Path, contents: str, what: str) -> Read:
+    """What `reader` makes of a file, `what` for its message. Raises InputError, of damages too."""
+    try:
+        return reader(VtkFile(path, contents))
+    except DAMAGES as error:
+        remedy = f"write the {what} anew as {EXTENSIONS[contents]}"
+        raise InputError(path, "", f"cannot be read: {error}", remedy) from None
+
+
+def pieces(file: VtkFile) -> Iterator[Tuple[Any, np.ndarray]]:
+    """The pieces that have points, and these, (points, 3)."""
+    for piece in file.root.iter("Piece"):
+        there = piece.find("Points/DataArray")
+        if there is not None:
+            yield piece, file.array(there).reshape(-1, 3)

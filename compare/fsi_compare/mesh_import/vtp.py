@@ -8,7 +8,7 @@ import numpy as np
 
 from ..base.errors import InputError
 from .raw_mesh import RawMesh
-from .vtk_xml import DAMAGES, VtkFile, scalars_of
+from .vtk_xml import VtkFile, pieces, read_by, scalars_of
 
 
 @dataclass
@@ -22,23 +22,17 @@ class Surface:
 
 def read_vtp(path: Path) -> Surface:
     """The polygons of all pieces. Raises InputError."""
-    try:
-        return _read(VtkFile(path, "PolyData"))
-    except DAMAGES as error:
-        raise InputError(path, "", f"cannot be read: {error}", "write the surface anew as .vtp") from None
+    return read_by(_read, path, "PolyData", "surface")
 
 
 def _read(file: VtkFile) -> Surface:
     surface = Surface(np.zeros((0, 3)))
     parts: Dict[str, List[np.ndarray]] = {}
-    for piece in file.root.iter("Piece"):
-        points = piece.find("Points/DataArray")
-        if points is None:
-            continue
+    for piece, points in pieces(file):
         if int(piece.get("NumberOfStrips") or 0) > 0:
             raise InputError(file.path, "", "holds strips of triangles", "write its surface as polygons")
         first = len(surface.points)
-        surface.points = np.vstack((surface.points, file.array(points).reshape(-1, 3)))
+        surface.points = np.vstack((surface.points, points))
         arrays = {a.get("Name"): a for a in piece.findall("Polys/DataArray")}
         if "offsets" in arrays:
             corners, ends = file.array(arrays["connectivity"]), file.array(arrays["offsets"])
@@ -51,10 +45,7 @@ def _read(file: VtkFile) -> Surface:
 
 def read_faces(path: Path) -> RawMesh:
     """Its triangles as a mesh, with fields of one number a triangle or point. Raises InputError."""
-    try:
-        return _read_faces(VtkFile(path, "PolyData"))
-    except DAMAGES as error:
-        raise InputError(path, "", f"cannot be read: {error}", "write the surface anew as .vtp") from None
+    return read_by(_read_faces, path, "PolyData", "surface")
 
 
 def _read_faces(file: VtkFile) -> RawMesh:
@@ -63,14 +54,11 @@ def _read_faces(file: VtkFile) -> RawMesh:
     cell_data: Dict[str, List[np.ndarray]] = {}
     passed_over: Dict[str, None] = {}
     first = 0
-    for piece in file.root.iter("Piece"):
-        there = piece.find("Points/DataArray")
-        if there is None:
-            continue
+    for piece, there in pieces(file):
         others = [int(piece.get(f"NumberOf{kind}") or 0) for kind in ("Verts", "Lines", "Strips")]
         if any(others):
             raise InputError(file.path, "", "holds vertices, lines or strips", "write its surface as triangles")
-        points.append(file.array(there).reshape(-1, 3))
+        points.append(there)
         arrays = {a.get("Name"): a for a in piece.findall("Polys/DataArray")}
         if "offsets" in arrays:
             nodes, ends = file.array(arrays["connectivity"]).astype(np.int64), file.array(arrays["offsets"])

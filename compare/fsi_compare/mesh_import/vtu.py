@@ -8,7 +8,7 @@ import numpy as np
 
 from ..base.errors import InputError
 from .raw_mesh import RawMesh
-from .vtk_xml import DAMAGES, VtkFile, scalars_of
+from .vtk_xml import VtkFile, pieces, read_by, scalars_of
 
 # VTK's numbers of cells: meshio's name and how many nodes.
 CELLS = {
@@ -37,10 +37,7 @@ LAGRANGE = {(68, 2): 3, (68, 3): 21, (69, 3): 5, (69, 6): 22, (71, 4): 10, (71, 
 def read_vtu(path: Path) -> RawMesh:
     """The cells of all pieces, those of a kind in one block, with the fields of cells and points that have one number each.
     Raises InputError."""
-    try:
-        return _read(VtkFile(path, "UnstructuredGrid"))
-    except DAMAGES as error:
-        raise InputError(path, "", f"cannot be read: {error}", "write the mesh anew as .vtu") from None
+    return read_by(_read, path, "UnstructuredGrid", "mesh")
 
 
 def _read(file: VtkFile) -> RawMesh:
@@ -50,11 +47,8 @@ def _read(file: VtkFile) -> RawMesh:
     cell_data: Dict[str, Dict[int, List[np.ndarray]]] = {}
     passed_over: Dict[str, None] = {}
     first = 0
-    for piece in file.root.iter("Piece"):
-        there = piece.find("Points/DataArray")
-        if there is None:
-            continue
-        points.append(file.array(there).reshape(-1, 3))
+    for piece, there in pieces(file):
+        points.append(there)
         for name, values in scalars_of(file, piece, "PointData", len(points[-1]), passed_over).items():
             point_data.setdefault(name, []).append(values)
         cells = _cells(file, piece)

@@ -10,7 +10,7 @@ from pathlib import Path
 from fsi_compare.mesh_import.listing import listing
 from fsi_compare.mesh_import.parts import found_mesh
 from fsi_compare.mesh_import.raw_mesh import RawMesh
-from fsi_compare.mesh_import.sources import Source
+from fsi_compare.mesh_import.sources import Source, join
 from test_mesh_parts import cube
 
 
@@ -86,6 +86,42 @@ class MeshListing(unittest.TestCase):
         words = self.command(said(found_mesh("a.vtu", raw, 1.0)))
         self.assertIn("fluid=region:3", words)
         self.assertIn("wall=region:4", words)
+
+    def test_a_bent_surface_in_two_blocks_is_not_flat(self):
+        points, cells = cube(2)
+        one, other = np.array([[0, 1, 3]]), np.array([[0, 1, 9]])  # of two sides of the cube
+        nothing = np.zeros(0, dtype=np.int64)
+        sets = {"blood": [np.arange(48), nothing, nothing], "bent": [nothing, np.arange(1), np.arange(1)]}
+        sets["in"] = [nothing, np.arange(1), nothing]
+        raw = RawMesh(points, [("tetra", cells), ("triangle", one), ("triangle", other)], cell_sets=sets)
+        words = self.command(said(found_mesh("a.inp", raw, 1.0), words=("a.inp",)))
+        self.assertIn("in=in", words)
+        self.assertNotIn("bent=bent", words)
+
+    def test_a_wall_alone_gets_no_opening(self):
+        points, cells = cube(2)
+        raw = RawMesh(points, [("tetra", cells)], cell_sets={"wall": [np.arange(48)]})
+        self.assertNotIn("--opening", self.command(said(found_mesh("a.vtu", raw, 1.0))))
+        lines = said(found_mesh("a.vtu", RawMesh(points, [("tetra", cells)]), 1.0))
+        self.assertIn("--opening", self.command(lines))
+        self.assertIn("  or, where that is a wall without fluid, --group wall=all and no --opening", lines)
+
+    def test_of_many_volumes_it_is_said_which_touch(self):
+        points, cells = cube(2)
+        whole = np.vstack([points + [2 * k, 0, 0] for k in range(5)] + [points + [1, 0, 0]])
+        rows = np.concatenate([cells + len(points) * k for k in range(6)])
+        raw = RawMesh(whole, [("tetra", rows)], {"region": [np.repeat(np.arange(6), len(cells))]})
+        mesh = found_mesh("a.vtu", raw, 1.0)
+        join("a.vtu", mesh, [len(whole)], 1e-6)
+        lines = said(mesh)
+        self.assertIn("region:0 and region:5 touch: 8 triangles, 9 points.", lines)
+        self.assertIn("No side in common with another one has: region:2, region:3, region:4.", lines)
+        self.assertFalse([line for line in lines if "far apart" in line])
+
+    def test_a_gap_as_long_as_an_edge_is_no_reason_to_join(self):
+        lines = said(found_mesh("a.vtu", two_cubes(1.0, 0.2), 1.0))
+        (line,) = [line for line in lines if "share no points" in line]
+        self.assertTrue(line.endswith("apart, as far as points of one of them."), line)
 
     def test_many_parts_are_cut(self):
         points, cells = cube(4)

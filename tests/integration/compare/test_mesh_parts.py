@@ -7,7 +7,7 @@ import numpy as np
 import synthetic  # noqa: F401: the package's folder onto the path
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.mesh_import.groups import boundary_of, choose_groups, corner_keys, facets_between
+from fsi_compare.mesh_import.groups import boundary_of, choose_groups, corner_keys, facets_between, left_out
 from fsi_compare.mesh_import.parts import found_mesh
 from fsi_compare.mesh_import.raw_mesh import Block, RawMesh
 
@@ -86,8 +86,26 @@ class MeshParts(unittest.TestCase):
         parts = found(cell_sets={"one": [np.arange(30)], "two": [np.arange(28, 48)]})
         with self.assertRaisesRegex(InputError, "--group two: two shares 2 cells with one, which is one"):
             choose_groups("a.vtu", parts, [])
-        groups = choose_groups("a.vtu", parts, [("wall", "one"), ("wall", "one")])
-        self.assertEqual({group.name for group in groups}, {"wall"})
+        for again in ("one", "all"):  # what a name has it does not get twice
+            groups = choose_groups("a.vtu", parts, [("wall", "one"), ("wall", again)])
+            self.assertEqual({group.name for group in groups}, {"wall"})
+            cells = np.concatenate([block.nodes for group in groups for block in group.parts])
+            self.assertEqual(len(cells), 30 if again == "one" else 48)
+        three = found(cell_sets={"a": [np.arange(20)], "b": [np.arange(20, 40)], "c": [np.arange(18, 48)]})
+        with self.assertRaisesRegex(InputError, "--group fluid: c shares 2 cells with a, which is wall"):
+            choose_groups("a.vtu", three, [("wall", "a"), ("fluid", "b"), ("fluid", "c")])
+
+    def test_a_part_without_cells_or_sides_is_no_group(self):
+        points, cells = cube(2)
+        blocks = [("tetra", cells), ("line", cells[:3, :2])]
+        sets = {"fluid": [np.arange(48), np.arange(0)], "curve": [np.arange(0), np.arange(3)]}
+        sets["nothing"] = [np.arange(0), np.arange(0)]
+        mesh = found_mesh("a.vtu", RawMesh(points, blocks, cell_sets=sets, point_sets={"inlet": np.arange(9)}), 1.0)
+        for part, words in (("curve", "has no cells or sides"), ("nothing", "has no elements")):
+            with self.assertRaisesRegex(InputError, f"--group inlet: the part {part} {words}; its parts are fluid"):
+                choose_groups("a.vtu", mesh, [("fluid", "fluid"), ("inlet", part)])
+        self.assertEqual([group.name for group in choose_groups("a.vtu", mesh, [])], ["fluid"])
+        self.assertEqual(left_out(mesh), ["curve (no cells or sides)", "nothing (no cells or sides)", "inlet (points)"])
 
     def test_all_is_a_part_of_a_mesh_without_names_and_taken_by_name_only(self):
         parts = found()

@@ -10,6 +10,7 @@ from fsi_compare.base.errors import InputError
 from fsi_compare.mesh_import.groups import facets_between
 from fsi_compare.mesh_import.parts import found_mesh
 from fsi_compare.mesh_import.readers import read_mesh
+from fsi_compare.mesh_import.sources import Source, read_sources
 
 # A tetrahedron, and one on its face x + y + z = 1.
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1.0]])
@@ -170,6 +171,19 @@ class Readers(FolderCase):
             found = found_mesh("a.e", mesh, 1.0)
             self.assertEqual(list(found.cells), ["fluid", "wall", "inlet", "all"])
             self.assertEqual(len(found.cells["all"]), len(found.blocks))
+
+    def test_exodus_shells_have_two_faces_before_their_edges(self):
+        cells = [CELLS[0], np.array([0, 1, 2])]
+        sides = ((2, 1), (2, 2), (2, 3), (2, 5))
+        for kind in ("TRISHELL3", "SHELL3", "TRISHELL"):
+            mesh = self.exodus(kind, cells[1:], sides=[(1, side) for _, side in sides])
+            self.assertEqual([(k, len(n)) for k, n in mesh.blocks], [("triangle", 1), ("triangle", 2), ("line", 2)])
+            self.assertEqual(sides_at(mesh, "inlet"), [[0, 1, 2], [0, 1, 2], [0, 1], [0, 2]])
+        # Of a triangle in the plane the first side is an edge.
+        mesh = self.exodus("TRI3", cells[1:], sides=((1, 1), (1, 3)))
+        self.assertEqual(sides_at(mesh, "inlet"), [[0, 1], [0, 2]])
+        with self.assertRaisesRegex(InputError, "names side 4 of a triangle, which has 3"):
+            self.exodus("TRI3", cells[1:], sides=((1, 4),))
 
     def test_exodus_cells_of_ten_nodes_whatever_their_type_says(self):
         for kind in ("TETRA", "TETRA10", "TET10"):
@@ -332,6 +346,29 @@ ends
         moved = text.replace("PART=wall\n*END INSTANCE", "PART=wall\n0, 0, 5\n*END INSTANCE")
         self.expect_refusal("a.inp", moved, "an instance that is moved or turned is not read")
 
+    def test_abaqus_a_blank_coordinate_is_zero(self):
+        text = self.DECK.replace("15, 1, 1, 1", "15, 1., , 1").replace("3, 0, 1e0, 0", "3, , 1e0")
+        mesh = self.read("a.inp", text)
+        np.testing.assert_array_equal(mesh.points[[2, 4]], [[0, 1, 0], [1, 0, 1]])
+
+    def test_abaqus_a_keyword_may_go_on_in_the_next_line(self):
+        text = self.DECK.replace("*Element, type=C3D4H, ELSET=Fluid", "*Element,\n** so\n type=C3D4H,\n ELSET=Fluid")
+        np.testing.assert_array_equal(self.read("a.inp", text).cell_sets["Fluid"][0], [0])
+
+    def test_abaqus_sets_of_one_name_in_several_parts_are_several(self):
+        part = (
+            "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, {}\n*ELEMENT, TYPE=C3D4, ELSET=Set-1\n1, 1, 2, 3, 4\n"
+        )
+        text = "".join(f"*PART, NAME={n}\n{part.format(h)}*END PART\n" for n, h in (("lumen", 1), ("wall", -1)))
+        text += "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=L-1, PART=lumen\n*END INSTANCE\n*INSTANCE, NAME=W-1, PART=wall\n"
+        text += "*END INSTANCE\n*ELSET, ELSET=both, INSTANCE=L-1\n1\n*ELSET, ELSET=both, INSTANCE=W-1\n1\n"
+        text += "*ELSET, ELSET=SET-1, INSTANCE=W-1\n1\n*SURFACE, NAME=s\nL-1.Set-1, S1\n*END ASSEMBLY\n"
+        mesh = self.read("a.inp", text)
+        self.assertEqual(sorted(mesh.cell_sets), ["LUMEN/Set-1", "Set-1", "WALL/Set-1", "both", "s"])
+        for name, places in (("LUMEN/Set-1", [0]), ("WALL/Set-1", [1]), ("Set-1", [1]), ("both", [0, 1])):
+            np.testing.assert_array_equal(mesh.cell_sets[name][0], places, name)
+        self.assertEqual(sides_at(mesh, "s"), [[0, 1, 2]])
+
     def test_abaqus_that_is_wrong_is_refused_with_its_line(self):
         for old, new, words in (
             ("2, 1., 0, 0", "2, 1., zero, 0", "line 6: '2, 1., zero, 0' is no node"),
@@ -339,6 +376,7 @@ ends
             ("5, 1, 2, 3, 14", "5, 1, 2, 3, 4", "line 11: element 5 has the node 4, which is not there"),
             ("5, 1, 2, 3, 14", "5, 1, 2, 3", "line 11: element 5 has 3 nodes, its type C3D4H 4"),
             ("5, 1, 2, 3, 14", "5, 1, 2, 3, 14, 15", "line 11: element 5 has 5 nodes, its type C3D4H 4"),
+            ("type=C3D4H", "type=F3D4", "line 10: elements of the type F3D4 are not known"),  # solids or surfaces
             ("type=C3D4H", "type=XY7", "line 10: elements of the type XY7 are not known"),
             ("5, 7, 2", "5, 7, 1", "line 16: the set both has the element 6, which is not there"),
             ("1, 2, 3\n*SURF", "1, 2, ring\n*SURF", "line 20: there is no set ring"),
@@ -352,6 +390,23 @@ ends
                 self.assertEqual(self.DECK.count(old), 1)
                 self.expect_refusal("a.inp", self.DECK.replace(old, new), words)
         self.expect_refusal("a.inp", "*HEADING\n", "holds no *NODE")
+
+    # Several files
+
+    def test_parts_of_one_name_in_two_files_are_refused(self):
+        for name in ("l/mesh.inp", "w/mesh.inp", "deck.inp"):
+            (self.base / name).parent.mkdir(exist_ok=True)
+            (self.base / name).write_text(self.DECK)
+        (self.base / "other.inp").write_text(self.DECK.replace("Fluid", "lumen"))
+        for sources, words in (
+            ([Source("", self.base / "l/mesh.inp"), Source("", self.base / "w/mesh.inp")], "mesh/Fluid"),
+            ([Source("Fluid", self.base / "other.inp"), Source("", self.base / "deck.inp")], "Fluid"),
+            ([Source("", self.base / "deck.inp"), Source("Fluid", self.base / "other.inp")], "Fluid"),
+        ):
+            with self.assertRaisesRegex(InputError, f"{words}: two of the files have the part {words}; .*NAME=FILE"):
+                read_sources(sources, 1.0)
+        named = [Source("a", self.base / "l/mesh.inp"), Source("b", self.base / "w/mesh.inp")]
+        self.assertEqual(list(read_sources(named, 1.0)[0].cells)[:2], ["a", "a/Fluid"])
 
     # Others
 

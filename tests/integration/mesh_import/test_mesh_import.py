@@ -133,6 +133,14 @@ class SeveralFiles(FolderTest):
         self.assertIn("error: inlet.vtp: inlet: ", process.stderr)
         self.assertRegex(process.stderr, r"are up to 0.002 mm from the cells' points; give --join 0.0022")
 
+    def test_a_mesh_in_metres_is_warned_of(self):
+        points, fluid, *_ = self.pipe()
+        self.write_medium("metres.vtu", points / 1000, fluid)
+        for scale, words in (((), r"mm long: --scale 1000 if it is in m\n"), (("--scale", 1000), "")):
+            process = self.imported(*scale, files=("fluid=metres.vtu",))
+            self.assertEqual(process.returncode, 0, process.stderr)
+            self.assertRegex(process.stderr, words or r"^$")
+
     def test_media_that_do_not_touch_are_warned_of(self):
         points, fluid, wall, *_ = self.write(wall_shift=1e-3)
         process = self.imported(files=("fluid=lumen.vtu", "wall=wall.vtu"))
@@ -338,10 +346,10 @@ class MeshImport(FolderTest):
             ("tube.vtu", ("--group", "fluid=prt:1"), ("no part prt:1", "did you mean part:1?")),
             ("tube.vtu", ("--group", "fluid"), ("'fluid' is no NAME=PART",)),
             ("tube.vtu", ("--scale", 0, "--group", "fluid=part:1"), ("--scale: 0 is no factor",)),
-            ("tube.vtu", ("--group", "fluid=part:1", "--opening", "inlet=0"), ("is no NAME=X,Y,Z",)),
+            ("tube.vtu", ("--scale", 1000, "--group", "fluid=part:1", "--opening", "inlet=0"), ("is no NAME=X,Y,Z",)),
             (
                 "tube.vtu",
-                ("--group", "media=part:1", "--opening", "inlet=0,0,0"),
+                ("--scale", 1000, "--group", "media=part:1", "--opening", "inlet=0,0,0"),
                 ("--opening inlet: ", "the mesh has no volume fluid, but media", "--group fluid=PART"),
             ),
         ):
