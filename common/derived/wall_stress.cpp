@@ -77,8 +77,7 @@ struct StressLayer {
   std::vector<StressNode> nodes;  ///< per entry of gradients.nodes()
   bool has_fibres;
   std::vector<std::array<Vec3<double>, 2>> fibres;  ///< per entry of gradients.nodes(), unit length; or empty
-  std::optional<VaryingLaw> varying{};              ///< in place of `law`, with
-  std::vector<LawConstants<double>> constants{};    ///< those at the same nodes
+  std::vector<LawConstants<double>> constants{};    ///< at the same nodes, of a law whose constants vary; or empty
 };
 
 /// Calls visit(thread, index of the pack, point, lane, node, weight) for the nodes a of all elements at their quadrature
@@ -125,26 +124,22 @@ std::vector<std::array<Vec3<double>, 2>> nodal_fibres(const WallLayer<Element>& 
 template <class Element>
 std::vector<LawConstants<double>> nodal_constants(const WallLayer<Element>& layer, const std::vector<int>& nodes,
                                                   int node_count) {
-  using Member = Pack LawConstants<Pack>::*;
-  using Number = double LawConstants<double>::*;
-  constexpr std::pair<Member, Number> members[] = {
-      {&LawConstants<Pack>::c10, &LawConstants<double>::c10},
-      {&LawConstants<Pack>::c01, &LawConstants<double>::c01},
-      {&LawConstants<Pack>::k1, &LawConstants<double>::k1},
-      {&LawConstants<Pack>::k2, &LawConstants<double>::k2},
-      {&LawConstants<Pack>::kappa, &LawConstants<double>::kappa},
-      {&LawConstants<Pack>::bulk_modulus, &LawConstants<double>::bulk_modulus}};
   std::vector<LawConstants<double>> sums(static_cast<std::size_t>(node_count));
   std::vector<double> weights(static_cast<std::size_t>(node_count), 0.0);
   for_each_weight(layer.packs, [&](int t, std::size_t i, int q, int lane, int node, double weight) {
-    for (const auto& [member, number] : members)
-      sums[node].*number += weight * (layer.constants[t][i][q].*member)[lane];
+    const PointConstants& here = layer.constants[t][i][q];
+    LawConstants<double>& sum = sums[node];
+    for (std::size_t k = 0; k < sum.of_law.size(); ++k) sum.of_law[k] += weight * here.of_law[k][lane];
+    sum.shear_modulus += weight * here.shear_modulus[lane];
+    sum.bulk_modulus += weight * here.bulk_modulus[lane];
     weights[node] += weight;
   });
   std::vector<LawConstants<double>> means;
   for (const int node : nodes) {
     means.push_back(sums[node]);
-    for (const auto& [member, number] : members) means.back().*number /= weights[node];
+    for (double& constant : means.back().of_law) constant /= weights[node];
+    means.back().shear_modulus /= weights[node];
+    means.back().bulk_modulus /= weights[node];
   }
   return means;
 }
@@ -188,10 +183,12 @@ class WallStressOf : public WallStress<Element::components> {
       std::vector<int> at;
       for (const auto& [node, of_node] : ends)
         if (!here || here->owns_whole(node)) at.push_back(node);
-      StressLayer stress{
-          element_law(layer.material),     bulk_modulus(layer.material, scene.wall->constants().bulk_modulus),
-          GradientRecovery(cells, at),     {},
-          fsi::has_fibres(layer.material), {}};
+      StressLayer stress{layer.element_law(),
+                         bulk_modulus(layer.material, scene.wall->constants().bulk_modulus),
+                         GradientRecovery(cells, at),
+                         {},
+                         fsi::has_fibres(layer.material),
+                         {}};
       if (here) stress.gradients.restrict_to(*here);
       for (std::size_t i = 0; i < at.size(); ++i) {
         auto of_node = ends.at(at[i]);
@@ -203,10 +200,7 @@ class WallStressOf : public WallStress<Element::components> {
         if (stress.has_fibres) ++fibre_share_[place];
       }
       if (stress.has_fibres) stress.fibres = nodal_fibres(layer, stress.gradients.nodes(), node_count_);
-      if (layer.varies()) {
-        stress.varying = layer.law;
-        stress.constants = nodal_constants(layer, stress.gradients.nodes(), node_count_);
-      }
+      if (layer.varies()) stress.constants = nodal_constants(layer, stress.gradients.nodes(), node_count_);
       layers_.push_back(std::move(stress));
     }
     for (auto* shares : {&share_, &fibre_share_})
@@ -232,10 +226,7 @@ class WallStressOf : public WallStress<Element::components> {
     std::vector<double> buffer;
     for (const auto& layer : layers_) {
       const auto& reached = layer.gradients.template reach<Mixed>(wall, buffer);
-      if (layer.varying)
-        add(*layer.varying, layer, reached, all);
-      else
-        std::visit([&](const auto& law) { add(law, layer, reached, all); }, layer.law);
+      std::visit([&](const auto& law) { add(law, layer, reached, all); }, layer.law);
     }
     if (wall_.nodes().share) update_ghosts(all);
     return all;
@@ -303,7 +294,7 @@ class WallStressOf : public WallStress<Element::components> {
   template <class Law>
   static double volume_to_shear(const Law& law, const StressLayer& layer, std::size_t i) {
     if constexpr (std::is_same_v<Law, VaryingLaw>)
-      return layer.constants[i].bulk_modulus / layer.constants[i].shear_modulus();
+      return layer.constants[i].bulk_modulus / layer.constants[i].shear_modulus;
     else
       return layer.bulk_modulus / law.shear_modulus();
   }

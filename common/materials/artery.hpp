@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -23,6 +24,13 @@ struct ArteryOf {
   Constant fibre_scale = 1;  ///< 0.5: the paper's printed fibre stress
   Constant alpha = 0;        ///< degrees between fibres and circumference; enters by the fibres' directions alone
   Constant kappa = 0;        ///< dispersion: 0 all fibres of a family parallel, 1/3 evenly in all directions
+
+  template <class Other>
+  using with = ArteryOf<Other>;
+  static constexpr bool has_own_loops = true;
+  static constexpr auto constants() {
+    return std::array{&ArteryOf::c10, &ArteryOf::k1, &ArteryOf::k2, &ArteryOf::fibre_scale, &ArteryOf::kappa};
+  }
 
   static constexpr const char* name = "artery";
   static std::vector<ParameterOf<ArteryOf>> parameters() {

@@ -1,49 +1,95 @@
 #pragma once
 
-#include "materials/compressible_neo_hookean.hpp"
-#include "materials/linear_elastic.hpp"
-#include "materials/saint_venant_kirchhoff.hpp"
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <string>
+#include <type_traits>
+#include <variant>
+
+#include "materials/forms.hpp"
+#include "materials/law_list.hpp"
 
 namespace fsi {
 
-/// The laws whose change of volume is not measured by J - 1, as the element loops see them: one type for all, so that
-/// the loops are compiled once for the three. A layer has one of them; choosing it at each point costs nothing beside
-/// its arithmetic.
-struct CompressibleLaw {
-  enum class Kind { saint_venant_kirchhoff, linear, neo_hookean };
-  using FibreData = NoFibres;
-  Kind kind = Kind::saint_venant_kirchhoff;
-  double mu = 0;  ///< kPa; the bulk modulus is the form's
+/// Whether a law's change of volume is measured by something else than J - 1.
+template <class Law, class = void>
+struct IsCompressible : std::true_type {};
+template <class Law>
+struct IsCompressible<Law, std::void_t<typename Law::FibreData>> : std::false_type {};
 
-  double shear_modulus() const { return mu; }
+/// The laws whose change of volume is not measured by J - 1, as the element loops see them: one type for all, so that
+/// the loops are compiled once. A layer has one of them; choosing it at each point costs nothing beside its arithmetic.
+template <class Constant>
+struct CompressibleLawOf {
+  using FibreData = NoFibres;
+  std::size_t kind = index_of_law<SaintVenantKirchhoff, Material>;  ///< place in Material
+  Constant mu = 0;                                                  ///< kPa; the bulk modulus is the form's
+
+  template <class Other>
+  using with = CompressibleLawOf<Other>;
+  static constexpr bool has_own_loops = true;
+  static constexpr auto constants() { return std::array{&CompressibleLawOf::mu}; }
+
+  template <class Law>
+  bool is() const {
+    return kind == index_of_law<Law, Material>;
+  }
+  Constant shear_modulus() const { return mu; }
   /// Forces balance on the reference configuration.
-  bool on_reference() const { return kind == Kind::linear; }
+  bool on_reference() const {
+    return of_kind(kind, [](auto law) { return decltype(law)::type::on_reference; });
+  }
 
   /// \param h  grad d
   /// \param f  deformation(h)
   template <class T>
   Response<T> response(const Mat3<T>& h, const Deformation<T>& f) const {
-    return response_of(kind, mu, h, f);
+    return of_kind(kind, [&](auto law) { return decltype(law)::type::response(mu, h, f); });
   }
 
   /// Psi', kPa
   template <class T>
   T energy(const Mat3<T>& h) const {
-    return energy_of(kind, mu, h);
+    return of_kind(kind, [&](auto law) { return decltype(law)::type::energy(mu, h); });
   }
 
-  /// The same with a constant that may differ from lane to lane.
-  template <class T, class Constant>
-  static Response<T> response_of(Kind kind, const Constant& mu, const Mat3<T>& h, const Deformation<T>& f) {
-    if (kind == Kind::linear) return LinearElastic::response(mu, h);
-    if (kind == Kind::neo_hookean) return CompressibleNeoHookean::response(mu, h, f);
-    return SaintVenantKirchhoff::response(mu, h, f);
+ private:
+  template <class Law>
+  struct Tag {
+    using type = Law;
+  };
+  /// visit(Tag<Law>{}) of the law at this place.
+  template <std::size_t i = 0, class Visit>
+  static auto of_kind(std::size_t kind, const Visit& visit) {
+    using Law = std::variant_alternative_t<i, Material>;
+    if constexpr (!IsCompressible<Law>::value) {
+      return of_kind<i + 1>(kind, visit);
+    } else if constexpr (i == last()) {
+      assert(kind == i);
+      return visit(Tag<Law>{});
+    } else {
+      if (kind == i) return visit(Tag<Law>{});
+      return of_kind<i + 1>(kind, visit);
+    }
   }
-  template <class T, class Constant>
-  static T energy_of(Kind kind, const Constant& mu, const Mat3<T>& h) {
-    if (kind == Kind::linear) return LinearElastic::energy(mu, h);
-    if (kind == Kind::neo_hookean) return CompressibleNeoHookean::energy(mu, h);
-    return SaintVenantKirchhoff::energy(mu, h);
+  /// The place of the last such law.
+  template <std::size_t i = std::variant_size_v<Material> - 1>
+  static constexpr std::size_t last() {
+    if constexpr (IsCompressible<std::variant_alternative_t<i, Material>>::value)
+      return i;
+    else
+      return last<i - 1>();
+  }
+};
+using CompressibleLaw = CompressibleLawOf<double>;
+
+template <class Law>
+struct FormsOf<Law, std::enable_if_t<IsCompressible<Law>::value>> {
+  using type = Laws<CompressibleLaw>;
+  static bool decides(const std::string&) { return false; }
+  static std::variant<CompressibleLaw> of(const Law& law, bool) {
+    return CompressibleLaw{index_of_law<Law, Material>, law.shear_modulus()};
   }
 };
 

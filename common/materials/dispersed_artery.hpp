@@ -1,6 +1,10 @@
 #pragma once
 
+#include <string>
+#include <variant>
+
 #include "materials/artery.hpp"
+#include "materials/forms.hpp"
 
 namespace fsi {
 
@@ -9,21 +13,17 @@ namespace fsi {
 ///   Psi = c10/2 (J_1 - 3) + k1/(2 k2) sum over E_i > 0 of (exp(k2 E_i^2) - 1).
 /// A type of its own: the loops over parallel fibres know nothing of it.
 template <class Constant>
-struct DispersedArteryOf {
-  using FibreData = Fibres;
-  ArteryOf<Constant> constants;
-
-  Constant shear_modulus() const { return constants.c10; }
+struct DispersedArteryOf : ArteryOf<Constant> {
+  template <class Other>
+  using with = DispersedArteryOf<Other>;
 
   template <class T>
   T energy(const Strain<T>& s, const Fibres& fibres) const {
     const T spread = first_invariant_change(s);
-    T psi = Pack(0.5 * constants.c10) * spread;
+    T psi = Pack(0.5 * this->c10) * spread;
     for (const auto& a : fibres.direction) {
       const T e = strain_of_family(spread, extension(s, a)), square = e * e;
-      psi +=
-          select(e > 0.0, Pack(0.5 * constants.fibre_scale * constants.k1) * square * phi(Pack(constants.k2) * square),
-                 T(0.0));
+      psi += select(e > 0.0, Pack(0.5 * this->fibre_scale * this->k1) * square * phi(Pack(this->k2) * square), T(0.0));
     }
     return psi;
   }
@@ -33,16 +33,16 @@ struct DispersedArteryOf {
   template <class T>
   Sym3<T> stress(const Strain<T>& s, const Fibres& fibres) const {
     const T spread = first_invariant_change(s);
-    T isotropic(constants.c10);
+    T isotropic(this->c10);
     Sym3<T> aligned{};
     for (const auto& a : fibres.direction) {
       const T stretch = extension(s, a), e = strain_of_family(spread, stretch);
       const auto active = e > 0.0;
       if (!any(active)) continue;
       const T tension =
-          select(active, Pack(2 * constants.fibre_scale * constants.k1) * exp(Pack(constants.k2) * e * e) * e, T(0.0));
-      isotropic += Pack(constants.kappa) * tension;
-      const T along = Pack(1 - 3 * constants.kappa) * tension, third = (stretch + 1.0) * Pack(1.0 / 3.0);  // J_i / 3
+          select(active, Pack(2 * this->fibre_scale * this->k1) * exp(Pack(this->k2) * e * e) * e, T(0.0));
+      isotropic += Pack(this->kappa) * tension;
+      const T along = Pack(1 - 3 * this->kappa) * tension, third = (stretch + 1.0) * Pack(1.0 / 3.0);  // J_i / 3
       const Sym3<Pack> aa = dyad(a);
       for (int k = 0; k < 6; ++k)
         aligned.c[k] +=
@@ -55,9 +55,20 @@ struct DispersedArteryOf {
   /// E_i of J_1 - 3 and J_i - 1.
   template <class T>
   T strain_of_family(const T& spread, const T& stretch) const {
-    return Pack(constants.kappa) * spread + Pack(1 - 3 * constants.kappa) * stretch;
+    return Pack(this->kappa) * spread + Pack(1 - 3 * this->kappa) * stretch;
   }
 };
 using DispersedArtery = DispersedArteryOf<double>;
+
+/// The artery's law has two forms; the second holds for any dispersion.
+template <>
+struct FormsOf<Artery> {
+  using type = Laws<Artery, DispersedArtery>;
+  static bool decides(const std::string& parameter) { return parameter == "kappa"; }
+  static std::variant<Artery, DispersedArtery> of(const Artery& law, bool varies) {
+    if (law.kappa > 0 || varies) return DispersedArtery{law};
+    return law;
+  }
+};
 
 }  // namespace fsi

@@ -10,6 +10,8 @@ namespace fsi {
 /// The two constants of an isotropic solid at small strains, in one of the pairs that textbooks give them in
 /// (docs/theory.md, section 5.5). Exactly one pair is given; what is not given is zero.
 struct ElasticConstants {
+  static constexpr bool on_reference = false;  ///< of a law: forces balance on the reference configuration
+
   double young = 0;        ///< E, kPa
   double poisson = 0;      ///< nu, more than -1 and less than 0.5
   double lame_lambda = 0;  ///< lambda, kPa; may be negative, not below -2/3 of lame_mu

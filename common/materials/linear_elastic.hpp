@@ -13,6 +13,7 @@ namespace fsi {
 /// Psi' = mu dev eps : dev eps is the energy here, K/2 (tr eps)^2 the pressure's, with g = tr eps.
 struct LinearElastic : ElasticConstants {
   static constexpr const char* name = "linear-elastic";
+  static constexpr bool on_reference = true;
   static std::vector<ParameterOf<LinearElastic>> parameters() { return parameters_of<LinearElastic>(); }
 
   std::optional<double> own_bulk_modulus() const { return compression_modulus(); }
@@ -24,7 +25,7 @@ struct LinearElastic : ElasticConstants {
   /// sigma' = 2 mu dev eps, p = -K tr eps, P = sigma' - p I. The configuration in which forces balance is the
   /// reference one, whose volume ratio is one.
   template <class T, class Constant>
-  static Response<T> response(const Constant& mu, const Mat3<T>& h) {
+  static Response<T> response(const Constant& mu, const Mat3<T>& h, const Deformation<T>&) {
     const T t = trace(h), mean = Pack(2 * mu / 3) * t;
     Response<T> r{{}, t, {}, T(1.0)};
     for (int i = 0; i < 3; ++i)

@@ -27,6 +27,11 @@ struct SetsOf<Law, std::void_t<decltype(Law::parameter_sets())>> {
   static ParameterSets get() { return Law::parameter_sets(); }
 };
 
+template <class Law, class = void>
+struct SettlesOf : std::false_type {};
+template <class Law>
+struct SettlesOf<Law, std::void_t<decltype(&Law::settle)>> : std::true_type {};
+
 template <class Law>
 Material make(const ParameterValues& values) {
   Law law;
@@ -34,7 +39,7 @@ Material make(const ParameterValues& values) {
     const auto value = values.find(parameter.name);
     if (value != values.end()) law.*parameter.member = value->second;
   }
-  if constexpr (std::is_same_v<Law, NeoHookean>) law.settle();
+  if constexpr (SettlesOf<Law>::value) law.settle();
   return law;
 }
 
@@ -125,25 +130,6 @@ Material make_material(const std::string& name, const ParameterValues& values) {
   if (const auto wrong = problem_of(kind, values))
     throw InputError("", "parameters of " + name, wrong->problem, wrong->remedy);
   return kind.make(values);
-}
-
-ElementLaw element_law(const Material& material) {
-  using Kind = CompressibleLaw::Kind;
-  return std::visit(
-      [](const auto& law) -> ElementLaw {
-        using Law = std::decay_t<decltype(law)>;
-        if constexpr (std::is_same_v<Law, SaintVenantKirchhoff>)
-          return CompressibleLaw{Kind::saint_venant_kirchhoff, law.shear_modulus()};
-        else if constexpr (std::is_same_v<Law, LinearElastic>)
-          return CompressibleLaw{Kind::linear, law.shear_modulus()};
-        else if constexpr (std::is_same_v<Law, CompressibleNeoHookean>)
-          return CompressibleLaw{Kind::neo_hookean, law.shear_modulus()};
-        else if constexpr (std::is_same_v<Law, Artery>)
-          return law.kappa > 0 ? ElementLaw(DispersedArtery{law}) : ElementLaw(law);
-        else
-          return law;
-      },
-      material);
 }
 
 double shear_modulus(const Material& material) {

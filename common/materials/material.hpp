@@ -2,40 +2,13 @@
 
 #include <optional>
 #include <string>
-#include <type_traits>
-#include <variant>
 #include <vector>
 
 #include "base/name_table.hpp"
-#include "materials/artery.hpp"
-#include "materials/compressible_law.hpp"
-#include "materials/dispersed_artery.hpp"
-#include "materials/mooney_rivlin.hpp"
-#include "materials/neo_hookean.hpp"
+#include "materials/law_list.hpp"
 #include "materials/parameter.hpp"
 
 namespace fsi {
-
-/// One wall layer's material: the table of all there are. A new one is a file beside these and an entry here; case
-/// files, `--help-keys`, the membrane and the limit load know it from then on. A law L states
-///   L::name                  its name in case files
-///   L::parameters()          its parameters, see ParameterOf
-///   L::parameter_sets()      those of which exactly one set is given; only where there are any
-///   shear_modulus()          mu of the undeformed isotropic part, kPa
-///   own_bulk_modulus()       kappa, kPa, where its own parameters give one; empty: the structure's holds
-///   fibre_stiffness()        what fibres add to Young's modulus along the circumference at small strains, kPa
-///   inflation_modulus()      m of the pressure m ln(B/A) that a long tube of radii A < B tends to when inflated
-///                            without end at its own length, kPa; empty when it stiffens and bears any pressure
-/// and to the element loops, itself or by element_law():
-///   energy, stress           Psi and S' = 2 dPsi/dC without the volumetric part, kPa, of Strain<T> and FibreData
-///   FibreData                Fibres, and then fibre_angle() in radians from the circumference, or NoFibres
-/// or, where J - 1 does not measure its change of volume, what CompressibleLaw makes of it.
-using Material =
-    std::variant<NeoHookean, MooneyRivlin, Artery, SaintVenantKirchhoff, LinearElastic, CompressibleNeoHookean>;
-
-/// A layer's law as the element loops see it.
-using ElementLaw = std::variant<NeoHookean, MooneyRivlin, Artery, DispersedArtery, CompressibleLaw>;
-ElementLaw element_law(const Material& material);
 
 /// A material as the case reader sees it.
 struct MaterialKind {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,11 @@ template <class Constant>
 struct MooneyRivlinOf {
   using FibreData = NoFibres;
   Constant c10 = 0, c01 = 0;  ///< kPa; their sum is the initial shear modulus
+
+  template <class Other>
+  using with = MooneyRivlinOf<Other>;
+  static constexpr bool has_own_loops = true;
+  static constexpr auto constants() { return std::array{&MooneyRivlinOf::c10, &MooneyRivlinOf::c01}; }
 
   static constexpr const char* name = "mooney-rivlin";
   static std::vector<ParameterOf<MooneyRivlinOf>> parameters() {

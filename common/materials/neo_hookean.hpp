@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,11 @@ struct NeoHookeanOf {
   Constant c10 = 0;      ///< kPa, initial shear modulus
   Constant young = 0;    ///< or E, kPa, of which c10 = E/(2 (1 + nu)) and a bulk modulus of its own, E/(3 (1 - 2 nu)),
   Constant poisson = 0;  ///< and nu
+
+  template <class Other>
+  using with = NeoHookeanOf<Other>;
+  static constexpr bool has_own_loops = true;
+  static constexpr auto constants() { return std::array{&NeoHookeanOf::c10}; }
 
   static constexpr const char* name = "neo-hookean";
   static std::vector<ParameterOf<NeoHookeanOf>> parameters() {

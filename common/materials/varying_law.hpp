@@ -1,22 +1,38 @@
 #pragma once
 
-#include "materials/material.hpp"
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "materials/compressible_law.hpp"
+#include "materials/forms.hpp"
+#include "materials/law_list.hpp"
 
 namespace fsi {
 
-/// What the element loops know of a layer's law at one place: its constants, those that the law does not have being zero.
+/// All forms in which the element loops take the laws of Material.
+using LawForms = typename detail::FormsOfAll<Laws<>, Material>::type;
+
+namespace detail {
+template <class... Form>
+constexpr std::size_t most_constants(const Laws<Form...>&) {
+  return std::max({Form::constants().size()...});
+}
+}  // namespace detail
+
+/// What the element loops know of a layer's law at one place.
 template <class Constant>
 struct LawConstants {
-  Constant c10 = 0;           ///< kPa; of the compressible laws mu
-  Constant c01 = 0;           ///< kPa
-  Constant k1 = 0;            ///< kPa, with the factor on the fibres' energy
-  Constant k2 = 0;            ///< -
-  Constant kappa = 0;         ///< -
-  Constant bulk_modulus = 0;  ///< kPa
-  Constant viscosity = 0;     ///< eta of wall/kelvin_voigt.hpp, kPa ms
-
-  /// mu of the undeformed isotropic part, kPa
-  Constant shear_modulus() const { return c10 + c01; }
+  /// Those of its energy and stress, in the order of its constants(); laws with fewer leave room.
+  std::array<Constant, detail::most_constants(LawForms{})> of_law{};
+  Constant shear_modulus{};  ///< mu of the undeformed isotropic part, kPa
+  Constant bulk_modulus{};   ///< kPa
+  Constant viscosity{};      ///< eta of wall/kelvin_voigt.hpp, kPa ms
 };
 
 /// Of a material. \param of_structure  kappa where the law has none of its own, kPa
@@ -37,24 +53,25 @@ struct PointConstants : LawConstants<Pack> {
 };
 
 /// Any law with constants that vary from point to point: one type for all laws, so that the loops over such layers are
-/// compiled once. A layer has one of them. Layers whose constants are constant do not know of it.
-struct VaryingLaw {
-  enum class Kind { neo_hookean, mooney_rivlin, artery, dispersed_artery, compressible };
+/// compiled once. A layer has one of them. Layers whose constants are constant know of it where their law has no loops of
+/// its own.
+class VaryingLaw {
+ public:
   using FibreData = PointConstants;
-  Kind kind = Kind::neo_hookean;
-  CompressibleLaw::Kind compressible = CompressibleLaw::Kind::saint_venant_kirchhoff;
+  static constexpr bool has_own_loops = true;
 
-  bool is_compressible() const { return kind == Kind::compressible; }
+  VaryingLaw() = default;
+  /// \param varies  whether a parameter does that decides its form, see FormsOf
+  VaryingLaw(const Material& material, bool varies);
+
+  bool is_compressible() const { return form_ == index_of_law<CompressibleLaw, LawForms::variant>; }
   /// Forces balance on the reference configuration.
-  bool on_reference() const { return is_compressible() && compressible == CompressibleLaw::Kind::linear; }
+  bool on_reference() const { return is_compressible() && CompressibleLaw{kind_, 0}.on_reference(); }
 
   /// S' of the nearly incompressible ones, kPa.
   template <class T>
   Sym3<T> stress(const Strain<T>& s, const PointConstants& at) const {
-    if (kind == Kind::mooney_rivlin) return MooneyRivlinOf<Pack>{at.c10, at.c01}.stress(s, {});
-    if (kind == Kind::artery) return artery(at).stress(s, at.fibres);
-    if (kind == Kind::dispersed_artery) return DispersedArteryOf<Pack>{artery(at)}.stress(s, at.fibres);
-    return NeoHookeanOf<Pack>{at.c10, 0.0, 0.0}.stress(s, {});
+    return incompressible<0, Sym3<T>>(at, [&](const auto& law, const auto& fibres) { return law.stress(s, fibres); });
   }
 
   /// What it answers to a deformation.
@@ -62,32 +79,64 @@ struct VaryingLaw {
   /// \param f  deformation(h)
   template <class T>
   Response<T> response(const Mat3<T>& h, const Deformation<T>& f, const PointConstants& at) const {
-    if (is_compressible()) return CompressibleLaw::response_of(compressible, at.c10, h, f);
+    if (is_compressible()) return compressible(at.of_law[0]).response(h, f);
     return {f.gradient * stress(strain_of(h, f), at), f.volume_change, f.cofactor_gradient, f.volume_ratio};
   }
   /// The measure g of the change of volume and G = dg/dF, which no constant enters; the flux is not set.
   template <class T>
   Response<T> response(const Mat3<T>& h, const Deformation<T>& f) const {
-    if (is_compressible()) return CompressibleLaw::response_of(compressible, Pack(0.0), h, f);
+    if (is_compressible()) return compressible(Pack(0.0)).response(h, f);
     return {{}, f.volume_change, f.cofactor_gradient, f.volume_ratio};
   }
 
   /// Psi', kPa.
   template <class T>
   T energy(const Mat3<T>& h, const PointConstants& at) const {
-    if (is_compressible()) return CompressibleLaw::energy_of(compressible, at.c10, h);
+    if (is_compressible()) return compressible(at.of_law[0]).energy(h);
     const Strain<T> s = strain_of(h);
-    if (kind == Kind::mooney_rivlin) return MooneyRivlinOf<Pack>{at.c10, at.c01}.energy(s, {});
-    if (kind == Kind::artery) return artery(at).energy(s, at.fibres);
-    if (kind == Kind::dispersed_artery) return DispersedArteryOf<Pack>{artery(at)}.energy(s, at.fibres);
-    return NeoHookeanOf<Pack>{at.c10, 0.0, 0.0}.energy(s, {});
+    return incompressible<0, T>(at, [&](const auto& law, const auto& fibres) { return law.energy(s, fibres); });
   }
 
  private:
-  static ArteryOf<Pack> artery(const PointConstants& at) { return {at.c10, at.k1, at.k2, 1.0, 0.0, at.kappa}; }
+  CompressibleLawOf<Pack> compressible(const Pack& mu) const { return {kind_, mu}; }
+
+  template <class Form, std::size_t... i>
+  static Form with_constants(const PointConstants& at, std::index_sequence<i...>) {
+    constexpr auto members = Form::constants();
+    Form law{};
+    ((law.*std::get<i>(members) = at.of_law[i]), ...);
+    return law;
+  }
+
+  /// visit(law, fibres) of this law at a point.
+  template <std::size_t i, class Result, class Visit>
+  Result incompressible(const PointConstants& at, const Visit& visit) const {
+    using Form = std::variant_alternative_t<i, LawForms::variant>;
+    if constexpr (std::is_same_v<Form, CompressibleLaw>) {
+      return incompressible<i + 1, Result>(at, visit);
+    } else {
+      if (i + 1 < LawForms::count && form_ != i) {
+        if constexpr (i + 1 < LawForms::count) return incompressible<i + 1, Result>(at, visit);
+      }
+      assert(form_ == i);
+      using Here = typename Form::template with<Pack>;
+      const auto law = with_constants<Here>(at, std::make_index_sequence<Here::constants().size()>());
+      if constexpr (std::is_same_v<typename Form::FibreData, Fibres>)
+        return visit(law, at.fibres);
+      else
+        return visit(law, NoFibres{});
+    }
+  }
+
+  std::size_t form_ = 0, kind_ = 0;  // places in LawForms and, of compressible laws, in Material
 };
 
-/// The law of a layer of this material. \param dispersed  whether fibres are dispersed somewhere
-VaryingLaw varying_law(const Material& material, bool dispersed);
+/// A layer's law as the element loops see it: the forms with loops of their own, and any other as one that may vary.
+using ElementLaw =
+    typename detail::WithLaw<typename detail::OwnLoops<Laws<>, LawForms>::type, VaryingLaw>::type::variant;
+ElementLaw element_law(const Material& material);
+
+/// Whether a parameter decides which form a material has.
+bool decides_form(const Material& material, const std::string& parameter);
 
 }  // namespace fsi

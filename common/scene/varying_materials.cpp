@@ -75,9 +75,10 @@ class LayerConstants {
     }
   }
 
-  bool dispersed() const {
-    const auto kappa = base_.find("kappa");
-    return ranges_.count("kappa") > 0 || (kappa != base_.end() && kappa->second > 0);
+  /// Whether a parameter varies that decides the law's form.
+  bool form_varies(const Material& material) const {
+    return std::any_of(ranges_.begin(), ranges_.end(),
+                       [&](const auto& range) { return decides_form(material, range.first); });
   }
   const std::map<std::string, Range>& ranges() const { return ranges_; }
   std::map<std::string, Range>& ranges() { return ranges_; }
@@ -285,20 +286,21 @@ void vary_materials(const Case& setup, WallProblem<Element>& wall, Scene<Element
     std::map<std::string, double> mean;
     std::set<std::size_t> in;
     try {
-      wall.vary(layer, constants.dispersed(), [&](int cell, const Point& x, double weight) {
-        const bool counted = part.counted.empty() || part.counted[static_cast<std::size_t>(cell)] != 0;
-        const LawHere here = constants.at(x, weight, counted, mean, in);
-        weights += weight;
-        if (++points < Element::points) return here;
-        for (const auto& [key, sum] : mean)
-          scene.wall_constants.at(key)[static_cast<std::size_t>(cell)] = sum / weights;
-        if (counted) constants.count(in);
-        mean.clear();
-        in.clear();
-        points = 0;
-        weights = 0;
-        return here;
-      });
+      wall.vary(layer, constants.form_varies(wall.layers()[layer].material),
+                [&](int cell, const Point& x, double weight) {
+                  const bool counted = part.counted.empty() || part.counted[static_cast<std::size_t>(cell)] != 0;
+                  const LawHere here = constants.at(x, weight, counted, mean, in);
+                  weights += weight;
+                  if (++points < Element::points) return here;
+                  for (const auto& [key, sum] : mean)
+                    scene.wall_constants.at(key)[static_cast<std::size_t>(cell)] = sum / weights;
+                  if (counted) constants.count(in);
+                  mean.clear();
+                  in.clear();
+                  points = 0;
+                  weights = 0;
+                  return here;
+                });
     } catch (const InputError& error) {
       problem = error.what();
     }

@@ -8,6 +8,7 @@
 
 #include "fem/dimensions.hpp"
 #include "materials/material.hpp"
+#include "materials/varying_law.hpp"
 
 namespace fsi {
 

@@ -1,3 +1,7 @@
+#include <tuple>
+#include <type_traits>
+#include <variant>
+
 #include "fem/elements.hpp"
 #include "wall/unloaded_shape.hpp"
 #include "wall/wall_assembly.hpp"
@@ -11,13 +15,23 @@ AssemblyResult UnloadedLoops<Element, M>::assemble(const Hyperelastic<M>& form, 
   return detail::assemble_layer<Element, false>(UnloadedShape<M>{form}, layer, in, residual, jacobian);
 }
 
-#define FSI_INSTANTIATE(Element)                           \
-  template struct UnloadedLoops<Element, NeoHookean>;      \
-  template struct UnloadedLoops<Element, MooneyRivlin>;    \
-  template struct UnloadedLoops<Element, Artery>;          \
-  template struct UnloadedLoops<Element, DispersedArtery>; \
-  template struct UnloadedLoops<Element, CompressibleLaw>;
+namespace detail {
+
+/// Compiles them for every law with loops of its own; those of constants that vary are in varying_loops.cpp.
+template <class Element, class... M>
+auto unloaded_loops(const std::variant<M...>*) {
+  return std::tuple_cat([] {
+    if constexpr (std::is_same_v<M, VaryingLaw>)
+      return std::tuple<>();
+    else
+      return std::tuple(&UnloadedLoops<Element, M>::assemble);
+  }()...);
+}
+
+#define FSI_INSTANTIATE(Element) template auto unloaded_loops<Element>(const ElementLaw*);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
+
+}  // namespace detail
 
 }  // namespace fsi

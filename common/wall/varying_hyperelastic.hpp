@@ -85,7 +85,7 @@ Hyperelastic<VaryingLaw> in_pack(const Hyperelastic<VaryingLaw>& form,
   assert(points);
   Hyperelastic<VaryingLaw> here = form;
   here.shear_modulus = Pack(0.0);
-  for (const auto& at : (*points)[index]) here.shear_modulus += at.shear_modulus();
+  for (const auto& at : (*points)[index]) here.shear_modulus += at.shear_modulus;
   here.shear_modulus *= Pack(1.0 / count);
   return here;
 }

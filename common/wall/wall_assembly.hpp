@@ -200,15 +200,6 @@ AssemblyResult assemble_wall(const WallConstants& wall, const std::vector<WallLa
   if (jacobian) jacobian->set_zero();
   AssemblyResult all;
   for (const auto& layer : layers) {
-    if (layer.varies()) {
-      const Hyperelastic<VaryingLaw> form{in.acceleration_history ? wall.density : 0.0,
-                                          bulk_modulus(layer.material, wall.bulk_modulus), wall.stabilisation,
-                                          layer.law, wall.wave_speed};
-      all.include(in.finds_unloaded_shape
-                      ? UnloadedLoops<Element, VaryingLaw>::assemble(form, layer, in, residual, jacobian)
-                      : LayerLoops<Element, VaryingLaw>::assemble(form, layer, in, residual, jacobian));
-      continue;
-    }
     std::visit(
         [&](const auto& law) {
           using M = std::decay_t<decltype(law)>;
@@ -222,7 +213,7 @@ AssemblyResult assemble_wall(const WallConstants& wall, const std::vector<WallLa
           else
             all.include(detail::assemble_layer(form, layer, in, residual, jacobian));
         },
-        element_law(layer.material));
+        layer.element_law());
   }
   return all;
 }

@@ -173,12 +173,6 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
 template <class Element, class Visit>
 void for_each_layer(const WallConstants& wall, const std::vector<WallLayer<Element>>& layers, Visit visit) {
   for (const auto& layer : layers) {
-    if (layer.varies()) {
-      visit(Hyperelastic<VaryingLaw>{wall.density, bulk_modulus(layer.material, wall.bulk_modulus), wall.stabilisation,
-                                     layer.law, wall.wave_speed},
-            layer);
-      continue;
-    }
     std::visit(
         [&](const auto& law) {
           using M = std::decay_t<decltype(law)>;
@@ -186,7 +180,7 @@ void for_each_layer(const WallConstants& wall, const std::vector<WallLayer<Eleme
                                 wall.wave_speed},
                 layer);
         },
-        element_law(layer.material));
+        layer.element_law());
   }
 }
 

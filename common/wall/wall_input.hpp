@@ -45,12 +45,14 @@ struct WallLayer {
   Material material;
   FibreField<Element> fibres;  ///< empty for materials without
   double viscosity = 0;        ///< eta, kPa ms, of wall/kelvin_voigt.hpp
-  /// Where constants vary: theirs, with the fibres; `material` and `viscosity` are then at the means of what varies.
+  /// Where constants vary, or the law has no loops of its own: theirs, with the fibres; `material` and `viscosity` are at
+  /// the means of what varies.
   ConstantsField<Element> constants{};
   VaryingLaw law{};                       ///< of such a layer
   std::vector<MaxwellBranch> branches{};  ///< wall/maxwell_form.hpp
 
   bool varies() const { return !constants.empty(); }
+  ElementLaw element_law() const { return varies() ? ElementLaw(law) : fsi::element_law(material); }
 };
 
 /// Where the strains that Maxwell branches keep stand in an array (Solution::branches): cell by cell of the layers with

@@ -67,15 +67,35 @@ WallProblem<Element>::WallProblem(Part part, const WallConstants& constants,
         {ElementPacks<Element>(part_.nodes, part_.cells, cells, *space_.graph(), part_.counted), material, {}, 0, {}});
     layer_cells_.push_back(cells);
     layer_data_.push_back(measured_layer<Element>(part_, cells, material));
-    if (!has_fibres(material)) continue;
     auto& layer = layers_.back();
-    layer.fibres = frame.empty() ? fibre_directions(layer.packs, part_.nodes, part_.cells, axis, fibre_angle(material))
-                                 : fibre_directions(layer.packs, frame, part_.cells, fibre_angle(material));
+    if (has_fibres(material))
+      layer.fibres = frame.empty()
+                         ? fibre_directions(layer.packs, part_.nodes, part_.cells, axis, fibre_angle(material))
+                         : fibre_directions(layer.packs, frame, part_.cells, fibre_angle(material));
+    if (std::holds_alternative<VaryingLaw>(layer.element_law())) {
+      const LawHere everywhere{law_constants(material, constants_.bulk_modulus), fibre_angle(material)};
+      set_constants(layers_.size() - 1, VaryingLaw(material, false),
+                    [&](int, const Point&, double) { return everywhere; });
+    }
   }
 }
 
 template <class Element>
-void WallProblem<Element>::vary(std::size_t number, bool dispersed, const LawAt& at) {
+void WallProblem<Element>::set_viscosity(std::size_t number, double viscosity) {
+  auto& layer = layers_.at(number);
+  layer.viscosity = viscosity;
+  for (auto& of_thread : layer.constants)
+    for (auto& of_pack : of_thread)
+      for (auto& point : of_pack) point.viscosity = Pack(viscosity);
+}
+
+template <class Element>
+void WallProblem<Element>::vary(std::size_t number, bool form_varies, const LawAt& at) {
+  set_constants(number, VaryingLaw(layers_.at(number).material, form_varies), at);
+}
+
+template <class Element>
+void WallProblem<Element>::set_constants(std::size_t number, const VaryingLaw& law, const LawAt& at) {
   WallLayer<Element>& layer = layers_.at(number);
   std::vector<int> index(part_.cells.size(), -1);
   std::vector<std::array<LawHere, Element::points>> of_cell;
@@ -96,7 +116,7 @@ void WallProblem<Element>::vary(std::size_t number, bool dispersed, const LawAt&
   }
   const bool fibres = !layer.fibres.empty();
   const double angle = fibre_angle(layer.material);
-  layer.law = varying_law(layer.material, dispersed);
+  layer.law = law;
   layer.constants.assign(static_cast<std::size_t>(layer.packs.thread_count()), {});
   for (int t = 0; t < layer.packs.thread_count(); ++t)
     for (std::size_t p = 0; p < layer.packs.of_thread(t).size(); ++p) {

@@ -29,7 +29,7 @@ class WallProblem : public Wall<Element::components> {
   const std::vector<WallLayer<Element>>& layers() const { return layers_; }
   const std::vector<int>& cells_of_layer(std::size_t layer) const { return layer_cells_.at(layer); }
   /// \param viscosity  eta of a layer, kPa ms; 0, as at first: elastic
-  void set_viscosity(std::size_t layer, double viscosity) { layers_.at(layer).viscosity = viscosity; }
+  void set_viscosity(std::size_t layer, double viscosity);
   /// \param branches    of each layer; none, as at first
   /// \param whole_cell  per cell of the part its number in the whole wall; empty: the part is whole
   void set_branches(const std::vector<std::vector<MaxwellBranch>>& branches,
@@ -40,7 +40,8 @@ class WallProblem : public Wall<Element::components> {
   /// Lets the constants of a layer vary: `at` is called once for each quadrature point of its cells, on the mesh. To be
   /// called before any prestress. With fibres at different angles the layer's material must have been made with one
   /// between 0 and 90 degrees.
-  void vary(std::size_t layer, bool dispersed, const LawAt& at);
+  /// \param form_varies  whether a parameter varies that decides the law's form (decides_form())
+  void vary(std::size_t layer, bool form_varies, const LawAt& at);
   /// What stands for such a layer where one number must (LayerData): the material at its mean constants.
   void set_mean(std::size_t layer, const Material& material, double viscosity);
 
@@ -70,6 +71,8 @@ class WallProblem : public Wall<Element::components> {
   std::vector<int> cell_vertices() const override;
 
  private:
+  /// \param at  as in vary()
+  void set_constants(std::size_t layer, const VaryingLaw& law, const LawAt& at);
   WallInput prestressed(WallInput in) const;
   AssemblyResult assemble_unloaded_shape(WallInput in, double pressure, std::vector<double>& residual,
                                          bool derivatives);

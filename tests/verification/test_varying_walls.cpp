@@ -31,16 +31,14 @@ const Material laws[] = {NeoHookean{3},
                          MooneyRivlin{3, 0.3},
                          Artery{3, 2.3632, 0.8393, 1, 29},
                          Artery{3, 2.3632, 0.8393, 1, 29, 0.2},
+                         Yeoh{3, 0.7, 0.2},
+                         HolzapfelGasserOgden{3, 2.3632, 0.8393, 0.9, 1.7, 0.2, 29},
                          CompressibleNeoHookean{{0, 0, 0, 0}, 3, 40},
                          SaintVenantKirchhoff{{9, 0.3}},
                          LinearElastic{{9, 0.3}}};
-const char* const law_names[] = {"neo-hookean",  "mooney-rivlin", "artery", "dispersed",
+const char* const law_names[] = {"neo-hookean",  "mooney-rivlin", "artery",
+                                 "dispersed",    "yeoh",          "holzapfel-gasser-ogden",
                                  "compressible", "venant",        "linear"};
-
-bool is_dispersed(const Material& material) {
-  const auto* artery = std::get_if<Artery>(&material);
-  return artery != nullptr && artery->kappa > 0;
-}
 
 /// A wall of one layer; of `variation` > 0 its constants and its viscosity change by up to that share across it.
 template <class Element>
@@ -54,15 +52,16 @@ std::unique_ptr<WallProblem<Element>> wall_of(const Material& material, double v
   if (variation < 0) return wall;
   const LawConstants<double> mean = law_constants(material, 50.0);
   const double angle = fibre_angle(material);
-  wall->vary(0, is_dispersed(material), [=](int, const Point& x, double weight) {
+  wall->vary(0, false, [=](int, const Point& x, double weight) {
     EXPECT_GT(weight, 0);
     const double s = 1 + variation * std::sin(3 * x[0] + 2 * x[1] + x[2]);
     LawHere here{mean, angle * s};
-    here.constants.c10 *= s;
-    here.constants.c01 *= s * s;
-    here.constants.k1 *= 2 - s;
-    here.constants.k2 *= s;
-    here.constants.kappa *= s;
+    double factor = s;
+    for (double& constant : here.constants.of_law) {
+      constant *= factor;
+      factor = 2 - factor;
+    }
+    here.constants.shear_modulus *= s;
     here.constants.bulk_modulus *= 2 - s;
     here.constants.viscosity = viscosity * s;
     return here;

@@ -55,9 +55,28 @@ TEST(MaterialTable, KnowsWhatTheMembraneAndTheLimitLoadNeed) {
   EXPECT_NEAR(fibre_stiffness(artery), 8 * 0.5 * 2 / 16.0, 1e-14) << "cos 60 degrees = 1/2";
   EXPECT_EQ(inflation_modulus(artery), std::nullopt) << "fibres bear any pressure";
   EXPECT_TRUE(has_fibres(artery));
-  EXPECT_EQ(materials_with_fibres(), std::vector<std::string>{"artery"});
+  EXPECT_EQ(materials_with_fibres(), (std::vector<std::string>{"artery", "holzapfel-gasser-ogden"}));
   EXPECT_NEAR(fibre_angle(artery), std::acos(0.5), 1e-15);
   EXPECT_EQ(inflation_modulus(make_material("artery", {{"c10", 3}, {"k1", 0}, {"k2", 1}, {"alpha", 60}})), 3.0);
+}
+
+TEST(MaterialTable, TwoFamiliesAreAlikeUnlessTheSecondHasConstants) {
+  const ParameterValues first{{"c10", 3}, {"k1", 2}, {"k2", 0.8}, {"alpha", 60}};
+  const auto alike = std::get<HolzapfelGasserOgden>(make_material("holzapfel-gasser-ogden", first));
+  EXPECT_EQ(alike.k1_second, 2);
+  EXPECT_EQ(alike.k2_second, 0.8);
+  ParameterValues both = first;
+  both["k1_second"] = 0;
+  EXPECT_NE(complaint("holzapfel-gasser-ogden", both).find("k1, k2 and k1_second together do not make"),
+            std::string::npos)
+      << complaint("holzapfel-gasser-ogden", both);
+  both["k2_second"] = 1;
+  const auto one = make_material("holzapfel-gasser-ogden", both);
+  EXPECT_EQ(std::get<HolzapfelGasserOgden>(one).k1_second, 0);
+  EXPECT_NEAR(fibre_stiffness(one), 4 * 2 / 16.0, 1e-14) << "one family, cos 60 degrees = 1/2";
+  EXPECT_EQ(inflation_modulus(one), std::nullopt);
+  EXPECT_EQ(inflation_modulus(make_material("yeoh", {{"c10", 3}})), 3.0);
+  EXPECT_EQ(inflation_modulus(make_material("yeoh", {{"c10", 3}, {"c30", 1}})), std::nullopt);
 }
 
 // Young's modulus along the circumference at small strains, against the laws' own stress: what fibres add to the stress

@@ -14,6 +14,8 @@ namespace {
 const NeoHookean neo_hookean{3.0};
 const MooneyRivlin mooney_rivlin{3.0, 0.3};
 const Artery artery{3.0, 2.3632, 0.8393};
+const Yeoh yeoh{3.0, 0.7, 0.2};
+const HolzapfelGasserOgden two_families{3.0, 2.3632, 0.8393, 0.9, 1.7, 0.2};
 
 /// All of these tests look at lane 0 alone: every lane holds the same.
 template <class T>
@@ -135,6 +137,15 @@ TEST(MooneyRivlin, StressAndTangentAreDerivativesOfTheEnergy) {
   expect_stress_and_tangent(mooney_rivlin, random_strain({0.9, 1.3, 1.1}, 2), "Mooney-Rivlin");
 }
 
+TEST(Yeoh, StressAndTangentAreDerivativesOfTheEnergy) {
+  expect_stress_and_tangent(yeoh, random_strain({0.9, 1.3, 1.1}, 2), "Yeoh");
+}
+
+TEST(HolzapfelGasserOgden, StressAndTangentAreDerivativesOfTheEnergyInExtensionAndCompression) {
+  expect_stress_and_tangent(two_families, random_strain({0.8, 1.3, 1.1}, 3), "both families stretched");
+  expect_stress_and_tangent(two_families, random_strain({1.4, 0.8, 0.85}, 4), "both families compressed");
+}
+
 TEST(Artery, StressAndTangentAreDerivativesOfTheEnergyOnBothSidesOfSlackFibres) {
   const auto stretches = [](const Sym3<Pack>& c) {
     const auto s = strain_from(c);
@@ -192,9 +203,11 @@ class EveryMaterial : public testing::Test {
     if constexpr (std::is_same_v<M, NeoHookean>) return neo_hookean;
     if constexpr (std::is_same_v<M, MooneyRivlin>) return mooney_rivlin;
     if constexpr (std::is_same_v<M, Artery>) return artery;
+    if constexpr (std::is_same_v<M, Yeoh>) return yeoh;
+    if constexpr (std::is_same_v<M, HolzapfelGasserOgden>) return two_families;
   }
 };
-using Materials = testing::Types<NeoHookean, MooneyRivlin, Artery>;
+using Materials = testing::Types<NeoHookean, MooneyRivlin, Artery, Yeoh, HolzapfelGasserOgden>;
 TYPED_TEST_SUITE(EveryMaterial, Materials);
 
 TYPED_TEST(EveryMaterial, HasNoIsochoricStressAtRestNorUnderPureVolumeChange) {
@@ -228,7 +241,8 @@ TYPED_TEST(EveryMaterial, StressAndEnergyIgnoreRotations) {
 
 // Linear elasticity: S' = 2 mu dev(E) for small strains E; mu = c10 + c01 by hand from the energies, without fibres.
 TYPED_TEST(EveryMaterial, ShearModulusIsTheSlopeOfTheStressAtRest) {
-  const auto material = this->material();
+  auto material = this->material();
+  if constexpr (std::is_same_v<TypeParam, HolzapfelGasserOgden>) material.k1 = material.k1_second = 0;  // never slack
   const double t = 1e-6;
   // Slack fibres: compression in the plane that the fibres lie in.
   const auto s =
@@ -295,6 +309,46 @@ TEST(MooneyRivlin, UniaxialStretchByHand) {
 
 // The energy with k2 -> 0 is k1/2 sum (J_i - 1)^2, its stress 2 k1 sum (J_i - 1) dJ_i/dC; the reference is computed in
 // long double, by the series of exp where (exp(x) - 1) / x would cancel.
+// An incompressible bar of stretch l: W(l), and sigma = l dW/dl, by hand. x = J_1 - 3 = l^2 + 2/l - 3.
+TEST(Yeoh, UniaxialStretchByHand) {
+  const double l = 1.3, x = l * l + 2 / l - 3, slope = 2 * l - 2 / (l * l);
+  const auto strain = strain_from(sym3<Pack>({1 / l, l * l, 1 / l, 0, 0, 0}));
+  EXPECT_NEAR(yeoh.energy(strain, {})[0], 1.5 * x + 0.7 * x * x + 0.2 * x * x * x, 1e-14);
+  const auto s = values(yeoh.stress(strain, {}));
+  EXPECT_NEAR(s[1] * l * l - s[0] / l, l * slope * (1.5 + 1.4 * x + 0.6 * x * x), 1e-13);
+}
+
+// Fibres along the circumference alone, so that J_4 = l^2 for both families: in extension and in compression
+//   W = c10/2 x + sum of k1_i/(2 k2_i) (exp(k2_i E^2) - 1),  E = kappa x + (1 - 3 kappa) (l^2 - 1).
+TEST(HolzapfelGasserOgden, UniaxialStretchByHand) {
+  const auto& law = two_families;
+  for (double l : {1.3, 0.8}) {
+    const double x = l * l + 2 / l - 3, slope = 2 * l - 2 / (l * l);
+    const double e = law.kappa * x + (1 - 3 * law.kappa) * (l * l - 1);
+    const double e_slope = law.kappa * slope + (1 - 3 * law.kappa) * 2 * l;
+    double w = law.c10 / 2 * x, w_slope = law.c10 / 2 * slope;
+    for (const auto& [k1, k2] : {std::pair{law.k1, law.k2}, std::pair{law.k1_second, law.k2_second}}) {
+      w += k1 / (2 * k2) * std::expm1(k2 * e * e);
+      w_slope += k1 * e * std::exp(k2 * e * e) * e_slope;
+    }
+    const auto strain = strain_from(sym3<Pack>({1 / l, l * l, 1 / l, 0, 0, 0}));
+    EXPECT_NEAR(law.energy(strain, fibres_at(0))[0], w, 1e-13);
+    const auto s = values(law.stress(strain, fibres_at(0)));
+    EXPECT_NEAR(s[1] * l * l - s[0] / l, l * w_slope, 1e-12);
+  }
+}
+
+TEST(HolzapfelGasserOgden, IsTheArteryWhereItsFibresAreStretched) {
+  const HolzapfelGasserOgden alike{3.0, 2.3632, 0.8393, 2.3632, 0.8393};
+  const auto stretched = strain_from(random_strain({0.8, 1.3, 1.1}, 3)),
+             slack = strain_from(random_strain({1.4, 0.8, 0.85}, 4));
+  const auto apart = [&](const Strain<Pack>& s) {
+    return norm(difference(values(alike.stress(s, fibres)), values(artery.stress(s, fibres))));
+  };
+  EXPECT_LT(apart(stretched), 1e-13);
+  EXPECT_GT(apart(slack), 0.5) << "these fibres bear compression";
+}
+
 TEST(Artery, EnergyAndStressAreAccurateForEveryExponent) {
   const auto phi_of = [](long double x) {
     if (x > 1) return (std::exp(x) - 1) / x;
