@@ -117,10 +117,9 @@ void check_wall_blocks(WallProblem<Element>& wall, std::vector<double> solution,
   const ElementLaw law = element_law(wall.layers()[0].material);
   const auto* compressible = std::get_if<CompressibleLaw>(&law);
   const bool linear = compressible && compressible->is<LinearElastic>();
-  const bool quadratic_volume =
-      compressible
-          ? linear || (!Element::stabilised && compressible->is<SaintVenantKirchhoff>())
-          : !Element::stabilised && Element::dim == 2 && !Element::axisymmetric;
+  const bool quadratic_volume = compressible
+                                    ? linear || (!Element::stabilised && compressible->is<SaintVenantKirchhoff>())
+                                    : !Element::stabilised && Element::dim == 2 && !Element::axisymmetric;
   for (const auto& [row, first_row, rows] : {std::tuple{"momentum", 0, n}, std::tuple{"volume", n, 1}})
     for (const auto& [column, first_column, columns] : {std::tuple{"displacement", 0, n}, std::tuple{"pressure", n, 1}})
       for (unsigned seed : seeds) {
