@@ -1,5 +1,5 @@
 """Keeps the gallery's page under docs/: text and tables as docs/gallery.md, pictures as docs/pictures/gallery-*.png. What
-both drivers take is measured apart, by scripts/measure_drivers.py, and stands on docs/which.md alone.
+all kinds of coupling take is measured apart, by scripts/coupling_kinds.py, and stands on docs/which.md alone.
 
 usage: python3 scripts/keep_gallery.py FOLDER    (results/gallery, as fsi-compare gallery leaves it)
 """

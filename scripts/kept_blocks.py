@@ -1,12 +1,12 @@
 """What pages say of kept tables beyond the tables themselves: blocks of text that scripts/kept_pages.py puts on them."""
 
 from statistics import median
-from typing import Callable, Dict, List, NamedTuple, Optional, Tuple
+from typing import Callable, Dict, List, NamedTuple, Tuple
 
 from kept_tables import Row
 
 DRIVERS = ("monolithic", "partitioned")
-LOOSE = "partitioned 0.0001"
+KINDS = ("interface", "block", "monolithic")
 SAME = 1.1  # ratios of seconds nearer to 1 than this, either way, are no difference: the scatter of short runs
 
 
@@ -14,153 +14,133 @@ class BlockError(Exception):
     """A table that a block cannot be made of."""
 
 
-class Pair(NamedTuple):
-    """A case by both drivers."""
+class Kinds(NamedTuple):
+    """A scene by each kind of coupling; of the interface kind by the scheme that the driver takes by itself."""
 
+    interface: Row
+    block: Row
     monolithic: Row
-    partitioned: Row
-    loose: Optional[Row]  # the partitioned driver with a tolerance of 1e-4
 
     @property
     def title(self) -> str:
-        return self.monolithic["title"].split(":")[0].removeprefix("Turek-Hron ")
+        return self.monolithic["scene"]
 
     @property
-    def coupled(self) -> bool:
-        """Whether there are two media: the partitioned driver has a scheme then."""
-        return self.partitioned["scheme"] != ""
+    def at_equal_error(self) -> bool:
+        return all(row["equal error"] == "yes" for row in self)
 
-    def ratio(self, column: str) -> float:
-        """Partitioned over monolithic."""
-        return float(self.partitioned[column]) / float(self.monolithic[column])
+    def ratio(self, kind: str, column: str) -> float:
+        """Over monolithic."""
+        return float(getattr(self, kind)[column]) / float(self.monolithic[column])
 
 
-def pairs(rows: List[Row]) -> List[Pair]:
-    """By rising ratio of seconds."""
+def kinds(rows: List[Row]) -> List[Kinds]:
+    """In the order of the table."""
     found: Dict[str, Dict[str, Row]] = {}
     for row in rows:
-        found.setdefault(row["case"], {})[row["driver"]] = row
-    for case, both in found.items():
-        if not set(DRIVERS) <= set(both) <= {*DRIVERS, LOOSE}:
-            raise BlockError(f"'{case}' has not a row for each driver")
-    cases = [Pair(both[DRIVERS[0]], both[DRIVERS[1]], both.get(LOOSE)) for both in found.values()]
-    return sorted(cases, key=lambda pair: pair.ratio("processor_s"))
+        found.setdefault(row["scene"], {}).setdefault(row["kind"], row)  # the default is the first of its kind
+    for scene, by in found.items():
+        if set(by) != set(KINDS):
+            raise BlockError(f"'{scene}' has not a row for each kind")
+    return [Kinds(*(by[kind] for kind in KINDS)) for by in found.values()]
 
 
-def drivers_verdict(rows: List[Row]) -> str:
-    """The answer in words: who is faster, by how much, who needs less memory."""
-    coupled = [pair for pair in pairs(rows) if pair.coupled]
-    ratios = [pair.ratio("processor_s") for pair in coupled]
-    slower = sum(ratio > SAME for ratio in ratios)
-    faster = [pair.title for pair, ratio in zip(coupled, ratios) if ratio < 1 / SAME]
-    equal = [pair.title for pair, ratio in zip(coupled, ratios) if 1 / SAME <= ratio <= SAME]
-    memory = max(coupled, key=lambda pair: float(pair.monolithic["memory_MiB"] or 0))
-    gibibytes = [f"{float(row['memory_MiB']) / 1024:.2f}" for row in (memory.partitioned, memory.monolithic)]
+def _measured(rows: List[Row]) -> List[Kinds]:
+    """Scenes whose three runs have the same error of the solver."""
+    found = [scene for scene in kinds(rows) if scene.at_equal_error]
+    if not found:
+        raise BlockError("no scene is at equal error")
+    return found
+
+
+def kinds_answer(rows: List[Row]) -> str:
+    """What each kind takes, medians over the scenes at equal error."""
+    scenes = _measured(rows)
+
+    def over(column: str) -> List[str]:
+        cells = []
+        for kind in KINDS[:-1]:
+            ratios = [scene.ratio(kind, column) for scene in scenes]
+            cells.append(f"{median(ratios):.2g} ({min(ratios):.2g} to {max(ratios):.2g})")
+        return [*cells, "1"]
+
+    def a_step(kind: str, column: str) -> str:
+        return f"{median(float(getattr(scene, kind)[column]) for scene in scenes):.1f}"
+
+    passes = f"{a_step('interface', 'passes a step')} passes, each a solve of fluid and of wall"
+    cycles = f"{a_step('block', 'passes a step')} cycles of each medium's preconditioner"
+    newton = f"{a_step('monolithic', 'newton iterations a step')} Newton iterations"
     lines = [
-        f"**Take the monolithic driver.** In {slower} of {len(coupled)} cases with fluid and wall the partitioned one takes more seconds:",
-        f"{median(ratios):.2g} times as many in the median, {max(ratios):.2g} times at most, in {coupled[-1].title}.",
+        ["", *(f"`{kind}`" for kind in KINDS)],
+        ["---"] * 4,
+        [f"seconds over monolithic, {len(scenes)} scenes: median (least to most)", *over("seconds at equal error")],
+        ["work units over monolithic", *over("work units a step")],
+        ["memory over monolithic", *over("MiB")],
+        ["in a step", passes, cycles, newton],
     ]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def kinds_verdict(rows: List[Row]) -> str:
+    """The answer in words: who is faster and by how much, and which scenes are left out."""
+    scenes = _measured(rows)
+    seconds = "seconds at equal error"
+    ratios = [scene.ratio("interface", seconds) for scene in scenes]
+    slower = sum(ratio > SAME for ratio in ratios)
+    most = max(scenes, key=lambda scene: scene.ratio("interface", seconds))
+    lines = [
+        f"**Take the monolithic driver.** In {slower} of {len(scenes)} scenes the interface kind takes more seconds at equal error:",
+        f"{median(ratios):.2g} times as many in the median, {max(ratios):.2g} times at most, in {most.title}.",
+    ]
+    faster = [scene.title for scene, ratio in zip(scenes, ratios) if ratio < 1 / SAME]
+    equal = [scene.title for scene, ratio in zip(scenes, ratios) if 1 / SAME <= ratio <= SAME]
     if faster:
         lines.append(f"It takes fewer in {_listed(faster)}.")
     if equal:
         lines.append(f"Within {100 * (SAME - 1):.0f} % the two take the same in {_listed(equal)}.")
-    lines += [
-        "",
-        f"**Take the partitioned driver where memory is short.** In the largest run, {memory.title}, it needs {gibibytes[0]} GiB, the "
-        f"monolithic one {gibibytes[1]}.",
-    ]
+    apart = [scene.title for scene in kinds(rows) if not scene.at_equal_error]
+    if apart:
+        lines.append(f"Left out, since no tolerance led to the same error: {_listed(apart)}.")
     return "\n".join(lines)
-
-
-def drivers_table(rows: List[Row]) -> str:
-    """Cases with two media, by rising ratio; those with one medium in one line."""
-    columns = (
-        "case",
-        "steps",
-        "monolithic: s",
-        "MiB",
-        "Newton iterations a step",
-        "partitioned: s",
-        "MiB",
-        "passes a step",
-        "the same at 1e-4",
-        "**ratio of seconds**",
-        "**of memory**",
-        "furthest off what is known",
-    )
-    lines: List[List[str]] = [list(columns), ["---"] * len(columns)]
-    for pair in pairs(rows):
-        if pair.coupled:
-            cells = [pair.title, pair.monolithic["steps"]]
-            cells += [_seconds(pair.monolithic), pair.monolithic["memory_MiB"]]
-            cells += [_a_step(pair.monolithic, "newton_iterations")]
-            cells += [_seconds(pair.partitioned), pair.partitioned["memory_MiB"], _a_step(pair.partitioned, "passes")]
-            cells += [_a_step(pair.loose, "passes") if pair.loose else "", f"**{pair.ratio('processor_s'):.2g}**"]
-            known = all(row["memory_MiB"] for row in (pair.monolithic, pair.partitioned))
-            cells += [f"**{pair.ratio('memory_MiB'):.2f}**" if known else "", _errors(pair)]
-            lines.append(cells)
-    single = [pair for pair in pairs(rows) if not pair.coupled]
-    if single:
-        ratios = [
-            [pair.ratio(name) for pair in single if pair.monolithic[name]] for name in ("processor_s", "memory_MiB")
-        ]
-        names = _listed(sorted(pair.title for pair in single))
-        shown = [f"{min(values):.2f} to {max(values):.2f}" for values in ratios]
-        lines.append([f"one medium: {names}", *[""] * 8, shown[0], shown[1], ""])
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
-
-
-def drivers_why(rows: List[Row]) -> str:
-    """What goes with the ratio: how many more iterations, and what each costs."""
-    # block-newton counts Newton's iterations of both media together: as many as the monolithic driver.
-    counted = [
-        pair
-        for pair in pairs(rows)
-        if pair.coupled and pair.partitioned["newton_iterations"] and pair.partitioned["scheme"] != "block-newton"
-    ]
-    more = {pair.title: pair.ratio("newton_iterations") for pair in counted}
-    cost = [pair.ratio("processor_s") / more[pair.title] for pair in counted]
-    most = max(counted, key=lambda pair: more[pair.title])
-    return (
-        f"**Why.** Every pass of an interface scheme solves fluid and wall anew. So the partitioned driver makes {min(more.values()):.1f} to "
-        f"{max(more.values()):.0f} times as many\nNewton iterations, of one medium each, and such an iteration takes {min(cost):.2f} to "
-        f"{max(cost):.2f} of the seconds of a coupled one. The\nfirst number decides: it is highest in {most.title}, with "
-        f"{_a_step(most.partitioned, 'passes')} passes a step."
-    )
 
 
 def artery_settings(rows: List[Row]) -> str:
     """Mesh and step for an error, of the default element, and what linear elements take for nearly the same."""
     lines = []
-    for one, other in zip(*([row for row in rows if row["driver"] == driver] for driver in DRIVERS)):
+    for by in _rungs(rows):
+        one = by["monolithic"]
         element = "" if one["element"] == "p2p1" else "linear elements (`p1`): "
+        seconds = ", ".join(f"{_two_digits(by[kind]['processor_s'])} s {kind}" for kind in reversed(KINDS))
         lines.append(
             f"- **{float(one['error_percent']):.2g} %**: {element}`{one['cells']}` cells, {int(one['nodes']):,} nodes, steps of "
-            f"1/{1 / float(one['step_ms']):.0f} ms; {_two_digits(one['processor_s'])} s monolithic, "
-            f"{_two_digits(other['processor_s'])} s partitioned"
+            f"1/{1 / float(one['step_ms']):.0f} ms; {seconds}"
         )
     quadratic = [line for line in lines if "`p1`" not in line]
     return "\n".join([*quadratic, lines[-len(quadratic) - 1]])
 
 
-def both_drivers(rows: List[Row]) -> str:
-    """Rungs of mesh and step, the drivers side by side."""
-    rungs: Dict[Tuple[str, str], Dict[str, Row]] = {}
-    for row in rows:
-        rungs.setdefault((row["element"], row["cells"]), {})[row["driver"]] = row
-    lines = [
-        "| element | cells | nodes | step, ms | error | monolithic, s | partitioned, s |",
-        "|---|---|---|---|---|---|---|",
-    ]
-    for (element, cells), both in rungs.items():
-        one, other = (both[driver] for driver in DRIVERS)
-        step = f"1/{1 / float(one['step_ms']):.0f}"
-        error = f"{float(one['error_percent']):.2g} %"
-        seconds = [_two_digits(row["processor_s"]) for row in (one, other)]
-        lines.append(
-            f"| {element} | {cells} | {int(one['nodes']):,} | {step} | {error} | {seconds[0]} | {seconds[1]} |"
-        )
+def kinds_by_rung(rows: List[Row]) -> str:
+    """Rungs of mesh and step, the kinds side by side."""
+    heads = ("element", "cells", "nodes", "step, ms", "error", *(f"{kind}, s" for kind in reversed(KINDS)))
+    lines = [f"| {' | '.join(heads)} |", "|" + "---|" * len(heads)]
+    for by in _rungs(rows):
+        one = by["monolithic"]
+        errors = dict.fromkeys(f"{float(by[kind]['error_percent']):.2g} %" for kind in reversed(KINDS))
+        cells = [one["element"], one["cells"], f"{int(one['nodes']):,}", f"1/{1 / float(one['step_ms']):.0f}"]
+        cells += [", ".join(errors), *(_two_digits(by[kind]["processor_s"]) for kind in reversed(KINDS))]
+        lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines)
+
+
+def _rungs(rows: List[Row]) -> List[Dict[str, Row]]:
+    """A mesh and its step by each kind."""
+    found: Dict[Tuple[str, str], Dict[str, Row]] = {}
+    for row in rows:
+        found.setdefault((row["element"], row["cells"]), {})[row["kind"]] = row
+    for (element, cells), by in found.items():
+        if set(by) != set(KINDS):
+            raise BlockError(f"'{element} {cells}' has not a row for each kind")
+    return list(found.values())
 
 
 def references_verdict(rows: List[Row]) -> str:
@@ -216,21 +196,6 @@ def _digits(number: str, digits: int) -> str:
     return f"{float(number):.{digits}g}"
 
 
-def _a_step(row: Row, column: str) -> str:
-    return f"{float(row[column]) / float(row['steps']):.1f}"
-
-
-def _seconds(row: Row) -> str:
-    value = float(row["processor_s"])
-    return f"{value:.1f}" if value < 10 else f"{value:,.0f}"
-
-
-def _errors(pair: Pair) -> str:
-    """Monolithic and partitioned; one number where they are the same."""
-    shown = [f"{row['error_percent']} %" for row in (pair.monolithic, pair.partitioned) if row["error_percent"]]
-    return ", ".join(dict.fromkeys(shown))
-
-
 def _two_digits(number: str) -> str:
     """A dash where it was not measured."""
     if not number:
@@ -245,13 +210,5 @@ def _listed(names: List[str]) -> str:
 
 BLOCKS: Dict[str, Callable[[List[Row]], str]] = {
     block.__name__: block
-    for block in (
-        drivers_verdict,
-        drivers_table,
-        drivers_why,
-        artery_settings,
-        both_drivers,
-        references_verdict,
-        references_table,
-    )
+    for block in (kinds_verdict, kinds_answer, artery_settings, kinds_by_rung, references_verdict, references_table)
 }

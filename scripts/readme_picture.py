@@ -1,11 +1,11 @@
-"""Draws the picture on README's first screen: the pressure wave of the artery by both drivers, beside the error that a run
-leaves for the seconds that it takes. The numbers lie in docs/data.
+"""Draws the picture on README's first screen: the pressure wave of the artery by each kind of coupling, beside the seconds that each
+takes at equal error of the solver (scripts/coupling_kinds.py). The numbers lie in docs/data.
 
 usage: python3 scripts/readme_picture.py [-o FILE.png]
        python3 scripts/readme_picture.py --measure BIN WORK
   -o FILE.png          where the picture goes; docs/pictures/artery-both-drivers.png unless given
-  --measure BIN WORK   makes the numbers anew with the programs of BIN (build/release/bin); WORK keeps meshes and runs.
-                       Seven processor minutes, five of them the finest meshes by turns.
+  --measure BIN WORK   makes the numbers of the wave anew, and the error that a run leaves for its seconds by mesh and step
+                       (docs/which.md), with the programs of BIN (build/release/bin); WORK keeps meshes and runs. Minutes.
 """
 
 import csv
@@ -13,15 +13,24 @@ import os
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any, Dict, List, NamedTuple, NoReturn, Tuple
+from typing import Any, Dict, Iterator, List, NamedTuple, NoReturn, Tuple
+
+from kept_blocks import BlockError, kinds
+from kept_tables import read_table
 
 TOP = Path(__file__).resolve().parents[1]
 DATA = TOP / "docs/data"
 WAVE, ERRORS = DATA / "artery-wave.csv", DATA / "artery-error-seconds.csv"
+SECONDS = DATA / "coupling-kinds.csv"
+COLORS = {"monolithic": "#222222", "interface": "#e08a1e", "block": "#4a90c8"}
 PICTURE = TOP / "docs/pictures/artery-both-drivers.png"
 CASE = "meshes/artery/axisymmetric/neo-hookean.toml"
 REFERENCE = "compare/studies/references/neo-hookean"  # step and mesh extrapolated to zero
-DRIVERS = ("monolithic", "partitioned")
+KINDS = {  # the driver, and what a case names
+    "monolithic": ("fsi-monolithic", ()),
+    "interface": ("fsi-partitioned", ()),
+    "block": ("fsi-partitioned", ('partitioned.scheme="block-newton"',)),
+}
 WAVE_TIMES = (1.5, 3.0, 6.0)  # ms
 WAVE_MESH, WAVE_STEP = "p2p1-6-2-2-96", 1 / 32
 END = 6.375  # ms: the last of the times, and half of the averaged pressure's window
@@ -46,16 +55,22 @@ LADDERS = (
     Rung("p2p1", "6-2-2-96", ("3", "4"), 1 / 32),
     Rung("p2p1", "9-3-3-144", ("3", "4"), 1 / 64),
 )
-# What solving leaves is far below what mesh and step leave.
-TOLERANCES = {"monolithic": "monolithic.newton_tolerance=1e-3", "partitioned": "partitioned.tolerance=1e-4"}
+# What drivers take by themselves in fixed steps. What solving leaves is then alike (docs/which.md), and far below what mesh and step leave.
+TOLERANCES = {
+    "fsi-monolithic": ("monolithic.newton_tolerance=1e-3", "monolithic.error_tolerance=3e-3"),
+    "fsi-partitioned": ("partitioned.tolerance=3e-3",),
+}
 
-RUN = f"fsi-DRIVER {CASE} --threads 1 --set mesh.file=MESH --set 'time.scheme=\"midpoint\"' --set time.end={END}"
-WAVE_ORIGIN = f"""made by scripts/readme_picture.py --measure: centre-line pressure of both drivers, tolerances of the case file
+RUN = f"PROGRAM {CASE} --threads 1 --set mesh.file=MESH --set 'time.scheme=\"midpoint\"' --set time.end={END}"
+BLOCK = "kind `block`: --set 'partitioned.scheme=\"block-newton\"'; `interface`: what fsi-partitioned chooses"
+WAVE_ORIGIN = f"""made by scripts/readme_picture.py --measure: centre-line pressure by each kind, tolerances of the case file
 {RUN} --set time.step={WAVE_STEP}
+{BLOCK}
 MESH: the axisymmetric p2p1 mesh of 6-2-2-96 cells of artery-error-seconds.csv"""
 ERRORS_ORIGIN = f"""made by scripts/readme_picture.py --measure: error of wall displacement or averaged pressure, the larger one
 {RUN} --set 'element="ELEMENT"' --set time.step=STEP
-  and --set {TOLERANCES['monolithic']} or --set {TOLERANCES['partitioned']}
+  and --set {' --set '.join(TOLERANCES['fsi-monolithic'])}, or --set {TOLERANCES['fsi-partitioned'][0]}
+{BLOCK}
 fsi-compare accuracy {REFERENCE} DIR: mean of the relative L2 norms at 1.5, 3, 4.5 and 6 ms
 MESH: fsi-mesh artery --axisymmetric --order 1 (p1) or 2 (p2p1), cells through lumen, media, adventitia and along the axis
 processor_s: user and system time; of runs shorter than {QUICK_ENOUGH:g} s the least of {TIMINGS}"""
@@ -68,39 +83,47 @@ def measure(programs: Path, work: Path) -> None:
     work.mkdir(parents=True, exist_ok=True)
     rows = []
     for rung in LADDERS:
-        for driver in DRIVERS:
-            rows.append(_error_and_seconds(programs, work, rung, driver))
-            print(" ".join(rows[-1]), flush=True)
-    header = ("element", "driver", "cells", "nodes", "step_ms", "error_percent", "processor_s")
+        for found in _errors_and_seconds(programs, work, rung):
+            rows.append(found)
+            print(" ".join(found), flush=True)
+    header = ("element", "kind", "cells", "nodes", "step_ms", "error_percent", "processor_s")
     _write(ERRORS, ERRORS_ORIGIN, header, rows)
-    _write(WAVE, WAVE_ORIGIN, ("time_ms", "z_mm", *(f"{driver}_Pa" for driver in DRIVERS)), _wave(programs, work))
+    _write(WAVE, WAVE_ORIGIN, ("time_ms", "z_mm", *(f"{kind}_Pa" for kind in KINDS)), _wave(programs, work))
 
 
-def _error_and_seconds(programs: Path, work: Path, rung: Rung, driver: str) -> Tuple[str, ...]:
-    """The larger one of the errors of wall displacement and averaged pressure, relative L2 norms along the tube, each the
-    mean over the times that fsi-compare accuracy takes; and user and system time of the run."""
-    folder = work / f"{rung.element}-{rung.cells}-{driver}"
-    settings = [f'element="{rung.element}"', f"time.step={rung.step}", TOLERANCES[driver]]
-    seconds = [_run(programs, work, rung, driver, settings, folder)]
-    while seconds[0] < QUICK_ENOUGH and len(seconds) < TIMINGS:
-        seconds.append(_run(programs, work, rung, driver, settings, folder))
-    _call([programs / "fsi-compare", "accuracy", TOP / REFERENCE, folder, "-o", folder / "errors", "-q"])
-    found = _read(folder / "errors/accuracy.csv")
-    largest = max(
-        sum(float(row[column]) for row in found) / len(found)
-        for column in ("radial_relative_L2", "averaged_pressure_relative_L2")
-    )
-    nodes = found[0]["nodes"]
-    return (rung.element, driver, rung.cells, nodes, f"{rung.step:g}", f"{100 * largest:.3g}", f"{min(seconds):.3g}")
+def _errors_and_seconds(programs: Path, work: Path, rung: Rung) -> Iterator[Tuple[str, ...]]:
+    """By each kind, which take turns: the larger one of the errors of wall displacement and averaged pressure, relative L2 norms
+    along the tube, each the mean over the times that fsi-compare accuracy takes; and user and system time of the run.
+    """
+    seconds: Dict[str, List[float]] = {kind: [] for kind in KINDS}
+    for _ in range(TIMINGS):
+        for kind, taken in seconds.items():
+            if not taken or taken[0] < QUICK_ENOUGH:
+                settings = [f'element="{rung.element}"', f"time.step={rung.step}", *TOLERANCES[KINDS[kind][0]]]
+                taken.append(_run(programs, work, rung, kind, settings, _folder(work, rung, kind)))
+    for kind, taken in seconds.items():
+        folder = _folder(work, rung, kind)
+        _call([programs / "fsi-compare", "accuracy", TOP / REFERENCE, folder, "-o", folder / "errors", "-q"])
+        found = _read(folder / "errors/accuracy.csv")
+        largest = max(
+            sum(float(row[column]) for row in found) / len(found)
+            for column in ("radial_relative_L2", "averaged_pressure_relative_L2")
+        )
+        nodes = found[0]["nodes"]
+        yield (rung.element, kind, rung.cells, nodes, f"{rung.step:g}", f"{100 * largest:.3g}", f"{min(taken):.3g}")
+
+
+def _folder(work: Path, rung: Rung, kind: str) -> Path:
+    return work / f"{rung.element}-{rung.cells}-{kind}"
 
 
 def _wave(programs: Path, work: Path) -> List[Tuple[str, ...]]:
-    """The centre-line pressure with the tolerances of the case file, at which the drivers agree to solver tolerance."""
+    """The centre-line pressure with the tolerances of the case file, at which the kinds agree to solver tolerance."""
     rung = next(rung for rung in LADDERS if f"{rung.element}-{rung.cells}" == WAVE_MESH)
     waves: List[Dict[Tuple[float, str], str]] = []
-    for driver in DRIVERS:
-        folder = work / f"wave-{driver}"
-        _run(programs, work, rung, driver, [f"time.step={WAVE_STEP}"], folder)
+    for kind in KINDS:
+        folder = work / f"wave-{kind}"
+        _run(programs, work, rung, kind, [f"time.step={WAVE_STEP}"], folder)
         rows = _read(folder / "centerline_pressure.csv")
         waves.append({(float(r["time_ms"]), r["z_mm"]): r["pressure_Pa"] for r in rows})
     return [
@@ -110,7 +133,7 @@ def _wave(programs: Path, work: Path) -> List[Tuple[str, ...]]:
     ]
 
 
-def _run(programs: Path, work: Path, rung: Rung, driver: str, settings: List[str], folder: Path) -> float:
+def _run(programs: Path, work: Path, rung: Rung, kind: str, settings: List[str], folder: Path) -> float:
     mesh = work / f"{rung.element}-{rung.cells}.msh"
     if not mesh.exists():
         names = ("--lumen-cells", "--media-cells", "--adventitia-cells", "--axial-cells")
@@ -122,8 +145,9 @@ def _run(programs: Path, work: Path, rung: Rung, driver: str, settings: List[str
         )
     common = [f'mesh.file="{mesh.resolve()}"', 'time.scheme="midpoint"', f"time.end={END}"]
     silent = ["output.every=0", "output.checkpoint_every=0"]
-    words: List[object] = [programs / f"fsi-{driver}", TOP / CASE, "-o", folder, "--force", "-q", "--threads", "1"]
-    for setting in [*common, *silent, *settings]:
+    program, named = KINDS[kind]
+    words: List[object] = [programs / program, TOP / CASE, "-o", folder, "--force", "-q", "--threads", "1"]
+    for setting in [*common, *silent, *settings, *named]:
         words += ["--set", setting]
     return _call(words)
 
@@ -164,54 +188,53 @@ def draw(picture: Path) -> None:
         "grid.color": "#dddddd",
     }
     with matplotlib.rc_context({**style, **frame, "axes.axisbelow": True, "legend.handlelength": 3.0}):
-        figure = Figure(figsize=(10.7, 4.5), layout="constrained")
+        figure = Figure(figsize=(12, 5), layout="constrained")
         left, right = figure.subplots(1, 2)
         _draw_wave(left)
-        _draw_errors(right)
+        _draw_seconds(right)
         figure.savefig(picture, dpi=150, metadata={"Software": None})
     print(picture)
 
 
 def _draw_wave(axes) -> None:
+    """Thick below thin, so that three waves on one line are seen."""
     rows = _read(WAVE)
+    looks: Dict[str, Dict[str, Any]] = {
+        "monolithic": {"color": COLORS["monolithic"], "linewidth": 5},
+        "interface": {"color": COLORS["interface"], "linewidth": 2.2},
+        "block": {"color": COLORS["block"], "linewidth": 2.2, "linestyle": (0, (2, 3))},
+    }
     for time in WAVE_TIMES:
         wave = [row for row in rows if float(row["time_ms"]) == time]
         z = [float(row["z_mm"]) for row in wave]
-        first, second = ([float(row[f"{driver}_Pa"]) for row in wave] for driver in DRIVERS)
-        label = time == WAVE_TIMES[0]
-        axes.plot(z, first, "-", color="black", linewidth=3.2, label="monolithic" if label else None)
-        axes.plot(
-            z, second, "--", color="#f0a030", linewidth=1.6, dashes=(3, 2), label="partitioned" if label else None
-        )
-        top = max(range(len(z)), key=first.__getitem__)
-        axes.annotate(f"{time:g} ms", (z[top], first[top]), (7, 3), textcoords="offset points")
-    axes.set(title="A pressure wave in an artery, solved both ways", xlabel="z along the artery, mm")
+        for kind, look in looks.items():
+            pressure = [float(row[f"{kind}_Pa"]) for row in wave]
+            axes.plot(z, pressure, label=kind if time == WAVE_TIMES[0] else None, **look)
+        top = max(range(len(z)), key=pressure.__getitem__)
+        axes.annotate(f"{time:g} ms", (z[top], pressure[top]), (7, 3), textcoords="offset points")
+    axes.set(title="A pressure wave, by three kinds of coupling", xlabel="z along the artery, mm")
     axes.set(ylabel="pressure on the centre line, Pa", xlim=(0, 18))
     axes.margins(y=0.08)
     axes.legend(loc="upper right")
 
 
-def _draw_errors(axes) -> None:
-    from matplotlib.ticker import NullLocator
-
-    rows = _read(ERRORS)
-    names = {"p1": "linear elements", "p2p1": "quadratic elements"}
-    for element, marker, color in (("p1", "s", "#2a6fb0"), ("p2p1", "o", "black")):
-        for driver, line in zip(DRIVERS, ("-", "--")):
-            found = [row for row in rows if (row["element"], row["driver"]) == (element, driver)]
-            seconds, errors = ([float(row[name]) for row in found] for name in ("processor_s", "error_percent"))
-            filled = color if driver == "monolithic" else "white"
-            label = f"{names[element]}, {driver}"
-            axes.loglog(seconds, errors, line, marker=marker, color=color, markerfacecolor=filled, label=label)
-    axes.set(title="What error a run leaves for its seconds", xlabel="processor seconds, one thread")
-    axes.set(ylabel="error of the wave, %")
-    axes.set(xlim=(0.2, 250), ylim=(0.16, 11))
-    axes.set_xticks([0.3, 1, 3, 10, 30, 100])
-    axes.set_yticks([0.2, 0.5, 1, 2, 5, 10])
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_minor_locator(NullLocator())
-        axis.set_major_formatter(lambda value, _: f"{value:g}")
-    axes.legend(loc="lower left", fontsize=11)
+def _draw_seconds(axes) -> None:
+    """A pair of bars for each scene at equal error, over the monolithic driver's seconds."""
+    try:
+        scenes = [scene for scene in kinds(read_table(SECONDS)) if scene.at_equal_error]
+    except (OSError, ValueError, BlockError) as error:
+        fail(f"{error}; scripts/coupling_kinds.py makes the table")
+    column = "seconds at equal error"
+    scenes.sort(key=lambda scene: -scene.ratio("interface", column))
+    for offset, kind in ((0.2, "interface"), (-0.2, "block")):
+        places = [place + offset for place in range(len(scenes))]
+        ratios = [scene.ratio(kind, column) for scene in scenes]
+        axes.barh(places, ratios, 0.4, color=COLORS[kind], label=kind)
+    axes.axvline(1, color=COLORS["monolithic"], linewidth=2.5, label="monolithic")
+    axes.set_yticks(range(len(scenes)), [scene.title for scene in scenes], fontsize=8.5)
+    axes.set(title="Seconds at equal error of the solver", xlabel="over those of the monolithic driver")
+    axes.grid(axis="y", visible=False)
+    axes.legend(loc="center right", bbox_to_anchor=(1, 0.68))
 
 
 # ---- files ----

@@ -9,12 +9,13 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(TOP / "scripts"))
 
+import coupling_kinds  # noqa: E402
 from kept_blocks import (  # noqa: E402
     BlockError,
-    drivers_table,
-    drivers_verdict,
-    drivers_why,
-    pairs,
+    kinds,
+    kinds_answer,
+    kinds_by_rung,
+    kinds_verdict,
     references_table,
     references_verdict,
 )
@@ -36,18 +37,27 @@ Coarse leaves 8.2<!-- errors: mesh=coarse; error [%] --> %, on 54,540<!-- errors
 
 <!-- end -->
 """
-DRIVERS = [
-    {"case": case, "title": f"{case}: a scene", "driver": driver, "scheme": scheme if driver != "monolithic" else ""}
-    | {"steps": "10", "newton_iterations": newton, "passes": "" if driver == "monolithic" else "50"}
-    | {"processor_s": seconds, "memory_MiB": memory, "error_percent": "0.5"}
-    for case, scheme, driver, newton, seconds, memory in (
-        ("Tube", "aitken", "monolithic", "40", "2.0", "1024"),
-        ("Tube", "aitken", "partitioned", "900", "9.0", "512"),
-        ("Tube", "aitken", "partitioned 0.0001", "700", "", "512"),
-        ("Flag", "iqn-ils", "monolithic", "40", "4.0", "200"),
-        ("Flag", "iqn-ils", "partitioned", "60", "3.0", "200"),
-        ("Pipe", "", "monolithic", "20", "1.0", "70"),
-        ("Pipe", "", "partitioned", "20", "1.0", "70"),
+KINDS = [
+    {
+        "scene": scene,
+        "kind": kind,
+        "method": method,
+        "seconds at equal error": seconds,
+        "MiB": memory,
+        "equal error": equal,
+    }
+    | {"passes a step": passes, "newton iterations a step": newton, "work units a step": work}
+    for scene, kind, method, seconds, memory, passes, newton, work, equal in (
+        ("Tube", "monolithic", "monolithic", "2.0", "100", "", "3.0", "10", "yes"),
+        ("Tube", "block", "block-newton", "3.0", "110", "20.0", "3.0", "20", "yes"),
+        ("Tube", "interface", "robin-neumann-inexact", "9.0", "50", "8.0", "20.0", "40", "yes"),
+        ("Tube", "interface", "iqn-imvj", "90.0", "900", "9.0", "80.0", "90", "no, 3 times the error"),
+        ("Flag", "monolithic", "monolithic", "4.0", "200", "", "5.0", "10", "yes"),
+        ("Flag", "block", "block-newton", "4.0", "200", "30.0", "3.0", "20", "yes"),
+        ("Flag", "interface", "iqn-ils", "3.0", "200", "4.0", "20.0", "20", "yes"),
+        ("Pipe", "monolithic", "monolithic", "1.0", "70", "", "1.0", "5", "yes"),
+        ("Pipe", "block", "block-newton", "9.0", "70", "9.0", "1.0", "5", "yes"),
+        ("Pipe", "interface", "iqn-ils", "99.0", "70", "2.0", "2.0", "5", "no, 3 times the error"),
     )
 ]
 
@@ -85,11 +95,7 @@ class Tree(unittest.TestCase):
             (TABLE, PAGE.replace("8.2<!-- errors: mesh", "8.2 <!-- errors: mesh"), "a mark is not complete"),
             (TABLE, PAGE.replace("<!-- end -->", ""), "a mark is not complete"),
             (TABLE, PAGE.replace("errors.csv -->", "errors.csv, nothing -->"), "'nothing' is no function"),
-            (
-                TABLE,
-                PAGE.replace("errors.csv -->", "errors.csv, drivers_table -->"),
-                "drivers_table does not understand",
-            ),
+            (TABLE, PAGE.replace("errors.csv -->", "errors.csv, kinds_answer -->"), "kinds_answer does not understand"),
             (TABLE.replace("# made by a command\n", ""), PAGE, "does not say how it was made"),
             (TABLE.replace("fine,54540", "fine"), PAGE, "row 2 has not as many cells"),
         ):
@@ -139,15 +145,18 @@ class Numbers(unittest.TestCase):
         for path in tables:
             self.assertGreater(len(read_table(path)), 0)
 
-    def test_every_scene_that_both_drivers_run_is_measured(self):
+    def test_every_scene_with_both_media_is_measured(self):
         scenes = {path.parent.name: path.read_text(encoding="utf-8") for path in TOP.glob("gallery/*/scene.py")}
-        unmeasured = {"flap-in-merging-jets"}  # takes many minutes by each driver: docs/which.md says so
-        both = {name for name, text in scenes.items() if "DRIVERS = " not in text} - unmeasured
+        unmeasured = {"flap-in-merging-jets"}  # takes many minutes by each driver: scripts/coupling_kinds.py says so
+        both = {name for name, text in scenes.items() if "DRIVERS = " not in text and self.has_both(name)} - unmeasured
         self.assertGreater(len(both), 15)
-        paper = {f"{path.stem}-coarse" for path in TOP.glob("meshes/artery/*.toml")}
-        self.assertEqual(len(paper), 3)
-        measured = {pair.monolithic["case"] for pair in pairs(read_table(TOP / "docs" / "data" / "drivers.csv"))}
-        self.assertLessEqual(both | paper, measured)
+        self.assertLessEqual(both, {scene.case.stem for scene in coupling_kinds.SCENES})
+        measured = [scene.title for scene in kinds(read_table(TOP / "docs" / "data" / "coupling-kinds.csv"))]
+        self.assertEqual(measured, [scene.title for scene in coupling_kinds.SCENES])
+
+    def has_both(self, name):
+        case = (TOP / "gallery" / name / f"{name}.toml").read_text(encoding="utf-8")
+        return "\n[fluid]" in case and "\n[structure" in case
 
     def test_the_answer_page_is_checked_whole(self):
         page = (TOP / "docs" / "which.md").read_text(encoding="utf-8")
@@ -155,37 +164,51 @@ class Numbers(unittest.TestCase):
         self.assertEqual(renewed(page, TOP / "docs" / "data"), page)
 
 
-class Drivers(unittest.TestCase):
-    def test_ratios(self):
-        found = pairs(DRIVERS)
-        self.assertEqual([pair.title for pair in found], ["Flag", "Pipe", "Tube"])
-        self.assertEqual([pair.ratio("processor_s") for pair in found], [0.75, 1.0, 4.5])
-        self.assertEqual([pair.loose is not None for pair in found], [False, False, True])
+class KindsOfCoupling(unittest.TestCase):
+    def test_the_default_stands_for_the_interface_kind(self):
+        found = kinds(KINDS)
+        self.assertEqual([scene.title for scene in found], ["Tube", "Flag", "Pipe"])
+        self.assertEqual(
+            [scene.interface["method"] for scene in found], ["robin-neumann-inexact", "iqn-ils", "iqn-ils"]
+        )
+        self.assertEqual([scene.at_equal_error for scene in found], [True, True, False])
 
     def test_verdict(self):
-        text = drivers_verdict(DRIVERS)
-        self.assertIn("In 1 of 2 cases", text)
+        text = kinds_verdict(KINDS)
+        self.assertIn("In 1 of 2 scenes", text)
         self.assertIn("2.6 times as many in the median, 4.5 times at most, in Tube.", text)
         self.assertIn("It takes fewer in Flag.", text)
-        self.assertIn("In the largest run, Tube, it needs 0.50 GiB, the monolithic one 1.00.", text)
+        self.assertIn("Left out, since no tolerance led to the same error: Pipe.", text)
 
-    def test_why(self):
-        text = " ".join(drivers_why(DRIVERS).split())
-        self.assertIn("1.5 to 22 times as many Newton iterations", text)
-        self.assertIn("takes 0.20 to 0.50 of the seconds of a coupled one", text)
-        self.assertIn("highest in Tube, with 5.0 passes a step", text)
+    def test_answer(self):
+        lines = kinds_answer(KINDS).splitlines()
+        self.assertEqual(lines[0], "|  | `interface` | `block` | `monolithic` |")
+        self.assertIn("2 scenes: median (least to most) | 2.6 (0.75 to 4.5) | 1.2 (1 to 1.5) | 1 |", lines[2])
+        self.assertIn("| 3 (2 to 4) | 2 (2 to 2) | 1 |", lines[3])
+        self.assertIn("| 0.75 (0.5 to 1) | 1.1 (1 to 1.1) | 1 |", lines[4])
+        self.assertIn("6.0 passes", lines[5])
+        self.assertIn("25.0 cycles", lines[5])
+        self.assertIn("4.0 Newton iterations", lines[5])
 
-    def test_table(self):
-        lines = drivers_table(DRIVERS).splitlines()
-        self.assertEqual(len(lines), 5)
-        self.assertEqual(
-            lines[3], "| Tube | 10 | 2.0 | 1024 | 4.0 | 9.0 | 512 | 5.0 | 5.0 | **4.5** | **0.50** | 0.5 % |"
-        )
-        self.assertTrue(lines[4].startswith("| one medium: Pipe |"))
-
-    def test_a_driver_that_is_missing(self):
+    def test_a_kind_that_is_missing(self):
         with self.assertRaises(BlockError):
-            drivers_table(DRIVERS[:1])
+            kinds_answer(KINDS[:1])
+
+    def test_rungs(self):
+        rows = [
+            {"element": "p1", "cells": "6-2", "nodes": "1032", "step_ms": "0.0625", "kind": kind}
+            | {"error_percent": error, "processor_s": seconds}
+            for kind, error, seconds in (
+                ("monolithic", "2.5", "1.04"),
+                ("interface", "2.5", "2.5"),
+                ("block", "2.6", "17"),
+            )
+        ]
+        self.assertEqual(
+            kinds_by_rung(rows).splitlines()[2:], ["| p1 | 6-2 | 1,032 | 1/16 | 2.5 %, 2.6 % | 1 | 17 | 2.5 |"]
+        )
+        with self.assertRaises(BlockError):
+            kinds_by_rung(rows[:2])
 
 
 class ReferencesPage(unittest.TestCase):

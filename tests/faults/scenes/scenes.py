@@ -108,6 +108,7 @@ def scene(choose):
 class Scenes:
     def __init__(self, harness):
         self.harness = harness
+        self.scheme = harness.options.scheme
         self.unsolved = {program: 0 for program in DRIVERS}
         self.runs = itertools.count()
 
@@ -126,6 +127,8 @@ class Scenes:
     def solve(self, program, case, folder, *settings):
         """Displacements of the wall, or where solutions end, or None; what is wrong."""
         words = [case, "-o", folder, "-q", "--threads", 1]
+        if self.scheme and program == "fsi-partitioned":
+            settings = (*settings, f'partitioned.scheme="{self.scheme}"')
         for setting in settings:
             words += ["--set", setting]
         process = execute(self.harness.program(program), *words, timeout=600)
@@ -197,6 +200,7 @@ def distance(one, other):
 def main():
     def prepare(parser):
         parser.add_argument("--scenes", type=int, help="how many; 12 unless given, 60 with --full")
+        parser.add_argument("--scheme", help="of the partitioned driver; what it chooses unless given")
 
     harness = Harness(
         "scenes", __doc__.splitlines()[0], ("right", "unsolved", "without solution", "ambiguous"), prepare
