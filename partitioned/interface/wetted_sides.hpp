@@ -39,6 +39,20 @@ double area(const std::array<Point, n>& at, bool axisymmetric) {
   }
 }
 
+/// Whether a facet lies in a plane across an axis.
+template <int n>
+bool is_across(const std::array<Point, n>& at, int axis) {
+  constexpr double flat = 1e-6;  // of the facet
+  double along = 0, extent = 0;
+  for (const Point& x : at)
+    for (int k = 0; k < 3; ++k) {
+      const double off = std::abs(x[k] - at[0][k]);
+      extent = std::max(extent, off);
+      if (k == axis) along = std::max(along, off);
+    }
+  return along <= flat * extent;
+}
+
 }  // namespace wetted_sides
 
 template <int n>
@@ -65,12 +79,17 @@ WettedSides wetted_sides_of(const Scene<n>& scene) {
                                         [&part](int a, int b) { return part.mesh_node[a] < part.mesh_node[b]; });
     if (cells != 1 || !part.owns(first)) continue;
     const auto all = [&nodes = facet](const auto& holds) { return std::all_of(nodes.begin(), nodes.end(), holds); };
-    // Where one component vanishes at all nodes, but not the others, the facet lies on a plane of symmetry.
-    int vanishing = 0;
-    for (int k = 0; k < n; ++k) vanishing += all([&](int a) { return scene.wall_conditions.fixes(a, k); }) ? 1 : 0;
-    if (vanishing == 1) continue;
     std::array<Point, n> at;
     for (int i = 0; i < n; ++i) at[i] = part.nodes[facet[i]];
+    // Where the component along its normal vanishes at all nodes, but not the others, the facet lies on a plane of symmetry.
+    // An outer face that slides along nothing but its own plane is none.
+    int vanishing = 0, component = 0;
+    for (int k = 0; k < n; ++k)
+      if (all([&](int a) { return scene.wall_conditions.fixes(a, k); })) {
+        ++vanishing;
+        component = k;
+      }
+    if (vanishing == 1 && wetted_sides::is_across<n>(at, scene.axes[component])) continue;
     (all([&](int a) { return wet[a] != 0; }) ? sides.wet : sides.dry) += wetted_sides::area<n>(at, axisymmetric);
   }
   const Communicator& processes = scene.processes();

@@ -55,7 +55,7 @@ TEST(WettedSides, AWallBesideTheFluidDoesNot) {
 }
 
 // Faces count with their circumference: a tube's outer face is larger than its inner one, also where its ends, on planes
-// of symmetry, do not count.
+// of symmetry, do not count, and where it is held along the axis.
 TEST(WettedSides, ATubeDoesNot) {
   Case setup = one_layer();
   setup.geometry = Geometry::axisymmetric;
@@ -68,15 +68,20 @@ TEST(WettedSides, ATubeDoesNot) {
   std::map<std::string, std::vector<TriangleMesh::Facet>> groups;
   for (const auto& side : boundary_sides(mesh)) {
     const Point &a = mesh.nodes[side[0]], &b = mesh.nodes[side[1]];
-    if (a[2] != b[2]) continue;
     const bool wall = a[0] + b[0] > 4;
-    groups[wall ? "symmetry_z" : (a[2] == 0 ? "inlet" : "outlet")].push_back(side);
+    if (a[2] == b[2])
+      groups[wall ? "symmetry_z" : (a[2] == 0 ? "inlet" : "outlet")].push_back(side);
+    else if (wall)
+      groups["outer"].push_back(side);
   }
   for (const auto& [name, sides] : groups) mesh.facet_groups.push_back({name, sides});
-  const WettedSides sides = wetted_sides_of(*build_scene<P1AxisymmetricTriangle>(setup, mesh));
-  EXPECT_DOUBLE_EQ(sides.wet, 2 * 4);
-  EXPECT_DOUBLE_EQ(sides.dry, 3 * 4);
-  EXPECT_FALSE(sides.stands_in_the_fluid());
+  for (const bool held : {false, true}) {
+    if (held) setup.supports["outer"].fixed = {"z"};
+    const WettedSides sides = wetted_sides_of(*build_scene<P1AxisymmetricTriangle>(setup, mesh));
+    EXPECT_DOUBLE_EQ(sides.wet, 2 * 4);
+    EXPECT_DOUBLE_EQ(sides.dry, 3 * 4);
+    EXPECT_FALSE(sides.stands_in_the_fluid());
+  }
 }
 
 }  // namespace
