@@ -13,6 +13,7 @@
 #include "base/version.hpp"
 #include "meshes/adapt_command.hpp"
 #include "meshes/artery_command.hpp"
+#include "meshes/check_command.hpp"
 #include "meshes/geo_command.hpp"
 #include "meshes/import_command.hpp"
 #include "meshes/lumen_command.hpp"
@@ -39,7 +40,7 @@ int run(int argc, const char* const* argv) {
   app.require_subcommand(1);
   const std::vector<fsi::MeshCommand> commands{
       fsi::artery_command(app),  fsi::geo_command(app),    fsi::import_command(app), fsi::lumen_command(app),
-      fsi::thicken_command(app), fsi::refine_command(app), fsi::adapt_command(app)};
+      fsi::thicken_command(app), fsi::refine_command(app), fsi::adapt_command(app),  fsi::check_command(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,16 +12,12 @@
 #include "base/standard_streams.hpp"
 #include "base/threads.hpp"
 #include "mesh/edge_curves.hpp"
-#include "mesh/flat_parts.hpp"
 #include "mesh/group_names.hpp"
-#include "mesh/point_math.hpp"
 #include "mesh/surface/lumen_mesh.hpp"
-#include "mesh/surface/sound_surface.hpp"
-#include "mesh/surface/surface_file.hpp"
-#include "meshes/converted.hpp"
 #include "meshes/curved_lumen.hpp"
 #include "meshes/mesh_report.hpp"
 #include "meshes/options.hpp"
+#include "meshes/surface_input.hpp"
 #include "run/program.hpp"
 
 namespace fsi {
@@ -31,54 +25,13 @@ namespace fsi {
 namespace {
 
 struct LumenOptions {
-  std::string surface, unit;
+  SurfaceInput input;
   std::vector<std::string> openings, closed, cuts, extensions;
-  bool list = false, largest_shell = false;
+  bool list = false;
   int order = 1;
   LumenRequest request;
   MeshOutput output;
 };
-
-const std::map<std::string, double> units{{"mm", 1}, {"cm", 10}, {"m", 1000}};  // in mm
-
-/// Openings no vessel has in mm: a file in another unit. Where the unit is given, that is a warning.
-void require_plausible(const LumenOptions& options, const std::vector<LumenOpening>& openings) {
-  constexpr double narrowest = 0.1, widest = 100;  // mm: arterioles, twice an aneurysm of the aorta
-  if (openings.empty()) return;
-  const double width = openings.front().diameter();
-  if (width >= narrowest && width <= widest) return;
-  if (!options.unit.empty()) {
-    warn(mesh_program,
-         fmt::format(
-             "{}: --unit {}: the widest opening, at {}, measures {:.3g} mm, as no vessel's does: is {} the unit of the "
-             "file?",
-             options.surface, options.unit, fsi::place_of(openings.front().centre), width, options.unit));
-    return;
-  }
-  std::string fitting;
-  for (const auto& [unit, length] : units)
-    if (width * length >= 1 && width * length <= widest) fitting += (fitting.empty() ? "" : " or ") + unit;
-  throw InputError(
-      options.surface, "--unit",
-      fmt::format("is not given, and in mm the widest opening would measure {:.3g} mm, as no vessel's does", width),
-      fitting.empty() ? "give --unit m, cm or mm: that of the file"
-                      : "the file may be in " + fitting + ": give --unit, mm if it is so");
-}
-
-OpenedLumen read(const LumenOptions& options, std::vector<std::string>& done) {
-  const std::filesystem::path file = options.surface;
-  auto surface =
-      file.extension() == ".vtp"
-          ? triangles_of_obj(converted(options.surface, {"convert-surface", options.surface}), options.surface)
-          : read_triangles(file);
-  if (!options.unit.empty())
-    for (auto& node : surface.nodes) node = units.at(options.unit) * node;
-  auto sound = sound_surface(std::move(surface), options.largest_shell, options.surface);
-  done = std::move(sound.done);
-  auto lumen = opened(sound.surface);
-  require_plausible(options, lumen.openings);
-  return lumen;
-}
 
 /// Layers are given by their first thickness, or by the Womersley number.
 void require_layers(const LumenRequest& request) {
@@ -101,7 +54,7 @@ void make(LumenOptions& options) {
   std::vector<std::string> done;
   auto& request = options.request;
   if (options.list) {
-    const auto lumen = read(options, done);
+    const auto lumen = read_lumen_surface(options.input, done);
     std::string text;
     for (const auto& sentence : done) text += sentence + "\n";
     print(text + to_text(lumen.openings));
@@ -116,9 +69,9 @@ void make(LumenOptions& options) {
   for (const auto& text : options.closed) request.closed.push_back(closed_choice_of(text));
   request.cuts = lengths_of("--cut", options.cuts);
   request.extensions = lengths_of("--extension", options.extensions);
-  request.file = options.surface;
+  request.file = options.input.file;
   require_layers(request);
-  auto lumen = read(options, done);
+  auto lumen = read_lumen_surface(options.input, done);
   const auto made = mesh_lumen(std::move(lumen), request);
   done.insert(done.end(), made.done.begin(), made.done.end());
   std::string foreword;
@@ -155,7 +108,7 @@ void add_layer_options(CLI::App& command, LumenRequest& request) {
 MeshCommand lumen_command(CLI::App& app) {
   auto* command = app.add_subcommand("lumen", "The mesh of a lumen, from a segmented surface as it comes");
   const auto options = std::make_shared<LumenOptions>();
-  command->add_option("surface", options->surface, "Surface of the lumen, open or closed: .stl, .ply, .obj or .vtp")
+  command->add_option("surface", options->input.file, "Surface of the lumen, open or closed: .stl, .ply, .obj or .vtp")
       ->required();
   command->add_flag("--list-openings", options->list,
                     "Print number, area, place and normal of each opening, and write nothing");
@@ -163,9 +116,10 @@ MeshCommand lumen_command(CLI::App& app) {
                       "NAME=NUMBER or NAME=X,Y,Z: names an opening, by its number in the list or by a point near it");
   command->add_option("--closed", options->closed,
                       "NUMBER or X,Y,Z: a hole or flat part that is no opening; it is closed");
-  command->add_option("--unit", options->unit, "Unit of length of the surface's file; mm unless given")
+  command->add_option("--unit", options->input.unit, "Unit of length of the surface's file; mm unless given")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
-  command->add_flag("--largest-shell", options->largest_shell, "Leave out all parts of the surface but the largest");
+  command->add_flag("--largest-shell", options->input.largest_shell,
+                    "Leave out all parts of the surface but the largest");
   command->add_option("--smoothing", options->request.smoothing, "Passes of smoothing that keeps the volume (Taubin's)")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000));

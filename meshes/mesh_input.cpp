@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -58,25 +59,27 @@ AnyMesh read_whole(const std::string& file, const std::vector<std::string>& regi
 
 }  // namespace
 
-ReadMesh read_mesh_file(const std::string& file) {
+MeshLayout mesh_layout(const std::string& file) {
   require_mesh(file);
-  ReadMesh result{{}, TriangleGeometry::plane, {}};
-  int dimension = 0, order = 0;
-  std::vector<std::string> regions;
-  {
-    const GmshFile parsed = parse_gmsh(file);
-    dimension = std::max(2, gmsh_dimension(parsed));  // the reader says what a file without surfaces lacks
-    order = gmsh_order(parsed, dimension);
-    regions = regions_of(parsed, dimension);
-    if (dimension == 2) result.plane = plane_of(parsed);
-    for (const auto& name : parsed.names) result.tags.try_emplace({name.dimension, name.name}, name.tag);
-    result.left_out = cells_in(parsed, dimension);
-  }
-  if (regions.empty())
+  MeshLayout layout;
+  const GmshFile parsed = parse_gmsh(file);
+  layout.dimension = std::max(2, gmsh_dimension(parsed));  // the reader says what a file without surfaces lacks
+  layout.order = gmsh_order(parsed, layout.dimension);
+  layout.regions = regions_of(parsed, layout.dimension);
+  if (layout.dimension == 2) layout.plane = plane_of(parsed);
+  for (const auto& name : parsed.names) layout.tags.try_emplace({name.dimension, name.name}, name.tag);
+  layout.cells = cells_in(parsed, layout.dimension);
+  if (layout.regions.empty())
     throw InputError(file, "$PhysicalNames", "the file names no physical volume and no physical surface",
                      "name the parts in gmsh, e.g. Physical Volume(\"fluid\") = {1};");
-  result.mesh = read_whole(file, regions, dimension, order, result.plane);
-  result.left_out -= std::visit([](const auto& mesh) { return mesh.cells.size(); }, result.mesh);
+  return layout;
+}
+
+ReadMesh read_mesh_file(const std::string& file) {
+  MeshLayout layout = mesh_layout(file);
+  ReadMesh result{{}, layout.plane, std::move(layout.tags)};
+  result.mesh = read_whole(file, layout.regions, layout.dimension, layout.order, layout.plane);
+  result.left_out = layout.cells - std::visit([](const auto& mesh) { return mesh.cells.size(); }, result.mesh);
   return result;
 }
 

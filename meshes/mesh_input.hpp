@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "mesh/geo_script.hpp"
 #include "mesh/simplex_mesh.hpp"
@@ -17,6 +18,18 @@ struct ReadMesh {
   std::map<std::pair<int, std::string>, int> tags;
   std::size_t left_out = 0;  ///< cells in no physical group with a name
 };
+
+/// What a .msh file holds, before its mesh is made.
+struct MeshLayout {
+  int dimension = 3, order = 1;
+  std::vector<std::string> regions;  ///< names of its volumes, of triangles its surfaces
+  TriangleGeometry plane = TriangleGeometry::plane;
+  std::map<std::pair<int, std::string>, int> tags;
+  std::size_t cells = 0;  ///< of the dimension, named or not
+};
+
+/// \throws InputError for a script, a file that cannot be parsed, and one that names no volume and no surface
+MeshLayout mesh_layout(const std::string& file);
 
 /// The mesh of a .msh file: all of its physical groups, in the order of its cells.
 /// \throws InputError for a script, and for what read_gmsh() refuses

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -52,8 +53,9 @@ class Reader {
   using Words = CellWords<Dim>;
 
  public:
-  Reader(std::string file, GmshFile gmsh, const std::vector<std::string>& wanted, TriangleGeometry geometry)
-      : file_(std::move(file)), gmsh_(std::move(gmsh)), index_(gmsh_, file_), geometry_(geometry) {
+  Reader(std::string file, GmshFile gmsh, const std::vector<std::string>& wanted, TriangleGeometry geometry,
+         std::vector<MeshFault>* faults)
+      : file_(std::move(file)), gmsh_(std::move(gmsh)), index_(gmsh_, file_), geometry_(geometry), faults_(faults) {
     mesh_.regions = wanted;
   }
 
@@ -75,6 +77,13 @@ class Reader {
  private:
   [[noreturn]] void fail(const std::string& key, const std::string& problem, const std::string& remedy) const {
     throw InputError(file_, key, problem, remedy);
+  }
+
+  /// What a caller may want to hear of together with all else that is wrong.
+  void fault(MeshFault::Kind kind, const std::string& key, const std::string& problem,
+             const std::string& remedy) const {
+    if (faults_ == nullptr) fail(key, problem, remedy);
+    faults_->push_back({kind, InputError(file_, key, problem, remedy).what()});
   }
 
   /// Which wanted region each physical tag of the cells' dimension stands for.
@@ -142,9 +151,9 @@ class Reader {
     const auto unused = std::count(used.begin(), used.end(), 0);
     if (unused > 0) {
       const auto first = std::find(used.begin(), used.end(), 0) - used.begin();
-      fail("$Nodes",
-           fmt::format("unused nodes: {} in no element, the first is node {}", unused, gmsh_.node_tags[first]),
-           "remove them, e.g. in gmsh by Coherence Mesh and saving without Mesh.SaveAll");
+      fault(MeshFault::Kind::unused_nodes, "$Nodes",
+            fmt::format("unused nodes: {} in no element, the first is node {}", unused, gmsh_.node_tags[first]),
+            "remove them, e.g. in gmsh by Coherence Mesh and saving without Mesh.SaveAll");
     }
   }
 
@@ -205,7 +214,21 @@ class Reader {
            "save all of them with one Mesh.ElementOrder, 1 or 2");
   }
 
+  /// Cells of one kind that no driver takes.
+  struct BadCells {
+    MeshFault::Kind kind;
+    std::size_t count = 0;
+    std::string key{}, problem{}, remedy{};  ///< of the first
+
+    template <class Says>
+    void add(const Says& says) {
+      if (count++ == 0) std::tie(key, problem, remedy) = says();
+    }
+  };
+
   void check_shapes() const {
+    BadCells inverted{MeshFault::Kind::inverted_cells}, degenerate{MeshFault::Kind::flat_cells},
+        curved{MeshFault::Kind::folded_curved_cells};
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
       std::array<Point, nodes_of_simplex(Dim, Order)> x;
       for (std::size_t k = 0; k < x.size(); ++k) x[k] = gmsh_.nodes[mesh_.cells[c][k]];
@@ -215,21 +238,35 @@ class Reader {
         for (int b = a + 1; b <= Dim; ++b) longest = std::max(longest, distance(x[a], x[b]));
       double least = smallest_relative_volume;
       for (int d = 0; d < Dim; ++d) least *= longest;
-      const auto key = [&] {
-        return fmt::format("element {} of {}", cell_tags_[c], mesh_.regions[mesh_.cell_region[c]]);
+      const auto bad = [&](BadCells& kind, const std::string& problem, const std::string& remedy) {
+        kind.add([&] {
+          const auto key = fmt::format("element {} of {}", cell_tags_[c], mesh_.regions[mesh_.cell_region[c]]);
+          return std::tuple(key, problem + (faults_ ? at_vertices(x) : ""), remedy);
+        });
+        if (faults_ == nullptr) fail(kind.key, kind.problem, kind.remedy);
       };
       if (volume < -least)
-        fail(key(), fmt::format("inverted {}, {} {:.6g} {}", Words::cell, Words::measure, volume, Words::unit),
-             "order its nodes so that the volume is positive, or mesh again");
-      if (!(volume > least))
-        fail(key(),
-             fmt::format("degenerate {}, {} {:.6g} {} with edges up to {:.6g} mm", Words::cell, Words::measure, volume,
-                         Words::unit, longest),
-             "mesh again, with Mesh.Optimize = 1");
-      if constexpr (Order == 2)
+        bad(inverted, fmt::format("inverted {}, {} {:.6g} {}", Words::cell, Words::measure, volume, Words::unit),
+            "order its nodes so that the volume is positive, or mesh again");
+      else if (!(volume > least))
+        bad(degenerate,
+            fmt::format("degenerate {}, {} {:.6g} {} with edges up to {:.6g} mm", Words::cell, Words::measure, volume,
+                        Words::unit, longest),
+            "mesh again, with Mesh.Optimize = 1");
+      else if constexpr (Order == 2)
         if (const auto jacobian = cell_jacobian<Dim>(x); !jacobian.positive)
-          fail(key(), bad_curved_cell(jacobian), curved_cell_remedy);
+          bad(curved, bad_curved_cell(jacobian), curved_cell_remedy);
     }
+    for (const auto& kind : {inverted, degenerate, curved})
+      if (kind.count > 0)
+        fault(kind.kind, kind.key, kind.problem + (kind.count > 1 ? fmt::format(", and {} more", kind.count - 1) : ""),
+              kind.remedy);
+  }
+
+  static std::string at_vertices(const std::array<Point, nodes_of_simplex(Dim, Order)>& x) {
+    Point centre{0, 0, 0};
+    for (int a = 0; a <= Dim; ++a) centre = centre + (1.0 / (Dim + 1)) * x[a];
+    return fmt::format(", at ({:.4g}, {:.4g}, {:.4g}) mm", centre[0], centre[1], centre[2]);
   }
 
   /// In version 2.2 an element in two groups is listed once for each of them.
@@ -249,8 +286,10 @@ class Reader {
       if (name != other)
         fail(name, fmt::format("element {} is in {} {}, too", cell_tags_[first], region_word, other),
              fmt::format("put every element into one {} only", Words::region_group));
-      fail(name, fmt::format("elements {} and {} have the same nodes", cell_tags_[first], cell_tags_[second]),
-           "remove one of them");
+      fault(MeshFault::Kind::repeated_cells, name,
+            fmt::format("elements {} and {} have the same nodes", cell_tags_[first], cell_tags_[second]),
+            "remove one of them");
+      return;
     }
   }
 
@@ -365,6 +404,7 @@ class Reader {
   GmshFile gmsh_;
   NodeIndex index_;
   TriangleGeometry geometry_;
+  std::vector<MeshFault>* faults_;
   Mesh mesh_;  // with places in the file as node numbers until the last step
   std::map<int, int> region_of_tag_;
   std::vector<std::int64_t> cell_tags_;
@@ -388,12 +428,13 @@ bool has_quadratic_cells(const GmshFile& gmsh, const std::vector<std::string>& w
 
 template <int Dim, int Order>
 SimplexMesh<Dim, Order> read_gmsh(const std::filesystem::path& path, const std::vector<std::string>& regions_wanted,
-                                  TriangleGeometry geometry) {
+                                  TriangleGeometry geometry, std::vector<MeshFault>* faults) {
   auto gmsh = parse_gmsh(path);
   if constexpr (Order == 2)
     if (!has_quadratic_cells(gmsh, regions_wanted, Dim))
-      return with_mid_edge_nodes(Reader<Dim, 1>(path.string(), std::move(gmsh), regions_wanted, geometry).read());
-  return Reader<Dim, Order>(path.string(), std::move(gmsh), regions_wanted, geometry).read();
+      return with_mid_edge_nodes(
+          Reader<Dim, 1>(path.string(), std::move(gmsh), regions_wanted, geometry, faults).read());
+  return Reader<Dim, Order>(path.string(), std::move(gmsh), regions_wanted, geometry, faults).read();
 }
 
 std::vector<std::string> gmsh_regions(const std::filesystem::path& path, int dimension) {
@@ -423,7 +464,7 @@ int gmsh_order(const GmshFile& file, int dimension) {
 
 #define INSTANTIATE(Dim, Order)                                                                             \
   template SimplexMesh<Dim, Order> read_gmsh(const std::filesystem::path&, const std::vector<std::string>&, \
-                                             TriangleGeometry);
+                                             TriangleGeometry, std::vector<MeshFault>*);
 FSI_FOR_EACH_MESH(INSTANTIATE)
 #undef INSTANTIATE
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/gmsh_file.hpp"
+#include "mesh/mesh_fault.hpp"
 #include "mesh/simplex_mesh.hpp"
 
 namespace fsi {
@@ -32,9 +33,12 @@ namespace fsi {
 /// repeated node tags; nodes that no element uses; elements of the surfaces named in group_names.hpp that are no facet
 /// of any cell; triangles out of the plane, or with a negative radius.
 /// \param geometry  of triangle meshes
+/// \param faults  where it is given, unused nodes, inverted and degenerate cells and cells that are there twice are no error:
+/// each kind is an entry here, of the first one and how many more there are
 template <int Dim = 3, int Order = 1>
 SimplexMesh<Dim, Order> read_gmsh(const std::filesystem::path& path, const std::vector<std::string>& regions_wanted,
-                                  TriangleGeometry geometry = TriangleGeometry::axisymmetric);
+                                  TriangleGeometry geometry = TriangleGeometry::axisymmetric,
+                                  std::vector<MeshFault>* faults = nullptr);
 
 /// Names of the physical groups of a dimension that the file has, in the file's order: what a case file may give
 /// materials to are the volumes (3) of a three-dimensional mesh, the surfaces (2) of a two-dimensional one.

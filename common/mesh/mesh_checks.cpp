@@ -36,10 +36,38 @@ class Checks {
     check_surfaces(checked_);
     fluid_in_one_piece();
     wall_held();
-    if (checked_.fluid >= 0 && !checked_.layers.empty()) check_interface(checked_);
+    check_contact();
+  }
+
+  /// What each of these steps refuses. Without sound facets the steps behind them mean nothing.
+  std::vector<MeshFault> faults() {
+    using Kind = MeshFault::Kind;
+    std::vector<MeshFault> found;
+    const auto passes = [&](Kind kind, const auto& step) {
+      try {
+        step();
+        return true;
+      } catch (const InputError& error) {
+        found.push_back({kind, error.what()});
+        return false;
+      }
+    };
+    if (!passes(Kind::volumes, [&] { volumes(); })) return found;
+    passes(Kind::doubled_nodes, [&] { same_place(); });
+    passes(Kind::folded_curved_cells, [&] { curved_cells(); });
+    if (!passes(Kind::folded_facets, [&] { facets_of_cells(); })) return found;
+    passes(Kind::surfaces, [&] { check_surfaces(checked_); });
+    passes(Kind::fluid_in_pieces, [&] { fluid_in_one_piece(); });
+    passes(Kind::loose_wall, [&] { wall_held(); });
+    passes(Kind::interface, [&] { check_contact(); });
+    return found;
   }
 
  private:
+  void check_contact() const {
+    if (checked_.fluid >= 0 && !checked_.layers.empty()) check_interface(checked_);
+  }
+
   void volumes() {
     const auto find = [&](const std::string& name) {
       const int region = checked_.mesh.region_index(name);
@@ -196,8 +224,16 @@ void check_scene_mesh(const SimplexMesh<Dim, Order>& mesh, const SceneMeshNeeds&
   Checks<Dim, Order>(mesh, needs, file).run();
 }
 
-#define INSTANTIATE(Dim, Order) \
-  template void check_scene_mesh(const SimplexMesh<Dim, Order>&, const SceneMeshNeeds&, const std::string&);
+template <int Dim, int Order>
+std::vector<MeshFault> scene_mesh_faults(const SimplexMesh<Dim, Order>& mesh, const SceneMeshNeeds& needs,
+                                         const std::string& file) {
+  return Checks<Dim, Order>(mesh, needs, file).faults();
+}
+
+#define INSTANTIATE(Dim, Order)                                                                              \
+  template void check_scene_mesh(const SimplexMesh<Dim, Order>&, const SceneMeshNeeds&, const std::string&); \
+  template std::vector<MeshFault> scene_mesh_faults(const SimplexMesh<Dim, Order>&, const SceneMeshNeeds&,   \
+                                                    const std::string&);
 FSI_FOR_EACH_MESH(INSTANTIATE)
 #undef INSTANTIATE
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/mesh_fault.hpp"
 #include "mesh/simplex_mesh.hpp"
 
 namespace fsi {
@@ -33,5 +34,10 @@ struct SceneMeshNeeds {
 /// on the axis of an axisymmetric mesh, nor in a surface of `supports` where an opening begins.
 template <int Dim, int Order>
 void check_scene_mesh(const SimplexMesh<Dim, Order>& mesh, const SceneMeshNeeds& needs, const std::string& file);
+
+/// The same checks, of which each says the first thing that it refuses. Empty for a mesh that check_scene_mesh() takes.
+template <int Dim, int Order>
+std::vector<MeshFault> scene_mesh_faults(const SimplexMesh<Dim, Order>& mesh, const SceneMeshNeeds& needs,
+                                         const std::string& file);
 
 }  // namespace fsi

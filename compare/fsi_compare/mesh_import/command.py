@@ -10,10 +10,11 @@ import numpy as np
 from ..base.errors import InputError, printable, say_warning
 from ..base.files import replacing
 from ..base.options import Commands, add_command
-from .groups import Group, as_sides, choose_groups, left_out
+from .examining import examined
+from .groups import Group, as_sides, choose_groups, left_out, named_parts
 from .joining import distances_to
-from .listing import listing, unit_words
-from .parts import FoundMesh, shown_names
+from .listing import guessed_groups, listing, separate_volumes, unit_words
+from .parts import FoundMesh, dimensions_of, shown_names
 from .raw_mesh import ELEMENTS, KINDS, Block
 from .sources import Source, join, read_sources, source_of
 from .touching import contacts, doubled_words, gap_words
@@ -32,6 +33,9 @@ def add_parser(commands: Commands, version: str) -> None:
     command.add_argument("--group", metavar="NAME=PART", action="append", default=[])
     command.add_argument("--scale", metavar="FACTOR", type=float, default=1.0, help="from the file's unit to mm")
     command.add_argument("--join", metavar="TOLERANCE", type=float, help="points so far apart are one, mm")
+    command.add_argument(
+        "--examine", action="store_true", help="say size, gaps and doubled points; with -o a mesh of all"
+    )
     command.add_argument("--list", action="store_true", help="say what parts the file has, and write nothing")
 
 
@@ -41,7 +45,7 @@ def convert_mesh(options: argparse.Namespace) -> int:
         raise InputError("", "--scale", f"{options.scale:g} is no factor", "give 1000 for a mesh in m")
     if options.join is not None and not 0 < options.join < float("inf"):
         raise InputError("", "--join", f"{options.join:g} is no distance", "give mm, for one 0.001")
-    if not options.list and options.output is None:
+    if not options.list and not options.examine and options.output is None:
         raise InputError("", "--output", "is not given", "give -o FILE.msh, or --list")
     sources = [source_of(text) for text in options.meshes]
     file = sources[0].file if len(sources) == 1 else " ".join(options.meshes)
@@ -49,7 +53,11 @@ def convert_mesh(options: argparse.Namespace) -> int:
     said = join(file, mesh, ends, options.join or 0.0)
     if mesh.passed_over:
         said.append(f"Passed over, since they say no parts: {shown_names(mesh.passed_over)}")
-    if options.list:
+    if options.examine:
+        said = examined(file, mesh, options.scale)
+        if options.output is not None:
+            said += _convert_all(file, mesh, options)
+    elif options.list:
         said = listing(mesh, options.meshes, sources, options.scale, options.join or 0.0) + said
     else:
         said += _convert(file, mesh, sources, options)
@@ -74,6 +82,23 @@ def _convert(file: str, mesh: FoundMesh, sources: Sequence[Source], options: arg
     said = [f"{turned} cells were turned inside out and are turned back"] if turned else []
     others = [] if wanted or options.group else left_out(mesh)
     return said + ([f"Left out, since no --group names them: {shown_names(others)}"] if others else [])
+
+
+def _convert_all(file: str, mesh: FoundMesh, options: argparse.Namespace) -> List[str]:
+    """Writes all volumes, and the surfaces that are named or flat, by names that are guesses."""
+    wanted = guessed_groups(mesh, separate_volumes(mesh))
+    known = {part for _, part in wanted}
+    wanted += [(name, name) for name in named_parts(mesh) if name not in known and _is_surface(mesh, name)]
+    groups = choose_groups(file, mesh, wanted)
+    turned = _turn(mesh, groups)
+    with replacing(options.output) as temporary, open(temporary, "w", encoding="utf-8") as out:
+        _write(out, mesh, groups)
+    said = [f"taken for: {', '.join(f'{name}={part}' for name, part in wanted)}"]
+    return said + ([f"{turned} cells are inside out; fsi-mesh import turns them"] if turned else [])
+
+
+def _is_surface(mesh: FoundMesh, name: str) -> bool:
+    return dimensions_of(mesh, mesh.cells[name]) == [mesh.dimension - 1]
 
 
 def _require_sides(file: str, mesh: FoundMesh, groups: List[Group], sources: Sequence[Source]) -> None:

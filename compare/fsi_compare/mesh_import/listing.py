@@ -44,7 +44,7 @@ class _Extent:
 def listing(mesh: FoundMesh, words: Sequence[str], sources: Sequence[Source], scale: float, join: float) -> List[str]:
     """Lines. `words` are the files as the user gave them; the mesh is scaled already."""
     lines = _table(mesh, scale)
-    volumes = _volumes(mesh)
+    volumes = separate_volumes(mesh)
     lines += _touching(mesh, volumes)
     factor = scale
     if scale == 1:
@@ -65,6 +65,11 @@ def _box(points: np.ndarray, blocks: Sequence[Block]) -> np.ndarray:
         used[block.nodes.ravel()] = True
     there = points[used]
     return there.max(axis=0) - there.min(axis=0) if len(there) else np.zeros(3)
+
+
+def box_of(mesh: FoundMesh, name: str) -> np.ndarray:
+    """Extents of a part along x, y and z."""
+    return _box(mesh.points, _cells(mesh, name))
 
 
 def _extent(points: np.ndarray, blocks: Sequence[Block]) -> _Extent:
@@ -119,7 +124,7 @@ def _table(mesh: FoundMesh, scale: float) -> List[str]:
     return lines + ([f"... and {left} parts more"] if left > 0 else [])
 
 
-def _volumes(mesh: FoundMesh) -> Dict[str, List[Block]]:
+def separate_volumes(mesh: FoundMesh) -> Dict[str, List[Block]]:
     """Parts of cells, none of which shares a cell with another: named ones first."""
     found: Dict[str, List[Block]] = {}
     taken = [np.zeros(len(block.nodes), dtype=bool) for block in mesh.blocks]
@@ -196,9 +201,31 @@ def _command(
 ) -> List[str]:
     """The call that makes the mesh of a case, with names where a guess is to be had."""
     given = [source.name for source in sources if source.name]
-    groups = []
-    if not given:
-        groups = list(_roles(mesh, volumes).items())
+    groups = guessed_groups(mesh, volumes, given)
+    target = Path(sources[0].path.name).with_suffix(".msh").name
+    target = "imported.msh" if len(sources) > 1 or target == sources[0].path.name else target
+    command = ["fsi-mesh", "import", *words, "-o", target]
+    command += ["--scale", f"{factor:g}"] if factor != 1 else []
+    command += ["--join", f"{join:g}"] if join else []
+    for name, part in groups:
+        command += ["--group", f"{name}={part}"]
+    text = " ".join(shlex.quote(word) for word in command)
+    openings = len(groups) > len(volumes) or len(given) > len(volumes)
+    fluid = "fluid" in given or any(name == "fluid" for name, _ in groups)
+    note = "" if openings or mesh.dimension == 2 or not fluid else " --opening NAME=X,Y,Z"
+    found = ["The command; names are guesses:" if groups else "The command:", printable(f"  {text}{note}")]
+    if note:
+        found.append("  with an --opening for each flat end of the fluid, X,Y,Z a point on it, mm")
+    if len(volumes) == 1 and fluid and not given and not any(word in next(iter(volumes)).lower() for word in FLUID):
+        found.append(f"  or, where that is a wall without fluid, --group wall={next(iter(volumes))} and no --opening")
+    return found
+
+
+def guessed_groups(
+    mesh: FoundMesh, volumes: Dict[str, List[Block]], given: Sequence[str] = ()
+) -> List[Tuple[str, str]]:
+    """Names and parts: roles of the volumes, and flat surfaces, which may be openings. `given` have a name already."""
+    groups = [] if given else list(_roles(mesh, volumes).items())
     cells = [block for blocks in volumes.values() for block in blocks]
     surfaces = [
         name
@@ -221,23 +248,7 @@ def _command(
             facets = facets_between(flat, points)
             if facets and _extent(mesh.points, facets).flat:
                 groups.append((_name(name), name))
-    target = Path(sources[0].path.name).with_suffix(".msh").name
-    target = "imported.msh" if len(sources) > 1 or target == sources[0].path.name else target
-    command = ["fsi-mesh", "import", *words, "-o", target]
-    command += ["--scale", f"{factor:g}"] if factor != 1 else []
-    command += ["--join", f"{join:g}"] if join else []
-    for name, part in groups:
-        command += ["--group", f"{name}={part}"]
-    text = " ".join(shlex.quote(word) for word in command)
-    openings = len(groups) > len(volumes) or len(given) > len(volumes)
-    fluid = "fluid" in given or any(name == "fluid" for name, _ in groups)
-    note = "" if openings or mesh.dimension == 2 or not fluid else " --opening NAME=X,Y,Z"
-    found = ["The command; names are guesses:" if groups else "The command:", printable(f"  {text}{note}")]
-    if note:
-        found.append("  with an --opening for each flat end of the fluid, X,Y,Z a point on it, mm")
-    if len(volumes) == 1 and fluid and not given and not any(word in next(iter(volumes)).lower() for word in FLUID):
-        found.append(f"  or, where that is a wall without fluid, --group wall={next(iter(volumes))} and no --opening")
-    return found
+    return groups
 
 
 def _roles(mesh: FoundMesh, volumes: Dict[str, List[Block]]) -> Dict[str, str]:

@@ -63,6 +63,12 @@ def _shared_sides(first: Sequence[Block], second: Sequence[Block]) -> int:
     return count
 
 
+def lonely(volumes: Mapping[str, Sequence[Block]], found: Sequence[Contact]) -> List[str]:
+    """Volumes that share no side with another one, where there are several."""
+    touching = {name for contact in found if contact.sides for name in (contact.first, contact.second)}
+    return [name for name in volumes if name not in touching] if len(volumes) > 1 else []
+
+
 def gap_words(contact: Contact) -> str:
     """Of two volumes without a side in common."""
     what = f"{contact.first} and {contact.second} share {contact.points or 'no'} points and no side"

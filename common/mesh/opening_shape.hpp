@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/simplex_mesh.hpp"
+
+namespace fsi {
+
+/// What an opening of a lumen looks like. Of quadratic facets the flat triangles between the vertices.
+struct OpeningShape {
+  std::size_t triangles = 0;
+  double area = 0;          ///< mm^2
+  Point centre{0, 0, 0};    ///< of gravity, mm
+  Point normal{0, 0, 0};    ///< unit, the mean one
+  double off_plane = 0;     ///< largest distance of a vertex from the plane through the centre, mm
+  int rims = 0;             ///< closed lines around it: one around a disk, two around an annulus
+  double nearest_rim = 0;   ///< distances of the rims' vertices from the centre, mm
+  double farthest_rim = 0;  ///< mm
+  double radius() const;    ///< of the disk of this area, mm
+
+  bool flat() const;   ///< its vertices are within 5 % of the radius of one plane
+  bool round() const;  ///< one rim, whose vertices are equally far from the centre within a quarter
+};
+
+/// \tparam Nodes  of a facet, 3 or 6
+template <std::size_t Nodes>
+OpeningShape shape_of_opening(const std::vector<Point>& nodes, const std::vector<std::array<int, Nodes>>& surface);
+
+/// "12.6 mm^2, radius 2 mm, at (0, 0, 0) mm, flat, round": what it is, as a part of a sentence.
+std::string to_text(const OpeningShape& shape);
+
+/// What a disk cut across a vessel has not: "is one triangle", "is bent, ...", "has 2 rims, ..."; empty: nothing of this. That it
+/// is not round is no fault.
+std::string said_of(const OpeningShape& shape);
+
+}  // namespace fsi
