@@ -187,8 +187,9 @@ class MeshDoctor {
     if (cells.empty()) return;
     findings_.stop(
         drivers + " with the element p2p1 where the velocity is given all round",
-        fmt::format("{} {} of the fluid in corners have a pressure without an equation, the first at {}", cells.size(),
-                    Dim == 3 ? "tetrahedra" : "triangles", place_of(centre_of_vertices(mesh_, cells.front()))),
+        fmt::format("cells of the fluid in corners, {} {}, have pressures without an equation, the first at {}",
+                    cells.size(), cells.size() == 1 ? CellWords<Dim>::cell : CellWords<Dim>::cells,
+                    place_of(centre_of_vertices(mesh_, cells.front()))),
         std::filesystem::path(findings_.file()).extension() == ".msh"
             ? fmt::format("fsi-mesh refine {} --times 0 -o NEW.msh divides them", printable(findings_.file()))
             : import_with(findings_, "") + " divides them");
@@ -262,7 +263,8 @@ class MeshDoctor {
     if (walls_.empty()) return;
     if (fluid_ < 0 && mesh_.facets(group::inner) == nullptr)
       findings_.note(
-          "wall: its inner face has no name, so its thickness is not known; pressures act on a surface inner");
+          "wall: its inner face has no name, so its thickness is not known; pressures act on a surface inner: " +
+          import_with(findings_, " --wall-faces") + " names the faces of a tube");
     for (const auto& range : thickness_ranges(mesh_)) {
       const int region = mesh_.region_index(range.name);
       const int layers = region >= 0 ? element_layers(mesh_, region) : 0;
@@ -413,8 +415,8 @@ void examine_surface(const CheckOptions& options, Findings& findings) {
                                 opening.capped ? "a flat cap" : "a hole", opening.area, opening.diameter() / 2,
                                 place_of(opening.centre)));
     }
-    if (lumen.openings.empty())
-      findings.warning("no opening: no hole and no flat end with a sharp rim", "cut the ends flat, or leave them open");
+    if (const auto what = not_a_lumen(lumen); !what.empty())
+      findings.stop(lumen_program, "surface: " + what, lumen_remedy);
   } catch (const InputError& error) {
     findings.stop_by(lumen_program, error.what(), "");
   }

@@ -16,6 +16,7 @@
 #include "base/threads.hpp"
 #include "mesh/gmsh_file.hpp"
 #include "mesh/gmsh_reader.hpp"
+#include "mesh/name_wall_faces.hpp"
 #include "mesh/temporary_mesh.hpp"
 #include "meshes/converted.hpp"
 #include "meshes/mesh_report.hpp"
@@ -30,7 +31,7 @@ struct ImportRequest {
   std::vector<std::string> groups, openings;
   double scale = 1, join = 0;
   int order = 0;
-  bool list = false;
+  bool list = false, wall_faces = false;
   MeshOutput output;
 };
 
@@ -56,11 +57,14 @@ AnyMesh read_mesh(const std::filesystem::path& file) {
   return read_gmsh<Dim, Order>(file, gmsh_regions(file, Dim), TriangleGeometry::plane);
 }
 
-AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file) {
+/// \param said  sentences on what was named are added to it
+AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file, std::string& said) {
   const auto openings = flat_parts_of(request.openings);
   const int dimension = gmsh_dimension(file);
   if (dimension != 3 && !openings.empty())
     throw InputError(named(request), "--opening", "is for meshes of volumes", "name curves by --group");
+  if (dimension != 3 && request.wall_faces)
+    throw InputError(named(request), "--wall-faces", "is for meshes of volumes", "name curves by --group");
   // Second-order cells keep their order unless another is asked for.
   const int order = request.order > 0 ? request.order : gmsh_order(parse_gmsh(file), dimension);
   AnyMesh mesh;
@@ -74,7 +78,10 @@ AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file
   }
   std::visit(
       [&](auto& read) {
-        if constexpr (std::decay_t<decltype(read)>::dim == 3) name_flat_parts(read, openings);
+        if constexpr (std::decay_t<decltype(read)>::dim == 3) {
+          name_flat_parts(read, openings);
+          if (request.wall_faces) said += name_wall_faces(read, named(request));
+        }
       },
       mesh);
   return mesh;
@@ -90,8 +97,9 @@ void make(const ImportRequest& request) {
   require_known_extension(request.output.file);
   set_threads(request.output.threads);
   const TemporaryMesh temporary(regular_output_file(request.output.file), "import-");
-  const std::string said = convert(request, {"-o", temporary.path().string()});
-  write_and_report(read_any(request, temporary.path()), request.output, TriangleGeometry::plane, said);
+  std::string said = convert(request, {"-o", temporary.path().string()});
+  const AnyMesh mesh = read_any(request, temporary.path(), said);
+  write_and_report(mesh, request.output, TriangleGeometry::plane, said);
 }
 
 }  // namespace
@@ -111,6 +119,8 @@ MeshCommand import_command(CLI::App& app) {
                       "the surface between them; unless given all parts with a name of their own");
   options->add_option("--opening", request->openings,
                       "NAME=X,Y,Z: surface of the fluid, the flat part of its boundary on which this point lies");
+  options->add_flag("--wall-faces", request->wall_faces,
+                    "Of a wall without fluid: names its faces inner and outer and its plane ends wall_ends");
   options->add_option("--scale", request->scale, "From the file's unit of length to mm: 1000 for a mesh in m")
       ->capture_default_str();
   options->add_option(

@@ -55,6 +55,8 @@ void make(LumenOptions& options) {
   auto& request = options.request;
   if (options.list) {
     const auto lumen = read_lumen_surface(options.input, done);
+    if (const auto what = not_a_lumen(lumen); !what.empty())
+      throw InputError(options.input.file, "surface", what, lumen_remedy);
     std::string text;
     for (const auto& sentence : done) text += sentence + "\n";
     print(text + to_text(lumen.openings));

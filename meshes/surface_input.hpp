@@ -12,6 +12,10 @@ namespace fsi {
 /// Units of length of a surface's file, in mm.
 extern const std::map<std::string, double> surface_units;
 
+/// For a surface that bounds no lumen with openings.
+inline constexpr const char* lumen_remedy =
+    "give the inner face alone, its ends open or cut flat; fsi-mesh import takes meshes of volumes";
+
 /// A segmented surface in a file, and how it is to be read.
 struct SurfaceInput {
   std::string file;            ///< .stl, .ply, .obj or .vtp

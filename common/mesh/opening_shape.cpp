@@ -79,12 +79,12 @@ OpeningShape shape_of_opening(const std::vector<Point>& nodes, const std::vector
       shape.off_plane = std::max(shape.off_plane, std::abs(dot(shape.normal, nodes[f[k]] - shape.centre)));
   const auto rim = rim_edges(surface);
   shape.rims = connected_lines(rim);
-  for (std::size_t i = 0; i < rim.size(); ++i)
-    for (const int node : {rim[i].first, rim[i].second}) {
-      const double away = distance(nodes[node], shape.centre);
-      shape.nearest_rim = i == 0 ? away : std::min(shape.nearest_rim, away);
-      shape.farthest_rim = std::max(shape.farthest_rim, away);
-    }
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const Point &a = nodes[rim[i].first], &b = nodes[rim[i].second];
+    const double middle = distance(0.5 * (a + b), shape.centre);
+    shape.nearest_rim = i == 0 ? middle : std::min(shape.nearest_rim, middle);
+    shape.farthest_rim = std::max({shape.farthest_rim, distance(a, shape.centre), distance(b, shape.centre)});
+  }
   return shape;
 }
 

@@ -15,12 +15,12 @@ struct OpeningShape {
   Point normal{0, 0, 0};    ///< unit, the mean one
   double off_plane = 0;     ///< largest distance of a vertex from the plane through the centre, mm
   int rims = 0;             ///< closed lines around it: one around a disk, two around an annulus
-  double nearest_rim = 0;   ///< distances of the rims' vertices from the centre, mm
-  double farthest_rim = 0;  ///< mm
+  double nearest_rim = 0;   ///< of the middles of the rims' edges from the centre, mm
+  double farthest_rim = 0;  ///< of their vertices, mm
   double radius() const;    ///< of the disk of this area, mm
 
   bool flat() const;   ///< its vertices are within 5 % of the radius of one plane
-  bool round() const;  ///< one rim, whose vertices are equally far from the centre within a quarter
+  bool round() const;  ///< one rim, equally far from the centre within a quarter: so is a pentagon, not a square
 };
 
 /// \tparam Nodes  of a facet, 3 or 6

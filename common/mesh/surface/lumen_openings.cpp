@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.hpp"
 #include "math/pi.hpp"
 #include "mesh/flat_parts.hpp"
 #include "mesh/flat_regions.hpp"
 #include "mesh/point_math.hpp"
+#include "mesh/surface/domed_ends.hpp"
 
 namespace fsi {
 
@@ -41,6 +43,12 @@ OpenedLumen opened(const TriangleSurface& surface) {
     for (const int t : part.triangles) keep[t] = 0;
     caps.push_back(part.centre);
   }
+  std::vector<char> taken;
+  for (const char kept : keep) taken.push_back(kept == 0 ? 1 : 0);
+  for (const auto& end : domed_ends(surface, taken)) {
+    for (const int t : end.triangles) keep[t] = 0;
+    caps.push_back(end.centre);
+  }
   OpenedLumen lumen{part_of(surface, keep), {}};
   for (const auto& rim : rims_of(lumen.surface)) lumen.openings.push_back(opening_at(lumen.surface, rim));
   for (auto& opening : lumen.openings) {
@@ -65,6 +73,31 @@ std::string to_text(const std::vector<LumenOpening>& openings) {
                     place_of(opening.centre), coordinates_of(opening.normal), opening.capped ? "flat part" : "hole");
   }
   return text;
+}
+
+std::string not_a_lumen(const OpenedLumen& lumen) {
+  const auto& openings = lumen.openings;
+  for (std::size_t i = 0; i < openings.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double width = std::min(openings[i].diameter(), openings[j].diameter());
+      if (distance(openings[i].centre, openings[j].centre) < width / 4 &&
+          std::abs(dot(openings[i].normal, openings[j].normal)) > 0.9)
+        return fmt::format(
+            "openings {} and {} lie around each other at {}, as those of the inner and the outer face of a wall do",
+            j + 1, i + 1, place_of(openings[j].centre));
+    }
+  if (!openings.empty()) return "";
+  std::set<SurfaceEdge> edges;
+  std::set<int> nodes;
+  for (const auto& t : lumen.surface.triangles)
+    for (int k = 0; k < 3; ++k) {
+      edges.insert(std::minmax(t[k], t[(k + 1) % 3]));
+      nodes.insert(t[k]);
+    }
+  const auto euler = static_cast<long>(nodes.size() + lumen.surface.triangles.size()) - static_cast<long>(edges.size());
+  if (euler != 2)
+    return "is closed and runs through itself like a ring, as the inner and the outer face of a wall with its ends do";
+  return "is closed, and no part of it is an end: flat or slightly domed, with a sharp rim";
 }
 
 std::size_t chosen(const std::vector<LumenOpening>& openings, const OpeningChoice& choice, const std::string& option) {

@@ -23,10 +23,14 @@ struct OpenedLumen {
   std::vector<LumenOpening> openings;
 };
 
-/// Takes the flat parts (mesh/flat_regions.hpp) out of a surface. One of several openings whose area is below a thousandth of
+/// Takes the flat parts (mesh/flat_regions.hpp) and domed ends (mesh/surface/domed_ends.hpp) out of a surface. One of several openings whose area is below a thousandth of
 /// the largest is a hole like the others: who names openings sees it.
 /// \param surface  sound (mesh/surface/sound_surface.hpp)
 OpenedLumen opened(const TriangleSurface& surface);
+
+/// What tells that a surface bounds no lumen with openings: two of them around each other, or none. A part of a sentence; empty
+/// where nothing does.
+std::string not_a_lumen(const OpenedLumen& lumen);
 
 /// A table of them for the console, numbered from 1.
 std::string to_text(const std::vector<LumenOpening>& openings);

@@ -217,7 +217,7 @@ def _command(
     if note:
         found.append("  with an --opening for each flat end of the fluid, X,Y,Z a point on it, mm")
     if len(volumes) == 1 and fluid and not given and not any(word in next(iter(volumes)).lower() for word in FLUID):
-        found.append(f"  or, where that is a wall without fluid, --group wall={next(iter(volumes))} and no --opening")
+        found.append(f"  or, where that is a wall without fluid, --group wall={next(iter(volumes))} --wall-faces")
     return found
 
 

@@ -104,7 +104,7 @@ class MeshListing(unittest.TestCase):
         self.assertNotIn("--opening", self.command(said(found_mesh("a.vtu", raw, 1.0))))
         lines = said(found_mesh("a.vtu", RawMesh(points, [("tetra", cells)]), 1.0))
         self.assertIn("--opening", self.command(lines))
-        self.assertIn("  or, where that is a wall without fluid, --group wall=all and no --opening", lines)
+        self.assertIn("  or, where that is a wall without fluid, --group wall=all --wall-faces", lines)
 
     def test_of_many_volumes_it_is_said_which_touch(self):
         points, cells = cube(2)

@@ -49,7 +49,28 @@ class Mesh:
         file.write_text("\n".join(lines + ["$EndElements", ""]))
 
 
-class Check(FolderTest):
+class Surfaces(FolderTest):
+    """Surfaces of tubes, in files."""
+
+    def check(self, file, *options):
+        return execute(MESH, "check", file, *options, cwd=self.base)
+
+    @staticmethod
+    def tube(around=12, along=8):
+        angles = 2 * np.pi * np.arange(around) / around
+        points = [(np.cos(a), np.sin(a), 0.5 * k) for k in range(along + 1) for a in angles]
+        triangles = []
+        for k in range(along):
+            for i in range(around):
+                a, b = k * around + i, k * around + (i + 1) % around
+                triangles += [(a, b, b + around), (a, b + around, a + around)]
+        return np.array(points), np.array(triangles)
+
+    def write_stl(self, name, points, triangles):
+        meshio.Mesh(points, [("triangle", triangles)]).write(self.base / name)
+
+
+class Check(Surfaces):
     @classmethod
     @functools.cache
     def artery(cls):
@@ -64,9 +85,6 @@ class Check(FolderTest):
             kind = "tetra" if dimension == 3 else "triangle"
             parts[dimension][name] = mesh.cells_dict[kind][mesh.cell_data_dict["gmsh:physical"][kind] == tag]
         return Mesh(mesh.points, parts[3], parts[2])
-
-    def check(self, file, *options):
-        return execute(MESH, "check", file, *options, cwd=self.base)
 
     def expect_stop(self, mesh, *patterns):
         """Each is found in a line of its own; a summary of one line ends the program with 1."""
@@ -252,19 +270,73 @@ class Check(FolderTest):
         self.assertRegex(self.check("metres.stl").stdout, r"(?m)^stops fsi-mesh lumen: --unit: is not given, and in mm")
         self.assertEqual(self.check("metres.stl", "--unit", "m").returncode, 0)
 
-    @staticmethod
-    def tube(around=12, along=8):
-        angles = 2 * np.pi * np.arange(around) / around
-        points = [(np.cos(a), np.sin(a), 0.5 * k) for k in range(along + 1) for a in angles]
-        triangles = []
-        for k in range(along):
-            for i in range(around):
-                a, b = k * around + i, k * around + (i + 1) % around
-                triangles += [(a, b, b + around), (a, b + around, a + around)]
-        return np.array(points), np.array(triangles)
 
-    def write_stl(self, name, points, triangles):
-        meshio.Mesh(points, [("triangle", triangles)]).write(self.base / name)
+class NoLumen(Surfaces):
+    """Closed surfaces: slightly domed ends are found; where there is none, it is said what the surface is."""
+
+    def closed(self, dome, around=24, rings=4):
+        points, triangles = self.tube(around, 16)
+        points, triangles = list(points), list(triangles)
+        for first, end, z in ((0, -1, 0.0), (16 * around, 1, 8.0)):
+            before = [first + i for i in range(around)]
+            for r in range(rings - 1, 0, -1):
+                s = r / rings
+                now = [len(points) + i for i in range(around)]
+                points += [
+                    (s * np.cos(a), s * np.sin(a), z + end * dome * (1 - s**2))
+                    for a in 2 * np.pi * np.arange(around) / around
+                ]
+                for i in range(around):
+                    j = (i + 1) % around
+                    both = [(before[i], before[j], now[j]), (before[i], now[j], now[i])]
+                    triangles += [t[::end] for t in both]
+                before = now
+            points.append((0, 0, z + end * dome))
+            triangles += [(before[i], before[(i + 1) % around], len(points) - 1)[::end] for i in range(around)]
+        return np.array(points), np.array([list(t) for t in triangles])
+
+    def listed(self, name):
+        return execute(MESH, "lumen", name, "--list-openings", cwd=self.base)
+
+    def test_ends_may_be_slightly_domed(self):
+        for dome in (0.0, 0.05, 0.1, 0.2):  # of the radius
+            with self.subTest(dome=dome):
+                self.write_stl("domed.stl", *self.closed(dome))
+                process = self.listed("domed.stl")
+                self.assertEqual((process.returncode, process.stderr), (0, ""))
+                rows = process.stdout.splitlines()[1:]
+                self.assertEqual(len(rows), 2, process.stdout)
+                area = 12 * np.sin(np.pi / 12)  # of 24 sides
+                for row in rows:
+                    self.assertAlmostEqual(float(row.split()[1]), area, delta=2e-3)
+                self.assertEqual(len(re.findall(r"\(0, 0, [08]\) mm", process.stdout)), 2)
+
+    def test_a_wall_with_both_faces_is_no_lumen(self):
+        points, triangles = self.tube()
+        count = len(points)
+        both = np.vstack([points, points * [1.3, 1.3, 1]])
+        faces = [triangles[:, ::-1], triangles + count]
+        for first, end in ((0, 1), (8 * 12, -1)):
+            i, j = first + np.arange(12), first + (np.arange(12) + 1) % 12
+            ring = np.vstack([np.stack([i, j, j + count], 1), np.stack([i, j + count, i + count], 1)])
+            faces.append(ring[:, ::end])
+            self.write_stl("wall.stl", both, np.vstack(faces))
+            process = self.listed("wall.stl")
+            self.assertEqual((process.returncode, process.stdout), (1, ""))
+            what = (
+                "openings 1 and 2 lie around each other"
+                if end == 1
+                else "is closed and runs through itself like a ring"
+            )
+            self.assertRegex(process.stderr, rf"\Afsi-mesh: error: wall\.stl: surface: {what}.*\n\Z")
+            self.assertRegex(self.check("wall.stl").stdout, f"(?m)^stops fsi-mesh lumen: surface: {what}")
+
+    def test_a_surface_without_ends(self):
+        points, triangles = self.closed(2.0)
+        self.write_stl("long.stl", points, triangles)
+        process = self.listed("long.stl")
+        self.assertEqual((process.returncode, process.stdout), (1, ""))
+        self.assertIn("long.stl: surface: is closed, and no part of it is an end", process.stderr)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import unittest
 import meshio
 import numpy as np
 
-from programs import MESH, FolderTest, execute
+from programs import MESH, MONOLITHIC, FolderTest, execute
 
 TUBE = """
 SetFactory("OpenCASCADE");
@@ -360,6 +360,91 @@ class MeshImport(FolderTest):
                 for word in words:
                     self.assertIn(word, process.stderr)
                 self.assertEqual([f.name for f in self.base.iterdir() if "out" in f.name or "import" in f.name], [])
+
+
+STATIC = """
+element = "p1"
+[mesh]
+file = "out.msh"
+[structure]
+density = 1.2
+bulk_modulus = 1e4
+[structure.layers.wall]
+material = "neo-hookean"
+c10 = 60
+[load]
+pressure = 1.0
+[static]
+"""
+
+
+class WallAlone(FolderTest):
+    """A wall without fluid and without names: its faces are known by their shape."""
+
+    def wall(self, *options):
+        """Writes the wall of an artery as wall.vtu; its points and cells."""
+        file = self.base / "artery.msh"
+        size = "--lumen-cells 3 --media-cells 2 --adventitia-cells 1 --around 12 --axial-cells 4 --length 3".split()
+        process = execute(MESH, "artery", *size, *options, "-o", file, "-q", "--format", "2.2")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        mesh = meshio.read(file)
+        fluid = mesh.field_data["fluid"][0]
+        cells = mesh.cells_dict["tetra"][mesh.cell_data_dict["gmsh:physical"]["tetra"] != fluid]
+        used, numbers = np.unique(cells, return_inverse=True)
+        points, cells = mesh.points[used], numbers.reshape(cells.shape)
+        meshio.Mesh(points, [("tetra", cells)]).write(self.base / "wall.vtu")
+        return points, cells
+
+    def imported(self, *options):
+        (self.base / "out.msh").unlink(missing_ok=True)
+        return execute(
+            MESH,
+            "import",
+            "wall.vtu",
+            "--group",
+            "wall=all",
+            "-o",
+            "out.msh",
+            "--format",
+            "2.2",
+            *options,
+            cwd=self.base,
+        )
+
+    def test_its_faces_are_named_and_a_case_takes_them(self):
+        self.wall()
+        process = self.imported("--wall-faces")
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        mesh = meshio.read(self.base / "out.msh")
+        triangles, physical = mesh.cells_dict["triangle"], mesh.cell_data_dict["gmsh:physical"]["triangle"]
+        faces = {name: mesh.points[triangles[physical == tag]] for name, (tag, d) in mesh.field_data.items() if d == 2}
+        self.assertEqual(set(faces), {"inner", "outer", "wall_ends"})
+        for name, radius in (("inner", 1.43), ("outer", 1.82)):
+            self.assertLess(np.abs(np.hypot(faces[name][..., 0], faces[name][..., 1]) - radius).max(), 1e-9)
+            # Twelve flat sides of a prism 3 mm long.
+            a, b, c = (faces[name][:, k] for k in range(3))
+            area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+            self.assertAlmostEqual(area, 12 * 2 * radius * math.sin(math.pi / 12) * 3, places=6)
+        self.assertEqual(set(faces["wall_ends"][..., 2].ravel()), {0.0, 3.0})
+        (self.base / "case.toml").write_text(STATIC)
+        process = execute(MONOLITHIC, "case.toml", "--check", cwd=self.base)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.imported()
+        process = execute(MONOLITHIC, "case.toml", "--check", cwd=self.base)
+        self.assertEqual(process.returncode, 1)
+        (self.base / "out.msh").unlink()
+
+    def test_what_is_no_tube_is_said_with_what_it_is(self):
+        points, cells = self.wall()
+        keep = ~((points[cells].mean(axis=1)[:, 2] > 2.2) & (points[cells].mean(axis=1)[:, 0] > 0))  # a step in the end
+        meshio.Mesh(points, [("tetra", cells[keep])]).write(self.base / "wall.vtu")
+        process = self.imported("--wall-faces")
+        self.assertEqual(process.returncode, 1)
+        self.assertRegex(
+            process.stderr,
+            r"\Afsi-mesh: error: wall\.vtu: --wall-faces: the wall's surface has 1 plane ring and 1 further part",
+        )
+        self.assertFalse((self.base / "out.msh").exists())
 
 
 if __name__ == "__main__":
