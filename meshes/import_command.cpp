@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
+#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -29,6 +31,7 @@ namespace {
 struct ImportRequest {
   std::vector<std::string> files;
   std::vector<std::string> groups, openings;
+  std::string units, fibre_angle;  ///< of a case
   double scale = 1, join = 0;
   int order = 0;
   bool list = false, wall_faces = false;
@@ -87,7 +90,91 @@ AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file
   return mesh;
 }
 
+/// A file of XML that is to become a folder is a case: case.toml and mesh.msh, not a mesh alone.
+bool is_case(const ImportRequest& request) {
+  const auto lower = [](std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+  };
+  return request.files.size() == 1 &&
+         lower(std::filesystem::path(request.files.front()).extension().string()) == ".xml" && !request.list &&
+         lower(std::filesystem::path(request.output.file).extension().string()) != ".msh";
+}
+
+/// A folder beside the one that it is to become; removed with what is in it unless it was moved to its name.
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(const std::filesystem::path& final_name)
+      : final_name_(final_name), path_(final_name.string() + fmt::format(".{}.part", getpid())) {
+    std::error_code error;
+    if (std::filesystem::exists(final_name_, error))
+      throw InputError(final_name_.string(), "", "is there already", "name another folder with -o, or remove it");
+    if (!std::filesystem::create_directory(path_, error) || error)
+      throw InputError(final_name_.string(), "", "cannot be made: " + error.message(), "name another folder with -o");
+  }
+  ~TemporaryFolder() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  void move_into_place() const {
+    std::error_code error;
+    std::filesystem::rename(path_, final_name_, error);
+    if (error)
+      throw InputError(final_name_.string(), "", "cannot be made: " + error.message(), "name another folder with -o");
+  }
+
+ private:
+  std::filesystem::path final_name_, path_;
+};
+
+/// As a path without the slash that a shell leaves behind a folder's name.
+std::filesystem::path folder_of(const std::string& given) {
+  std::filesystem::path folder(given);
+  return folder.has_filename() ? folder : folder.parent_path();
+}
+
+void make_case(const ImportRequest& request) {
+  const auto refuse = [](const char* option, const char* remedy) {
+    throw InputError(mesh_program, option, "is not for cases", remedy);
+  };
+  if (!request.groups.empty()) refuse("--group", "the case names its faces");
+  if (!request.openings.empty()) refuse("--opening", "the case names its faces");
+  if (request.scale != 1) refuse("--scale", "give --units");
+  if (request.output.file.empty())
+    throw InputError(mesh_program, "--output", "is not given", "give -o FOLDER, which is made");
+  set_threads(request.output.threads);
+  const auto folder = folder_of(request.output.file);
+  const TemporaryFolder made(folder);
+  std::vector<std::string> words{"convert-case", "-o", made.path().string()};
+  if (!request.units.empty()) words.insert(words.end(), {"--units", request.units});
+  // In one word: it may begin with a minus.
+  if (!request.fibre_angle.empty()) words.emplace_back("--fibre-angle=" + request.fibre_angle);
+  if (request.join != 0) words.insert(words.end(), {"--join", fmt::format("{}", request.join)});
+  words.insert(words.end(), {"--", request.files.front()});
+  const std::string said = converted("", words, request.output.quiet);
+  ImportRequest mesh = request;
+  const auto given = made.path() / "given.msh";
+  mesh.output.file = (made.path() / "mesh.msh").string();
+  write_and_report(read_any(mesh, given), mesh.output, TriangleGeometry::plane, said);
+  std::filesystem::remove(given);
+  made.move_into_place();
+  if (!request.output.quiet)
+    print(fmt::format("{0}: case.toml, mesh.msh and import.log. Look at it by fsi-monolithic {0}/case.toml --check.\n",
+                      folder.string()));
+}
+
 void make(const ImportRequest& request) {
+  if (is_case(request)) {
+    make_case(request);
+    return;
+  }
+  if (!request.units.empty() || !request.fibre_angle.empty())
+    throw InputError(mesh_program, request.units.empty() ? "--fibre-angle" : "--units", "is for cases (.xml) alone",
+                     "give --scale for the unit of a mesh");
   if (request.list) {
     print(convert(request, {"--list"}));
     return;
@@ -105,13 +192,14 @@ void make(const ImportRequest& request) {
 }  // namespace
 
 MeshCommand import_command(CLI::App& app) {
-  auto* options = app.add_subcommand("import", "A mesh of another program: VTU, MED, Exodus, Abaqus, ...");
+  auto* options = app.add_subcommand(
+      "import", "A mesh of another program: VTU, MED, Exodus, Abaqus, ...; a case of svMultiPhysics");
   const auto request = std::make_shared<ImportRequest>();
   options
       ->add_option(
           "files", request->files,
           "The mesh: simplices, as VTU, XDMF, Exodus, MED, Abaqus or what meshio reads; NAME=FILE: all cells of "
-          "the file, or triangles of a .vtp, are NAME")
+          "the file, or triangles of a .vtp, are NAME; or a case, solver.xml of svMultiPhysics, with -o FOLDER")
       ->required();
   options->add_flag("--list", request->list, "Say which parts the file names or numbers, and write nothing");
   options->add_option("--group", request->groups,
@@ -127,6 +215,10 @@ MeshCommand import_command(CLI::App& app) {
       "--join", request->join,
       "Points at most so far apart, mm, are one; unless given, those of different files that agree in single "
       "precision");
+  options->add_option("--units", request->units,
+                      "Of a case (CASE.xml -o FOLDER), which says none: cgs, the default, si or mm-g-s");
+  options->add_option("--fibre-angle", request->fibre_angle,
+                      "Of a case that gives fibres by vectors: degrees between fibre and circumference");
   options->add_option("--order", request->order, "1: straight edges; 2: quadratic cells; the file's unless given")
       ->check(CLI::Range(1, 2));
   add_output_options(*options, request->output, false);

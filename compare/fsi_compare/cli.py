@@ -6,6 +6,7 @@ from typing import NoReturn, Sequence
 from .base.errors import InputError
 from .mesh_import import command as mesh_import
 from .mesh_import import surface_command
+from .peer_cases import command as peer_cases
 from .reporting import accuracy, cost, export, picture_command, pressure, run_report, watch
 from .studies import command as study
 from .studies.gallery import command as gallery
@@ -28,6 +29,7 @@ COMMANDS = (
     tune,
     mesh_import,
     surface_command,
+    peer_cases,
 )
 
 

@@ -18,7 +18,7 @@ FOLDER = f"compare/{PACKAGE}"
 FLOORS = (
     ("base",),
     ("runs", "mesh_import", "drawing"),
-    ("results",),
+    ("results", "peer_cases"),
     ("reporting",),
     ("studies.catalogue", "studies.starting"),
     ("studies.linear", "studies.gallery"),

@@ -3,21 +3,19 @@ knows."""
 
 import argparse
 from pathlib import Path
-from typing import Dict, List, Sequence, TextIO, Tuple
+from typing import List, Sequence, Tuple
 
 import numpy as np
 
 from ..base.errors import InputError, printable, say_warning
 from ..base.files import replacing
 from ..base.options import Commands, add_command
+from .conversion import require_sides, turn, warn_of_gaps, write_gmsh
 from .examining import examined
-from .groups import Group, as_sides, choose_groups, left_out, named_parts
-from .joining import distances_to
+from .groups import choose_groups, left_out, named_parts
 from .listing import guessed_groups, listing, separate_volumes, unit_words
 from .parts import FoundMesh, dimensions_of, shown_names
-from .raw_mesh import ELEMENTS, KINDS, Block
 from .sources import Source, join, read_sources, source_of
-from .touching import contacts, doubled_words, gap_words
 
 
 def add_parser(commands: Commands, version: str) -> None:
@@ -70,15 +68,15 @@ def _convert(file: str, mesh: FoundMesh, sources: Sequence[Source], options: arg
     """Writes the mesh; returns what was done to it."""
     wanted = [(source.name, source.name) for source in sources if source.name]
     groups = choose_groups(file, mesh, wanted + [_pair(text) for text in options.group])
-    _require_sides(file, mesh, groups, sources)
-    _warn_of_gaps(mesh, groups)
+    require_sides(file, mesh, groups, sources)
+    warn_of_gaps(mesh, groups)
     if options.scale == 1:
         used = np.concatenate([block.nodes.ravel() for group in groups for block in group.parts])
         if words := unit_words(float(np.ptp(mesh.points[used], axis=0).max())):
             say_warning(words)
-    turned = _turn(mesh, groups)
+    turned = turn(mesh, groups)
     with replacing(options.output) as temporary, open(temporary, "w", encoding="utf-8") as out:
-        _write(out, mesh, groups)
+        write_gmsh(out, mesh, groups)
     said = [f"{turned} cells were turned inside out and are turned back"] if turned else []
     others = [] if wanted or options.group else left_out(mesh)
     return said + ([f"Left out, since no --group names them: {shown_names(others)}"] if others else [])
@@ -90,9 +88,9 @@ def _convert_all(file: str, mesh: FoundMesh, options: argparse.Namespace) -> Lis
     known = {part for _, part in wanted}
     wanted += [(name, name) for name in named_parts(mesh) if name not in known and _is_surface(mesh, name)]
     groups = choose_groups(file, mesh, wanted)
-    turned = _turn(mesh, groups)
+    turned = turn(mesh, groups)
     with replacing(options.output) as temporary, open(temporary, "w", encoding="utf-8") as out:
-        _write(out, mesh, groups)
+        write_gmsh(out, mesh, groups)
     said = [f"taken for: {', '.join(f'{name}={part}' for name, part in wanted)}"]
     return said + ([f"{turned} cells are inside out; fsi-mesh import turns them"] if turned else [])
 
@@ -101,86 +99,8 @@ def _is_surface(mesh: FoundMesh, name: str) -> bool:
     return dimensions_of(mesh, mesh.cells[name]) == [mesh.dimension - 1]
 
 
-def _require_sides(file: str, mesh: FoundMesh, groups: List[Group], sources: Sequence[Source]) -> None:
-    """Facets of another file than the cells' are to be sides of cells."""
-    missing = as_sides(mesh, groups)
-    if not missing or len(sources) == 1:
-        return
-    group, corners = missing[0]
-    at = next((source.file for source in sources if source.name == group.name), file)
-    used = [block.nodes.ravel() for g in groups if g.dimension == mesh.dimension for block in g.parts]
-    cells, loose = np.unique(np.concatenate(used)), np.setdiff1d(np.unique(corners), np.concatenate(used))
-    count = sum(len(block.nodes) for block in group.parts)
-    problem = f"{len(corners)} of its {count} {ELEMENTS[group.dimension]} are sides of no cell"
-    if not len(loose):
-        raise InputError(at, group.name, f"{problem}, though their corners are", "give the faces of this very mesh")
-    span = float(np.ptp(mesh.points[cells], axis=0).max())
-    farthest = float(distances_to(mesh.points[loose], mesh.points[cells], span).max())
-    problem += f"; {len(loose)} of their corners are up to {farthest:.3g} mm from the cells' points"
-    raise InputError(at, group.name, problem, f"give --join {1.1 * farthest:.2g}, if that is a small part of an edge")
-
-
-def _warn_of_gaps(mesh: FoundMesh, groups: List[Group]) -> None:
-    """A volume that shares no side with another one is alone: no interface."""
-    volumes: Dict[str, List[Block]] = {}
-    for group in groups:
-        if group.dimension == mesh.dimension:
-            volumes.setdefault(group.name, []).extend(group.parts)
-    found = contacts(mesh.points, volumes, mesh.dimension)
-    alone = False
-    for name in volumes:
-        mine = [contact for contact in found if name in (contact.first, contact.second)]
-        if mine and not any(contact.sides for contact in mine):
-            say_warning(f"{name} touches no other part: {'; '.join(gap_words(contact) for contact in mine)}")
-            alone = True
-    doubled = "" if alone else doubled_words(mesh.points, [block for parts in volumes.values() for block in parts])
-    if doubled:
-        say_warning(doubled)
-
-
 def _pair(text: str) -> Tuple[str, str]:
     name, equals, part = text.partition("=")
     if not (name and equals and part) or '"' in name:
         raise InputError("", "--group", f"'{text}' is no NAME=PART", "write, for one, --group fluid=region:1")
     return name, part
-
-
-def _turn(mesh: FoundMesh, groups: List[Group]) -> int:
-    """Turns linear and quadratic tetrahedra of negative volume; how many there were."""
-    swap = {"tetra": (0, 2, 1, 3), "tetra10": (0, 2, 1, 3, 6, 5, 4, 7, 9, 8)}
-    count = 0
-    for group in groups:
-        for block in group.parts:
-            if block.kind not in swap:
-                continue
-            a, b, c, d = (mesh.points[block.nodes[:, k]] for k in range(4))
-            wrong = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) < 0
-            count += int(wrong.sum())
-            block.nodes[wrong] = block.nodes[wrong][:, list(swap[block.kind])]
-    return count
-
-
-def _write(out: TextIO, mesh: FoundMesh, groups: List[Group]) -> None:
-    """Not by meshio's own writer: it knows a name once, and volumes and surfaces may share one."""
-    used = np.unique(np.concatenate([block.nodes.ravel() for group in groups for block in group.parts]))
-    number = np.zeros(len(mesh.points), dtype=np.int64)
-    number[used] = np.arange(1, len(used) + 1)
-    names: dict = {}
-    for group in groups:
-        names.setdefault((group.dimension, group.name), len(names) + 1)
-    out.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n")
-    out.write(f"{len(names)}\n")
-    for (dimension, name), tag in names.items():
-        out.write(f'{dimension} {tag} "{name}"\n')
-    out.write(f"$EndPhysicalNames\n$Nodes\n{len(used)}\n")
-    for i, (x, y, z) in enumerate(mesh.points[used].tolist(), 1):
-        out.write(f"{i} {x!r} {y!r} {z!r}\n")
-    blocks: List[Tuple[int, Block]] = [(names[g.dimension, g.name], block) for g in groups for block in g.parts]
-    out.write(f"$EndNodes\n$Elements\n{sum(len(block.nodes) for _, block in blocks)}\n")
-    at = 0
-    for tag, block in blocks:
-        _, _, kind, order = KINDS[block.kind]
-        for nodes in number[block.nodes[:, list(order)]]:
-            at += 1
-            out.write(f"{at} {kind} 2 {tag} {tag} {' '.join(map(str, nodes))}\n")
-    out.write("$EndElements\n")

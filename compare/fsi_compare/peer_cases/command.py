@@ -1,0 +1,54 @@
+"""`fsi-compare convert-case`: what `fsi-mesh import CASE -o FOLDER` asks for. It checks and writes the mesh."""
+
+import argparse
+from pathlib import Path
+from typing import List
+
+from ..base.errors import InputError, printable, say_warning
+from ..base.files import folder
+from ..base.options import Commands, add_command
+from .case_file import write_case
+from .formats import read_peer_case
+from .units import SYSTEMS, units_of
+
+
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands,
+        "convert-case",
+        convert_case,
+        "a case of another program as a case file and a mesh; use fsi-mesh import, which checks both",
+        "Writes case.toml, tables, import.log and given.msh of a case of another program into a folder that is there.",
+    )
+    command.add_argument("case", metavar="CASE", type=Path)
+    command.add_argument("-o", "--output", metavar="FOLDER", type=folder, required=True)
+    command.add_argument("--units", metavar="NAME", default="cgs", help=f"of a case without any: {', '.join(SYSTEMS)}")
+    command.add_argument(
+        "--fibre-angle", metavar="DEGREES", type=float, help="of fibres that the case gives by vectors"
+    )
+    command.add_argument("--join", metavar="TOLERANCE", type=float, help="points so far apart are one, mm")
+
+
+def convert_case(options: argparse.Namespace) -> int:
+    """The command. Raises InputError."""
+    if options.join is not None and not 0 < options.join < float("inf"):
+        raise InputError("", "--join", f"{options.join:g} is no distance", "give mm, for one 0.001")
+    angle = options.fibre_angle
+    if angle is not None and not -90 <= angle <= 90:
+        raise InputError("", "--fibre-angle", f"{angle:g} is no angle to the circumference", "give -90 to 90 degrees")
+    case = read_peer_case(options.case, units_of(options.units), angle, options.join or 0.0)
+    lines: List[str] = [f"{case.file}, a case of {case.program}, taken in {options.units}."]
+    lines += case.said + [f"No counterpart: {note}" for note in case.notes]
+    try:
+        write_case(case, options.output)
+        (options.output / "import.log").write_text("\n".join(printable(line) for line in lines) + "\n", "utf-8")
+        if case.mesh is not None:
+            case.mesh.write(options.output / "given.msh")
+    except OSError as error:
+        raise InputError(options.output, "", f"cannot be written: {error.strerror}", "name another with -o") from None
+    for line in lines:
+        print(printable(line))
+    for note in case.notes:
+        if note.matters:
+            say_warning(str(note))
+    return 0

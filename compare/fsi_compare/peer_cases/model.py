@@ -1,0 +1,45 @@
+"""A case of another program, as far as ours has words for it. In mm, mg, ms."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Tuple
+
+from .geometry import CaseMesh, Face
+
+
+@dataclass
+class Note:
+    """An entry that has no counterpart: what it is, where, and what is done in its place."""
+
+    entry: str
+    where: str
+    instead: str
+    matters: bool = False  # may change a result: a warning
+
+    def __str__(self) -> str:
+        return f"{self.entry} ({self.where}): {self.instead}"
+
+
+@dataclass
+class Table:
+    """Rows of time in ms and a value."""
+
+    header: Tuple[str, str]
+    rows: List[Tuple[float, float]]
+
+
+@dataclass
+class PeerCase:
+    """`sections` are the case file's, in its order; tables are files beside it, by name."""
+
+    program: str
+    file: Path
+    sections: Dict[str, Any] = field(default_factory=dict)
+    tables: Dict[str, Table] = field(default_factory=dict)
+    said: List[str] = field(default_factory=list)  # what was made of what, for the log
+    notes: List[Note] = field(default_factory=list)
+    faces: List[Face] = field(default_factory=list)
+    mesh: Optional[CaseMesh] = None
+
+    def note(self, entry: str, where: str, instead: str, matters: bool = False) -> None:
+        self.notes.append(Note(entry, where, instead, matters))

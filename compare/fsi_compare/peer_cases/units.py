@@ -1,0 +1,80 @@
+"""Units of a case whose program has none of its own: whatever three units it was written in, to mm, mg and ms."""
+
+from dataclasses import dataclass
+from typing import Dict
+
+from ..base.errors import InputError
+from ..base.suggestions import nearest
+
+
+@dataclass(frozen=True)
+class Units:
+    """One unit of length, mass and time in mm, mg and ms; all others follow: kPa = mg/(mm ms^2)."""
+
+    name: str
+    length: float
+    mass: float
+    time: float
+
+    def of(self, length: int = 0, mass: int = 0, time: int = 0) -> float:
+        """Factor of a quantity with these exponents."""
+        return rounded(self.length**length * self.mass**mass * self.time**time)
+
+    @property
+    def density(self) -> float:
+        return self.of(-3, 1)
+
+    @property
+    def pressure(self) -> float:
+        return self.of(-1, 1, -2)
+
+    @property
+    def viscosity(self) -> float:
+        return self.of(-1, 1, -1)
+
+    @property
+    def flow(self) -> float:
+        return self.of(3, 0, -1)
+
+    @property
+    def resistance(self) -> float:
+        return self.of(-4, 1, -1)
+
+    @property
+    def compliance(self) -> float:
+        return self.of(4, -1, 2)
+
+    @property
+    def spring(self) -> float:
+        """Pressure over length."""
+        return self.of(-2, 1, -2)
+
+    @property
+    def damper(self) -> float:
+        """Pressure over velocity."""
+        return self.of(-2, 1, -1)
+
+
+CGS = Units("cgs", 10.0, 1000.0, 1000.0)
+SYSTEMS: Dict[str, Units] = {
+    "cgs": CGS,  # cm, g, s: what svMultiPhysics and SimVascular are used with
+    "si": Units("si", 1000.0, 1e6, 1000.0),  # m, kg, s
+    "mm-g-s": Units("mm-g-s", 1.0, 1000.0, 1000.0),
+}
+
+
+def units_of(name: str) -> Units:
+    """Raises InputError."""
+    if name not in SYSTEMS:
+        raise InputError(
+            "",
+            "--units",
+            f"'{name}' is no system of units",
+            f"did you mean {nearest(name, list(SYSTEMS))}? There are {', '.join(SYSTEMS)}",
+        )
+    return SYSTEMS[name]
+
+
+def rounded(value: float) -> float:
+    """To 14 digits: a factor that is a power of ten stays one, whatever its product leaves."""
+    return float(f"{value:.14g}")
