@@ -159,6 +159,7 @@ void make_case(const ImportRequest& request) {
   ImportRequest mesh = request;
   const auto given = made.path() / "given.msh";
   mesh.output.file = (made.path() / "mesh.msh").string();
+  mesh.output.shown = (folder / "mesh.msh").string();
   write_and_report(read_any(mesh, given), mesh.output, TriangleGeometry::plane, said);
   std::filesystem::remove(given);
   made.move_into_place();

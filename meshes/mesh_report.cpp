@@ -115,7 +115,9 @@ void write_and_report(const AnyMesh& given, const MeshOutput& output, TriangleGe
   const std::string advice =
       output.advise ? std::visit([](const auto& made) { return advice_on(made); }, mesh) : std::string();
   print_report(
-      foreword + corners.said + fmt::format("{}: {}", printable(output.file), to_text(*quality)) + thickness + advice,
+      foreword + corners.said +
+          fmt::format("{}: {}", printable(output.shown.empty() ? output.file : output.shown), to_text(*quality)) +
+          thickness + advice,
       output.file);
   if (!warn) return;
   for (const auto& warning : warnings_of(*quality)) fsi::warn(mesh_program, warning);

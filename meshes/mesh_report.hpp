@@ -13,6 +13,7 @@ inline constexpr const char* mesh_program = "fsi-mesh";
 /// What every command of fsi-mesh is told about its output.
 struct MeshOutput {
   std::string file;
+  std::string shown;  ///< what the report calls it, where it is to be moved; empty: its name
   GmshFormat format;
   int threads = 0;
   bool quiet = false;

@@ -8,6 +8,7 @@ from typing import Callable, Dict
 from ..base.errors import InputError
 from ..base.files import exists
 from .abaqus import read_abaqus
+from .dolfin_hdf5 import read_dolfin_hdf5
 from .exodus import read_exodus
 from .med import read_med
 from .raw_mesh import RawMesh, of_meshio
@@ -23,6 +24,7 @@ READERS: Dict[str, Callable[[Path], RawMesh]] = {
     ".xmf": read_xdmf,
     ".med": read_med,
     ".inp": read_abaqus,
+    ".h5": read_dolfin_hdf5,
     **{name: read_exodus for name in (".e", ".exo", ".ex2", ".exii", ".g", ".gen")},
 }
 # What no reader takes, by the end of its name: what it is, and the way in.

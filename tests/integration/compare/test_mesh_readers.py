@@ -2,6 +2,7 @@
 
 import unittest
 
+import h5py
 import numpy as np
 import synthetic  # noqa: F401: the package's folder onto the path
 from folder_case import FolderCase
@@ -240,6 +241,61 @@ class Readers(FolderCase):
                     rows = [np.frombuffer(text.encode().ljust(80, b"\0"), np.int8) for text in texts]
                     family.create_dataset("GRO/NOM", data=np.array(rows))
         return self.read("a.med")
+
+    def write_dolfin(self, **groups):
+        """Two tetrahedra as dolfin's HDF5File writes them: functions have points and elements of their own."""
+        points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1.0]])
+        cells = np.array([[0, 1, 2, 3], [1, 2, 3, 4]])
+        facets = np.array([[0, 1, 2], [1, 2, 3], [2, 3, 4], [0, 1, 3]])
+        path = self.base / "mesh.h5"
+        made = {
+            "mesh": (points, cells, None),
+            "domains": (points, cells[::-1], np.array([2, 1])),
+            "boundaries": (points, facets, np.array([7, 0, 8, 7])),
+            **groups,
+        }
+        with h5py.File(path, "w") as file:
+            for name, (at, nodes, values) in made.items():
+                file[f"{name}/coordinates"], file[f"{name}/topology"] = at, nodes
+                if values is not None:
+                    file[f"{name}/values"] = values.astype(np.uint64)
+        return path, points, cells, facets
+
+    def test_hdf5_of_dolfin(self):
+        path, points, cells, facets = self.write_dolfin()
+        mesh = found_mesh("mesh.h5", read_mesh(path), 1000.0)
+        np.testing.assert_array_equal(mesh.points, 1000 * points)
+
+        def nodes(part):
+            return np.concatenate([b.nodes[p] for b, p in zip(mesh.blocks, mesh.cells[part]) if len(p)])
+
+        # Cells are once there, though mesh and function both have them.
+        self.assertEqual(len(nodes("all")), 2)
+        np.testing.assert_array_equal(nodes("domains:1"), cells[:1])
+        np.testing.assert_array_equal(nodes("domains:2"), cells[1:])
+        np.testing.assert_array_equal(nodes("boundaries:7"), facets[[0, 3]])
+        np.testing.assert_array_equal(nodes("boundaries:8"), facets[2:3])
+        self.assertNotIn("boundaries:0", mesh.cells)
+
+    def test_hdf5_of_dolfin_that_is_wrong(self):
+        _, points, cells, facets = self.write_dolfin()
+        wrong = {
+            "other points": {"boundaries": (points + 1, facets, np.arange(4))},
+            "values of 4 elements": {"boundaries": (points, facets, np.arange(3))},
+            "no points and simplices": {"boundaries": (points, np.zeros((4, 9), dtype=int), np.arange(4))},
+            "two functions of the cells": {"more": (points, cells, np.array([1, 2]))},
+        }
+        for words, groups in wrong.items():
+            path, *_ = self.write_dolfin(**groups)
+            with self.assertRaisesRegex(InputError, words):
+                read_mesh(path)
+        with h5py.File(self.base / "mesh.h5", "w") as file:
+            file["results"] = np.zeros(3)
+        with self.assertRaisesRegex(InputError, "is no mesh of dolfin"):
+            read_mesh(self.base / "mesh.h5")
+        (self.base / "mesh.h5").write_text("none")
+        with self.assertRaisesRegex(InputError, "cannot be read"):
+            read_mesh(self.base / "mesh.h5")
 
     def test_med_of_gmsh(self):
         # Face of a tetrahedron of MED: the fourth node lies on the other side than VTK's.

@@ -88,7 +88,11 @@ def write_meshes(folder, cm_of_mm=0.1):
     at = points * cm_of_mm
     for number, (medium, name) in enumerate((("fluid", "lumen"), ("wall", "wall"))):
         write_volume(folder / "mesh" / name / "mesh-complete.mesh.vtu", at, media[medium], number + 1)
-        own = [face for face in faces if face.startswith(medium) or face == ("interface" if medium == "fluid" else "outside")]
+        own = [
+            face
+            for face in faces
+            if face.startswith(medium) or face == ("interface" if medium == "fluid" else "outside")
+        ]
         for k, face in enumerate(own):
             write_face(folder / "mesh" / name / "mesh-surfaces" / f"{face}.vtp", at, faces[face], k + 1)
     write_face(folder / "mesh" / "wall" / "mesh-surfaces" / "inside.vtp", at, faces["interface"], 9)
@@ -141,7 +145,11 @@ def condition(face, text):
 
 
 def whole(*parts):
-    return '<?xml version="1.0" encoding="UTF-8" ?>\n<svMultiPhysicsFile version="0.1">\n' + "".join(parts) + "</svMultiPhysicsFile>\n"
+    return (
+        '<?xml version="1.0" encoding="UTF-8" ?>\n<svMultiPhysicsFile version="0.1">\n'
+        + "".join(parts)
+        + "</svMultiPhysicsFile>\n"
+    )
 
 
 def fsi(wall=WALL_VALUES, fluid=FLUID_VALUES, conditions=None, steps=4, step="1e-4"):
