@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Callable, Dict
 
 from ..base.errors import InputError
-from ..base.files import exists
+from ..base.files import exists, is_file
 from .abaqus import read_abaqus
 from .dolfin_hdf5 import read_dolfin_hdf5
 from .exodus import read_exodus
@@ -39,6 +39,7 @@ REFUSED = {
     ".feb": ("a model of FEBio", "export the mesh from FEBio Studio as .vtk or Abaqus, .inp"),
     ".vtp": ("a surface", "give the mesh of the volume first, and this as NAME=FILE.vtp"),
 }
+CASE = b"<svMultiPhysicsFile"  # begins an XML that is no mesh
 
 
 def read_mesh(path: Path) -> RawMesh:
@@ -48,6 +49,10 @@ def read_mesh(path: Path) -> RawMesh:
     if path.suffix.lower() in REFUSED:
         what, remedy = REFUSED[path.suffix.lower()]
         raise InputError(path, "", f"is {what}, which no reader takes", remedy)
+    if path.suffix.lower() == ".xml" and is_file(path):
+        with open(path, "rb") as file:
+            if CASE in file.read(65536):
+                raise InputError(path, "", "is a case of svMultiPhysics, no mesh", "give -o FOLDER, without --list")
     return READERS.get(path.suffix.lower(), _read_by_meshio)(path)
 
 

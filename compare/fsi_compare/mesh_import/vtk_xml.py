@@ -49,6 +49,8 @@ class VtkFile:
     def __init__(self, path: Path, contents: str) -> None:
         self.path, self.contents = path, contents
         text = path.read_bytes()
+        if text.startswith(b"version https://git-lfs"):
+            raise InputError(path, "", "is a pointer of Git LFS in the place of the file", "fetch it by git lfs pull")
         # What is appended raw is no XML: it is cut out, from the underscore on.
         found = re.search(rb"<AppendedData[^>]*>\s*_", text)
         self.appended = b""

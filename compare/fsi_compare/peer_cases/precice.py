@@ -1,10 +1,11 @@
-"""preCICE's configuration: it couples programs and holds neither mesh nor material. What it says of time is read; the
-case itself is with the programs that it couples."""
+"""preCICE's configuration: it couples programs and holds neither mesh nor material. What it and a deck of CalculiX beside
+it say is read and told; the rest of the case is with the program of the fluid, whose mesh no configuration names."""
 
 from typing import List, Optional
 
+from .calculix import deck_beside, read_deck
 from .model import PeerCase
-from .units import Units
+from .units import SYSTEMS, Units
 from .xml_file import Entry
 
 
@@ -16,21 +17,25 @@ def read_case(root: Entry, units: Units, fibre_angle: Optional[float] = None, to
     """Raises InputError always: the configuration lacks the fluid."""
     said: List[str] = []
     participants = [entry.attribute("name") for entry in root.every() if entry.name == "participant"]
-    schemes = [entry for entry in root.every() if entry.name.startswith("coupling-scheme:")]
     if participants:
         said.append(f"it couples {' and '.join(participants)}")
+    schemes = [entry for entry in root.every() if entry.name.startswith("coupling-scheme:")]
     for scheme in schemes[:1]:
         for name, key in (("time-window-size", "time.step"), ("max-time", "time.end")):
             found = scheme.find(name)
             if found is not None:
                 value = found.attribute("value")
                 try:
-                    said.append(f"{key} = {float(value) * 1000:g}")
+                    said.append(f"{key} = {float(value) * SYSTEMS['si'].time:g}")
                 except ValueError:
                     raise found.refuse(f"'{value}' is no number", "give a number of seconds") from None
-    words = "; ".join(said) or "it couples nothing"
-    remedy = "import the fluid's mesh from its program and the wall's from its deck: fsi-mesh import fluid=FILE wall=FILE.inp "
+    wall = "FILE.inp"
+    deck = deck_beside(root.file.parent)
+    if deck is not None:
+        wall = str(deck)
+        said.append(f"of the wall {deck} says {', '.join(read_deck(deck).words)}")
+    words = f" (in SI {'; '.join(said)})" if said else ""
+    remedy = f"import the fluid's mesh from its program, and the wall's: fsi-mesh import fluid=FILE wall={wall} -o FILE.msh; "
     raise root.refuse(
-        f"a preCICE configuration holds neither the fluid's mesh nor a material ({words}, in seconds taken as ms * 1000)",
-        remedy + "-o FILE.msh, and write the case file by hand",
+        f"a preCICE configuration does not hold the fluid's mesh{words}", remedy + "then write the case file by hand"
     )

@@ -202,7 +202,7 @@ class _Reader:
         words = (
             f"has a wall without thickness (coupled momentum; {thickness:g} mm, {young:g} kPa, Poisson's ratio {nu:g})"
         )
-        remedy = f"import the fluid by fsi-mesh import, give it a wall by fsi-mesh thicken, and that the material {{ young = {young:g} }}"
+        remedy = f"import the fluid by fsi-mesh import, give it a wall by fsi-mesh thicken, and give that wall young = {young:g}"
         raise entry.refuse(words, remedy)
 
     def _mesh_motion(self, entry: Entry) -> None:
@@ -211,7 +211,10 @@ class _Reader:
         for below in entry.every():
             below.taken = True
         where = f"line {entry.line}"
-        words = "mesh_motion.method = stiffened: small cells deform least, as in its elastic mesh"
+        words = (
+            "mesh_motion.method = stiffened: small cells deform least, as in its elastic mesh; openings move with the "
+        )
+        words += "ends of the wall that meet them, and not where these are clamped"
         self.case.note("Add_equation mesh", where, words + (f" (Poisson_ratio {ratio.text})" if ratio else ""))
 
     def _domains(self, equation: Entry, kind: str) -> Dict[int, Tuple[Entry, str]]:

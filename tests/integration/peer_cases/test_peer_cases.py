@@ -4,10 +4,12 @@ what has no counterpart is named; what is wrong is refused in one line, with not
 import csv
 import math
 import re
+import shutil
 import tomllib
 import unittest
 from pathlib import Path
 
+import numpy as np
 import svmultiphysics_tube as peer
 
 from programs import DRIVERS, MESH, FolderTest, attempt, execute, run
@@ -118,7 +120,8 @@ class PeerCases(FolderTest):
             # So that what the solvers leave is far below what is compared.
             tight = ("monolithic.error_tolerance=1e-9", "partitioned.tolerance=1e-9")
             ours, theirs = (
-                run(program, case / "case.toml", case / f"run-{Path(program).name}", *tight) for case in (by_hand, folder)
+                run(program, case / "case.toml", case / f"run-{Path(program).name}", *tight)
+                for case in (by_hand, folder)
             )
             mine, yours = (self.columns(at / "openings.csv") for at in (ours, theirs))
             self.assertEqual(len(mine), len(yours))
@@ -130,14 +133,14 @@ class PeerCases(FolderTest):
             for a, b in zip(mine, yours):
                 self.assertEqual(a["opening"], names[b["opening"]])
                 for key, size in largest.items():
-                    self.assertAlmostEqual(float(a[key]), float(b[key]), delta=1e-7 * size)
+                    self.assertAlmostEqual(float(a[key]), float(b[key]), delta=1e-9 * size)
             mine, yours = (self.columns(at / "wall_displacement.csv") for at in (ours, theirs))
             moved = ("radial_mm", "axial_mm")
             size = max(abs(float(row[key])) for row in mine for key in moved)
             self.assertGreater(size, 1e-5)
             for a, b in zip(mine, yours, strict=True):
                 for key in moved:
-                    self.assertAlmostEqual(float(a[key]), float(b[key]), delta=1e-7 * size)
+                    self.assertAlmostEqual(float(a[key]), float(b[key]), delta=1e-9 * size)
 
     def test_units_follow_from_length_mass_and_time(self):
         """A case in SI with the numbers of the same tube is the same case."""
@@ -193,6 +196,34 @@ class PeerCases(FolderTest):
                 if r["opening"] == "lumen_inlet"
             ]
             self.assertAlmostEqual(flows[-1], -0.4 - height * math.sin(2 * math.pi * 4e-3), delta=2e-3)
+
+    def test_a_velocity_is_a_flow_over_the_area(self):
+        at = self.points[self.faces["fluid_inlet"]]
+        area = 0.5 * np.linalg.norm(np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0]), axis=1).sum()
+        inlet = "<Type> Dir </Type> <Value> -20 </Value> <Profile> Flat </Profile>"  # 20 cm/s = 0.2 mm/ms, inwards
+        conditions = {"lumen_inlet": inlet, "lumen_wall": peer.CLAMP}
+        process, _, case = self.made(peer.rigid(conditions))
+        self.assertEqual(case["opening"][0]["profile"], "plug")
+        self.assertAlmostEqual(case["opening"][0]["flow_rate"], 0.2 * area, delta=1e-12)
+        self.assertIn("a velocity (no Impose_flux)", process.stderr)
+        # The other end has no condition: free of traction, as there.
+        self.assertEqual(case["opening"][1], {"surface": "lumen_outlet", "backflow": 0.0})
+
+    def test_a_case_is_no_mesh(self):
+        (self.base / "solver.xml").write_text(peer.fsi())
+        for options in (("--list",), ("-o", "out.msh")):
+            process = execute(MESH, "import", "solver.xml", *options, cwd=self.base)
+            self.assertEqual(process.returncode, 1)
+            self.assertIn("is a case of svMultiPhysics, no mesh; give -o FOLDER", process.stderr)
+        process = execute(MESH, "import", "solver.xml", "--units", "si", "-o", "out.msh", cwd=self.base)
+        self.assertIn("--units: is for cases", process.stderr)
+
+    def test_a_linear_wall(self):
+        conditions = {"wall_inlet": peer.CLAMP, "wall_outlet": "<Type> Neu </Type> <Value> -1e3 </Value>"}
+        values = "<Density> 1.2 </Density> <Elasticity_modulus> 4e6 </Elasticity_modulus> <Poisson_ratio> 0.4 </Poisson_ratio>"
+        _, _, case = self.made(peer.wall_alone(conditions, values, "lElas"))
+        expected = {"vessel": {"material": "linear-elastic", "young": 400.0, "poisson": 0.4}}
+        self.assertEqual(case["structure"]["layers"], expected)
 
     def test_a_wall_alone(self):
         conditions = {
@@ -250,7 +281,11 @@ class PeerCases(FolderTest):
             (peer.rigid(inlet), "lumen_wall: has no Add_BC, and is not flat"),
             (good.replace("mesh/wall/mesh-complete.mesh.vtu", "mesh/wall/none.vtu"), "there is no file", "none.vtu"),
             (good.replace("surfaces/fluid_inlet", "surfaces/none"), "there is no file", "none.vtp"),
-            (good.replace("lumen/mesh-surfaces/fluid_inlet", "wall/mesh-surfaces/outside"), "lumen_inlet", "sides of no cell"),
+            (
+                good.replace("lumen/mesh-surfaces/fluid_inlet", "wall/mesh-surfaces/outside"),
+                "lumen_inlet",
+                "sides of no cell",
+            ),
             (good.replace("> 1.06 <", "> heavy <"), "Density: 'heavy' is no finite number", "line"),
             (good.replace("> 1.06 <", "> inf <"), "Density: 'inf' is no finite number"),
             (good.replace("> 1.06 <", "> -1 <"), "Density: -1 is not positive"),
@@ -288,9 +323,20 @@ class PeerCases(FolderTest):
     def test_a_configuration_of_precice_says_what_lacks(self):
         text = '<precice-configuration><participant name="Fluid"/><participant name="Solid"/><coupling-scheme:parallel-implicit>'
         text += '<time-window-size value="0.01"/><max-time value="5"/></coupling-scheme:parallel-implicit></precice-configuration>'
-        self.refused(
-            text, "holds neither the fluid's mesh nor a material", "Fluid and Solid", "fluid=FILE wall=FILE.inp"
+        self.refused(text, "does not hold the fluid's mesh", "Fluid and Solid", "wall=FILE.inp")
+
+    def test_a_deck_of_calculix_beside_it_is_read(self):
+        folder = self.base / "solid"
+        folder.mkdir()
+        self.addCleanup(shutil.rmtree, folder)
+        deck = "** a wall\n*INCLUDE, INPUT=all.msh\n*MATERIAL, NAME=EL\n*ELASTIC\n 3e5, 0.3\n*DENSITY\n1200\n"
+        (folder / "tube.inp").write_text(deck + "*STEP\n*DYNAMIC, DIRECT, NLGEOM\n 1e-4, 0.01\n*END STEP\n")
+        said = self.refused("<precice-configuration/>", "wall=solid/tube.inp")
+        self.assertIn(
+            'material = "saint-venant-kirchhoff", young = 300, poisson = 0.3, density = 1.2, time.step = 0.1', said
         )
+        (folder / "tube.inp").write_text(deck.replace("3e5, 0.3", "stiff"))
+        self.refused("<precice-configuration/>", "line 4: *ELASTIC: has not 2 numbers")
 
     def test_a_mesh_of_dolfin_is_no_case(self):
         self.refused('<dolfin><mesh celltype="tetrahedron" dim="3"/></dolfin>', "is a mesh of dolfin", "-o FILE.msh")

@@ -1,0 +1,82 @@
+"""What a deck of CalculiX says beside its mesh: material, density, time. CalculiX has no units; preCICE's cases are in SI.
+
+With NLGEOM its *ELASTIC is St. Venant and Kirchhoff's law, without it the linear one."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Dict, List, Optional, Tuple
+
+from ..base.errors import InputError
+from ..base.files import LARGEST, read_text
+from .units import SYSTEMS
+
+SI = SYSTEMS["si"]
+
+
+@dataclass
+class Deck:
+    path: Path
+    words: List[str]  # in our keys and units, if the deck is in SI
+
+
+def deck_beside(folder: Path) -> Optional[Path]:
+    """The only .inp in the folder or one below it that has a material; None where there is none or there are several."""
+    found = []
+    for path in sorted([*folder.glob("*.inp"), *folder.glob("*/*.inp")]):
+        if path.is_file() and path.stat().st_size <= LARGEST and "*MATERIAL" in path.read_text("latin-1").upper():
+            found.append(path)
+    return found[0] if len(found) == 1 else None
+
+
+def read_deck(path: Path) -> Deck:
+    """Raises InputError."""
+    cards = _cards(path)
+    by_name: Dict[str, List[Tuple[int, str, List[str]]]] = {}
+    for card in cards:
+        by_name.setdefault(card[1].split(",")[0].strip().upper(), []).append(card)
+    materials = by_name.get("*MATERIAL", [])
+    if len(materials) != 1:
+        raise InputError(path, "*MATERIAL", f"is there {len(materials)} times", "read is a deck with one")
+    large = any(
+        "NLGEOM" in card[1].upper() for name in ("*STEP", "*DYNAMIC", "*STATIC") for card in by_name.get(name, [])
+    )
+    words = []
+    if "*ELASTIC" in by_name:
+        young, poisson = _numbers(path, by_name["*ELASTIC"][0], 2)
+        law = "saint-venant-kirchhoff" if large else "linear-elastic"
+        words.append(f'material = "{law}", young = {young * SI.pressure:g}, poisson = {poisson:g}')
+    else:
+        words.append("no *ELASTIC: give the material by hand")
+    if "*DENSITY" in by_name:
+        words.append(f"density = {_numbers(path, by_name['*DENSITY'][0], 1)[0] * SI.density:g}")
+    if "*DYNAMIC" in by_name:
+        step, end = _numbers(path, by_name["*DYNAMIC"][0], 2)
+        words.append(f"time.step = {step * SI.time:g}, time.end = {end * SI.time:g}")
+    return Deck(path, words)
+
+
+def _cards(path: Path) -> List[Tuple[int, str, List[str]]]:
+    """Line, keyword line, and lines of data of each."""
+    cards: List[Tuple[int, str, List[str]]] = []
+    text = read_text(path, "give the deck", "write the deck as text", LARGEST)
+    for number, line in enumerate(text.splitlines(), 1):
+        line = line.strip()
+        if line.startswith("**") or not line:
+            continue
+        if line.startswith("*"):
+            cards.append((number, line, []))
+        elif cards:
+            cards[-1][2].append(line)
+    return cards
+
+
+def _numbers(path: Path, card: Tuple[int, str, List[str]], count: int) -> List[float]:
+    line, keyword, data = card
+    words = data[0].split(",") if data else []
+    try:
+        numbers = [float(word) for word in words[:count]]
+    except ValueError:
+        numbers = []
+    if len(numbers) != count:
+        raise InputError(path, f"line {line}: {keyword}", f"has not {count} numbers behind it", "mend the deck")
+    return numbers
