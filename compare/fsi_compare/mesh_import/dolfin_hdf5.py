@@ -1,6 +1,6 @@
 """Reads meshes that dolfin wrote by its HDF5File, as turtleFSI and VaSP keep them: a group `mesh`, and functions of its
-cells and facets beside it (`domains`, `boundaries`), each with points and elements of its own, in any order. meshio takes
-.h5 for another format, and does not read these."""
+cells and facets beside it (`domains`, `boundaries`), each with points and elements of its own, in any order. meshio
+takes .h5 for another format, and does not read these."""
 
 from pathlib import Path
 from typing import Any, Dict, List, Tuple

@@ -1,4 +1,4 @@
-"""What a deck of CalculiX says beside its mesh: material, density, time. CalculiX has no units; preCICE's cases are in SI.
+"""What a deck of CalculiX says beside its mesh: material, density, time. It has no units; preCICE's cases are in SI.
 
 With NLGEOM its *ELASTIC is St. Venant and Kirchhoff's law, without it the linear one."""
 
@@ -20,7 +20,7 @@ class Deck:
 
 
 def deck_beside(folder: Path) -> Optional[Path]:
-    """The only .inp in the folder or one below it that has a material; None where there is none or there are several."""
+    """The only .inp in the folder or one below it that has a material; None where there are none or several."""
     found = []
     for path in sorted([*folder.glob("*.inp"), *folder.glob("*/*.inp")]):
         if path.is_file() and path.stat().st_size <= LARGEST and "*MATERIAL" in path.read_text("latin-1").upper():

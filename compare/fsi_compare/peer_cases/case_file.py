@@ -1,4 +1,4 @@
-"""Writes a case: case.toml, its tables, and the mesh as gmsh's format 2.2, which fsi-mesh makes into the mesh of the case."""
+"""Writes a case: case.toml and its tables. The mesh is written by fsi-mesh, from what geometry.py hands over."""
 
 from pathlib import Path
 from typing import Any, Dict, List

@@ -1,5 +1,5 @@
-"""preCICE's configuration: it couples programs and holds neither mesh nor material. What it and a deck of CalculiX beside
-it say is read and told; the rest of the case is with the program of the fluid, whose mesh no configuration names."""
+"""preCICE's configuration: it couples programs and holds neither mesh nor material. What it and a deck of CalculiX
+beside it say is read and told; the rest of the case is with the program of the fluid, whose mesh no configuration names."""
 
 from typing import List, Optional
 
@@ -35,7 +35,9 @@ def read_case(root: Entry, units: Units, fibre_angle: Optional[float] = None, to
         wall = str(deck)
         said.append(f"of the wall {deck} says {', '.join(read_deck(deck).words)}")
     words = f" (in SI {'; '.join(said)})" if said else ""
-    remedy = f"import the fluid's mesh from its program, and the wall's: fsi-mesh import fluid=FILE wall={wall} -o FILE.msh; "
+    remedy = (
+        f"import the meshes of both, the fluid's from its program: fsi-mesh import fluid=FILE wall={wall} -o FILE.msh; "
+    )
     raise root.refuse(
         f"a preCICE configuration does not hold the fluid's mesh{words}", remedy + "then write the case file by hand"
     )

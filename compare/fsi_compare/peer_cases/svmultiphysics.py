@@ -1,7 +1,7 @@
 """Cases of svMultiPhysics (solver.xml and the folder of its mesh): FSI, fluid between rigid walls, and walls alone.
 
-What its words mean is taken from its sources: Parameters.cpp (defaults), read_files.cpp (read_bc, read_domain), set_bc.cpp
-(a value of Dir is along the normal out of the fluid, one of Neu is a pressure against it), fluid.cpp (backflow)."""
+What its words mean is taken from its sources: Parameters.cpp (defaults), read_files.cpp (read_bc, read_domain),
+set_bc.cpp (a value of Dir is along the normal out of the fluid, one of Neu a pressure against it), fluid.cpp (backflow)."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -75,18 +75,18 @@ INSTEAD = {
 LOST = {
     "Continue_previous_simulation": "the run begins at rest",
     "Initial_velocities_file_path": "the run begins at rest",
-    "Initial_pressures_file_path": "the run begins at rest; a load that the wall carries in the mesh's shape is [prestress]",
+    "Initial_pressures_file_path": "the run begins at rest; what the wall carries in the mesh's shape is [prestress]",
     "Initial_displacements_file_path": "the run begins in the shape of the mesh",
     "Mass_damping": "there is none; support.NAME.damper damps at a surface, layers.NAME.viscosity in the wall",
     "Number_of_initialization_time_steps": "the run begins at rest",
     "Simulation_initialization_file_path": "the run begins at rest",
     "Simulation_requires_remeshing": "the mesh follows the wall, mesh_motion.method",
     "Weakly_applied": "the velocity is given itself",
-    "Initialize_RCR_from_flow": 'Windkessels begin with initial_pressure; time.start = "lumped" finds that of a periodic flow',
+    "Initialize_RCR_from_flow": 'Windkessels begin with initial_pressure; time.start = "lumped" finds a periodic one',
 }
 ELEMENTS = {
-    1: "Cells of first order. svMultiPhysics: linear velocity, pressure and displacement, its wall without a pressure of its own "
-    "(too stiff where nearly incompressible). Here: element = p1, linear and stabilised, the wall with a pressure. "
+    1: "Cells of first order. svMultiPhysics: linear velocity, pressure and displacement, its wall without a pressure "
+    "of its own (too stiff where nearly incompressible). Here: element = p1, linear and stabilised, the wall with a pressure. "
     '--set element="p2p1" solves on straight quadratic cells of the same mesh, more accurate at more cost.',
     2: "Cells of second order: element = p2p1, quadratic velocity and displacement, linear pressure.",
 }
@@ -202,7 +202,7 @@ class _Reader:
         words = (
             f"has a wall without thickness (coupled momentum; {thickness:g} mm, {young:g} kPa, Poisson's ratio {nu:g})"
         )
-        remedy = f"import the fluid by fsi-mesh import, give it a wall by fsi-mesh thicken, and give that wall young = {young:g}"
+        remedy = f"import the fluid by fsi-mesh import, give it a wall by fsi-mesh thicken, and that young = {young:g}"
         raise entry.refuse(words, remedy)
 
     def _mesh_motion(self, entry: Entry) -> None:
@@ -473,7 +473,7 @@ class _Reader:
         opening["backflow"] = self.backflow
         self.openings.append(opening)
         self.case.said.append(
-            f"{face.given}: {', '.join(key for key in opening if key not in ('surface', 'backflow')) or 'free of traction'}"
+            f"{face.given}: {', '.join(k for k in opening if k not in ('surface', 'backflow')) or 'free of traction'}"
         )
 
     def _windkessel(self, values: Entry) -> Dict[str, Any]:
@@ -520,9 +520,7 @@ class _Reader:
             words = (
                 "a ramp from its first value to its last"
                 if wave.ramp
-                else (
-                    f"its Fourier series of {len(wave.real)} modes, as svMultiPhysics takes it; off its points by {share}"
-                )
+                else (f"its Fourier series of {len(wave.real)} modes, as there; off its points by {share}")
             )
             return wave, words
         if coefficients is not None:

@@ -52,8 +52,8 @@ NEARLY = 1e4  # K/mu in the place of an incompressible wall: nu = 0.49995
 
 @dataclass
 class Layer:
-    """`constants` of [structure.layers.NAME]; `bulk_modulus` where the law takes that of [structure]; notes: entry, what is
-    done, whether it matters."""
+    """`constants` of [structure.layers.NAME]; `bulk_modulus` where the law takes that of [structure]; notes: entry,
+    what is done, whether it matters."""
 
     constants: Dict[str, Any]
     density: float
@@ -243,7 +243,7 @@ def viscosity_of(domain: Entry, units: Units) -> Tuple[Dict[str, Any], List[Tupl
             raise entry.refuse(f"Low_shear_rate_threshold {lowest:g} is not positive", "give one above 0")
         law = {"name": "casson", "yield_stress": stress**2 * units.pressure, "plastic_viscosity": plastic**2}
         law["regularisation"] = seconds / lowest
-        words = f"below {lowest:g} per unit of time its viscosity is constant; here it goes over to the same value smoothly "
+        words = f"below {lowest:g} per unit of time its viscosity is constant; here it goes to the same value smoothly "
         return {"viscosity_model": law}, [
             (entry, words + "(regularisation), 1 - exp(-sqrt(m g)) in place of a corner", True)
         ]

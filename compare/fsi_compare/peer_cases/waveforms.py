@@ -16,8 +16,8 @@ FEWEST, MOST = 128, 20000
 
 @dataclass
 class Waveform:
-    """value(t) = first + slope t + sum of real[n] cos(2 pi n t/T) - imaginary[n] sin(2 pi n t/T), t in [0, T] from `start`
-    on, and again with the period T; of a ramp the trend alone, which ends with its last value."""
+    """value(t) = first + slope t + sum of real[n] cos(2 pi n t/T) - imaginary[n] sin(2 pi n t/T), t in [0, T] from
+    `start` on, and again with the period T; of a ramp the trend alone, which ends with its last value."""
 
     start: float
     period: float

@@ -1,6 +1,6 @@
 """XML of other programs, as entries that know their line and whether anybody read them.
 
-A document type is refused: it is what entities, outside files and expansions without end come by, and no case has one."""
+A document type is refused: entities, outside files and expansions without end come by it, and no case has one."""
 
 import math
 import xml.parsers.expat as expat

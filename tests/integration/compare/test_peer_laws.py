@@ -212,7 +212,8 @@ class Stresses(Files):
         law = viscosity_of(self.xml(text.format("Constant", "<Value>0.04</Value>")), CGS)[0]
         self.assertAlmostEqual(law["viscosity"], 4e-3, delta=1e-17)
         parts = "<Limiting_high_shear_rate_viscosity>0.022</Limiting_high_shear_rate_viscosity>"
-        parts += "<Limiting_low_shear_rate_viscosity>0.22</Limiting_low_shear_rate_viscosity><Power_law_index>0.392</Power_law_index>"
+        parts += "<Limiting_low_shear_rate_viscosity>0.22</Limiting_low_shear_rate_viscosity>"
+        parts += "<Power_law_index>0.392</Power_law_index>"
         parts += "<Shear_rate_tensor_multiplier>0.11</Shear_rate_tensor_multiplier>"
         parts += "<Shear_rate_tensor_exponent>0.644</Shear_rate_tensor_exponent>"
         made = viscosity_of(self.xml(text.format("Carreau-Yasuda", parts)), CGS)[0]["viscosity_model"]

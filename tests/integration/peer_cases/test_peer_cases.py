@@ -1,5 +1,5 @@
-"""fsi-mesh import of a case of svMultiPhysics: what comes of it is the case that one would write by hand, for both drivers;
-what has no counterpart is named; what is wrong is refused in one line, with nothing written."""
+"""fsi-mesh import of a case of svMultiPhysics: what comes of it is the case that one would write by hand, for both
+drivers; what has no counterpart is named; what is wrong is refused in one line, with nothing written."""
 
 import csv
 import math
@@ -220,7 +220,8 @@ class PeerCases(FolderTest):
 
     def test_a_linear_wall(self):
         conditions = {"wall_inlet": peer.CLAMP, "wall_outlet": "<Type> Neu </Type> <Value> -1e3 </Value>"}
-        values = "<Density> 1.2 </Density> <Elasticity_modulus> 4e6 </Elasticity_modulus> <Poisson_ratio> 0.4 </Poisson_ratio>"
+        values = "<Density> 1.2 </Density> <Elasticity_modulus> 4e6 </Elasticity_modulus>"
+        values += "<Poisson_ratio> 0.4 </Poisson_ratio>"
         _, _, case = self.made(peer.wall_alone(conditions, values, "lElas"))
         expected = {"vessel": {"material": "linear-elastic", "young": 400.0, "poisson": 0.4}}
         self.assertEqual(case["structure"]["layers"], expected)
@@ -228,8 +229,8 @@ class PeerCases(FolderTest):
     def test_a_wall_alone(self):
         conditions = {
             "wall_inlet": peer.CLAMP,
-            "wall_outlet": "<Type> Dir </Type> <Value> 0 </Value> <Effective_direction> (0, 0, 1) </Effective_direction>",
-            "wall_inner": "<Type> Neu </Type> <Value> 1e4 </Value> <Follower_pressure_load> true </Follower_pressure_load>",
+            "wall_outlet": "<Type> Dir </Type> <Effective_direction> (0, 0, 1) </Effective_direction>",
+            "wall_inner": "<Type> Neu </Type> <Value> 1e4 </Value> <Follower_pressure_load> 1 </Follower_pressure_load>",
         }
         _, folder, case = self.made(peer.wall_alone(conditions))
         supports = {support.pop("surface"): support for support in case["support"]}
@@ -311,6 +312,21 @@ class PeerCases(FolderTest):
         unsteady += "<Temporal_values_file_path> bad.flow </Temporal_values_file_path>"
         self.refused(peer.rigid({**inlet, "lumen_inlet": unsteady, "lumen_wall": peer.CLAMP}), "bad.flow", "line 3")
 
+    def test_lumen_and_wall_that_share_no_face(self):
+        """Nodes 2e-4 mm apart: refused, and one by --join, which says so."""
+        moved = self.points + [2e-4, 0, 0]
+        peer.write_volume(self.base / "mesh" / "moved.vtu", 0.1 * moved, self.media["wall"], 2)
+        text = peer.fsi().replace("mesh/wall/mesh-complete.mesh.vtu", "mesh/moved.vtu")
+        for name in ("wall_inlet", "wall_outlet", "outside", "inside"):
+            face = self.faces["interface" if name == "inside" else name]
+            peer.write_face(self.base / "mesh" / f"{name}.vtp", 0.1 * moved, face, 1)
+            text = text.replace(f"mesh/wall/mesh-surfaces/{name}.vtp", f"mesh/{name}.vtp")
+        self.refused(text, "Add_projection wall_inner", "share no face", "--join MM")
+        process, folder, _ = self.made(text, "--join", "0.001")
+        self.assertRegex((folder / "import.log").read_text(), r"--join 0.001: \d+ points are joined to others")
+        (log,) = [row for row in (folder / "import.log").read_text().splitlines() if row.startswith("wall_inner")]
+        self.assertIn("on the interface", log)
+
     def test_a_folder_that_is_there_stays_as_it_is(self):
         (self.base / "there").mkdir()
         (self.base / "there" / "mine").write_text("x")
@@ -321,8 +337,9 @@ class PeerCases(FolderTest):
         self.assertEqual([path.name for path in (self.base / "there").iterdir()], ["mine"])
 
     def test_a_configuration_of_precice_says_what_lacks(self):
-        text = '<precice-configuration><participant name="Fluid"/><participant name="Solid"/><coupling-scheme:parallel-implicit>'
-        text += '<time-window-size value="0.01"/><max-time value="5"/></coupling-scheme:parallel-implicit></precice-configuration>'
+        text = '<precice-configuration><participant name="Fluid"/><participant name="Solid"/>'
+        text += '<coupling-scheme:a><time-window-size value="0.01"/><max-time value="5"/></coupling-scheme:a>'
+        text += "</precice-configuration>"
         self.refused(text, "does not hold the fluid's mesh", "Fluid and Solid", "wall=FILE.inp")
 
     def test_a_deck_of_calculix_beside_it_is_read(self):

@@ -1,5 +1,5 @@
-"""A short tube as SimVascular lays out a project of svMultiPhysics: a folder of mesh for each medium, faces as .vtp, ids of
-nodes, elements, regions and faces, all in cm; and the solver.xml of a case on it. Coarse: it is to be read, not to be right."""
+"""A short tube as SimVascular lays out a project of svMultiPhysics: a folder of mesh for each medium, faces as .vtp, ids
+of nodes, elements, regions and faces, all in cm; and the solver.xml of a case on it. Coarse: it is to be read."""
 
 import meshio
 import numpy as np
@@ -66,7 +66,8 @@ def write_face(path, points, triangles, face):
 
     def array(kind, name, values, components=1):
         text = " ".join(map(str, np.asarray(values).ravel()))
-        return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">{text}</DataArray>'
+        tag = f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">'
+        return f"{tag}{text}</DataArray>"
 
     count = len(triangles)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -77,7 +78,8 @@ def write_face(path, points, triangles, face):
         f'<CellData>{array("Int32", "GlobalElementID", range(1, count + 1))}'
         f'{array("Int32", "ModelFaceID", [face] * count)}</CellData>'
         f'<Points>{array("Float64", "Points", points[used], 3)}</Points>'
-        f'<Polys>{array("Int64", "connectivity", numbers)}{array("Int64", "offsets", range(3, 3 * count + 1, 3))}</Polys>'
+        f'<Polys>{array("Int64", "connectivity", numbers)}'
+        f'{array("Int64", "offsets", range(3, 3 * count + 1, 3))}</Polys>'
         "</Piece></PolyData></VTKFile>"
     )
 
@@ -115,7 +117,8 @@ GENERAL = """<GeneralSimulationParameters>
 def mesh_entry(name, folder, faces, domain=""):
     text = f'<Add_mesh name="{name}">\n  <Mesh_file_path> mesh/{folder}/mesh-complete.mesh.vtu </Mesh_file_path>\n'
     for face, file in faces.items():
-        text += f'  <Add_face name="{face}">\n    <Face_file_path> mesh/{folder}/mesh-surfaces/{file}.vtp </Face_file_path>\n'
+        path = f"mesh/{folder}/mesh-surfaces/{file}.vtp"
+        text += f'  <Add_face name="{face}">\n    <Face_file_path> {path} </Face_file_path>\n'
         text += "  </Add_face>\n"
     return text + (f"  <Domain> {domain} </Domain>\n" if domain != "" else "") + "</Add_mesh>\n"
 
@@ -170,7 +173,8 @@ def fsi(wall=WALL_VALUES, fluid=FLUID_VALUES, conditions=None, steps=4, step="1e
         f'<Domain id="1"> <Equation> struct </Equation> {wall} </Domain>\n{LS}\n',
         *(condition(face, text) for face, text in conditions.items()),
         "</Add_equation>\n",
-        f'<Add_equation type="mesh"> <Poisson_ratio> 0.3 </Poisson_ratio> {LS} {condition("lumen_inlet", CLAMP)}</Add_equation>\n',
+        f'<Add_equation type="mesh"> <Poisson_ratio> 0.3 </Poisson_ratio> {LS} {condition("lumen_inlet", CLAMP)}',
+        "</Add_equation>\n",
     )
 
 
