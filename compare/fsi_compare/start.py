@@ -73,6 +73,7 @@ LESS = {  # by command; others compare runs
     "watch": "leave --page out",
     "export": "give fewer --fields",
     "convert-mesh": "give a mesh with fewer cells",
+    "convert-case": "give a case with fewer cells",
     "convert-surface": "give a surface with fewer triangles",
     "study": "leave the largest runs out of the study file; finished ones are kept",
     "solvers": "give fewer or smaller levels; finished runs are kept",
