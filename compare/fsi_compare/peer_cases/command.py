@@ -34,8 +34,13 @@ def convert_case(options: argparse.Namespace) -> int:
     if options.join is not None and not 0 < options.join < float("inf"):
         raise InputError("", "--join", f"{options.join:g} is no distance", "give mm, for one 0.001")
     angle = options.fibre_angle
-    if angle is not None and not -90 <= angle <= 90:
-        raise InputError("", "--fibre-angle", f"{angle:g} is no angle to the circumference", "give -90 to 90 degrees")
+    if angle is not None and not 0 <= angle <= 90:
+        raise InputError(
+            "",
+            "--fibre-angle",
+            f"{angle:g} is no angle to the circumference",
+            "give 0 to 90 degrees: the other family mirrors it",
+        )
     case = read_peer_case(options.case, units_of(options.units), angle, options.join or 0.0)
     lines: List[str] = [f"{case.file}, a case of {case.program}, taken in {options.units}."]
     lines += case.said + [f"No counterpart: {note}" for note in case.notes]

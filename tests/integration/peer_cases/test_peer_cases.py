@@ -218,6 +218,25 @@ class PeerCases(FolderTest):
         process = execute(MESH, "import", "solver.xml", "--units", "si", "-o", "out.msh", cwd=self.base)
         self.assertIn("--units: is for cases", process.stderr)
 
+    def test_fibres_by_their_angle(self):
+        law = '<Constitutive_model type="HGO"> <a4> 2e4 </a4> <b4> 0.8 </b4> <a6> 2e4 </a6> <b6> 0.8 </b6> '
+        law += "<kappa> 0.1 </kappa> </Constitutive_model>"
+        wall = peer.WALL_VALUES.replace('<Constitutive_model type="neoHookean"> </Constitutive_model>', law)
+        self.refused(peer.fsi(wall), "gives fibres by vectors", "--fibre-angle DEGREES")
+        self.refused(peer.fsi(wall), "-29 is no angle", options=("--fibre-angle=-29",))
+        process, folder, case = self.made(peer.fsi(wall), "--fibre-angle", "29")
+        layer = case["structure"]["layers"]["vessel"]
+        expected = {"c10": 400 / 2.9, "k1": 2.0, "k2": 0.8, "alpha": 29.0, "kappa": 0.1}
+        self.assertEqual(layer.pop("material"), "artery")
+        self.assertEqual(layer.keys(), expected.keys())
+        for key, value in expected.items():
+            self.assertAlmostEqual(layer[key], value, delta=1e-12 * abs(value))
+        self.assertAlmostEqual(case["structure"]["bulk_modulus"], 400 / 0.3, delta=1e-9)
+        self.assertIn("they bear no compression", process.stderr)
+        for program in DRIVERS:
+            process = attempt(program, folder / "case.toml", "--check")
+            self.assertEqual(process.returncode, 0, process.stderr)
+
     def test_a_linear_wall(self):
         conditions = {"wall_inlet": peer.CLAMP, "wall_outlet": "<Type> Neu </Type> <Value> -1e3 </Value>"}
         values = "<Density> 1.2 </Density> <Elasticity_modulus> 4e6 </Elasticity_modulus>"
