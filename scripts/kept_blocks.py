@@ -186,6 +186,28 @@ def references_table(rows: List[Row]) -> str:
     return "\n".join(lines)
 
 
+def peers_table(rows: List[Row]) -> str:
+    """A line for each number of another program: its drivers with their bars side by side, and why they differ from it."""
+    numbers: Dict[Tuple[str, str], Dict[str, Row]] = {}
+    for row in rows:
+        numbers.setdefault((row["scene"], row["number"]), {})[row["driver"]] = row
+    heads = ["case", "peer", "number", "unit", "peer's", *DRIVERS, "difference", "why"]
+    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
+    for (scene, number), of in numbers.items():
+        missing = [driver for driver in DRIVERS if driver not in of]
+        if missing:
+            raise BlockError(f"'{scene}' has no row of the {missing[0]} driver for '{number}'")
+        first = of[DRIVERS[0]]
+        cells = [f"`{scene}`", first["source"], number, first["unit"], _digits(first["known"], 5)]
+        for driver in DRIVERS:
+            bar = f"+- {_digits(of[driver]['bar'], 2)}" if of[driver]["bar"] else "(no bar)"
+            cells.append(f"{_digits(of[driver]['value'], 5)} {bar}")
+        shares = [float(row["value"]) / float(row["known"]) - 1 for row in of.values()]
+        cells.append(f"{100 * max(shares, key=abs):+.2g} %")
+        lines.append("| " + " | ".join([*cells, first["reason"]]) + " |")
+    return "\n".join(lines)
+
+
 def _beyond(row: Row) -> float:
     """What a number is off by over its bar, the spread of published values and what their model is worth."""
     share = sum(float(row[name] or 0) for name in ("spread", "model")) / 100
@@ -210,5 +232,13 @@ def _listed(names: List[str]) -> str:
 
 BLOCKS: Dict[str, Callable[[List[Row]], str]] = {
     block.__name__: block
-    for block in (kinds_verdict, kinds_answer, artery_settings, kinds_by_rung, references_verdict, references_table)
+    for block in (
+        kinds_verdict,
+        kinds_answer,
+        artery_settings,
+        kinds_by_rung,
+        references_verdict,
+        references_table,
+        peers_table,
+    )
 }

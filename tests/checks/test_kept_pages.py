@@ -16,6 +16,7 @@ from kept_blocks import (  # noqa: E402
     kinds_answer,
     kinds_by_rung,
     kinds_verdict,
+    peers_table,
     references_table,
     references_verdict,
 )
@@ -260,6 +261,16 @@ class ReferencesPage(unittest.TestCase):
 
     def test_a_number_without_a_bar_says_so(self):
         self.assertIn("| none |", references_table(self.rows(bar="")))
+
+    def test_peers_stand_beside_both_drivers_with_bars_and_the_reason(self):
+        rows = self.rows(reason="locking")
+        line = peers_table(rows).splitlines()[2]
+        self.assertEqual(
+            line, "| `tube` | formula | radius | mm | 1 | 1.001 +- 0.002 | 1.004 +- 0.002 | +0.4 % | locking |"
+        )
+        self.assertIn("1.001 (no bar)", peers_table(self.rows(reason="", bar="")))
+        with self.assertRaisesRegex(BlockError, "partitioned"):
+            peers_table(rows[:1])
 
     def test_seconds_that_were_not_measured_are_a_dash(self):
         self.assertIn("| 0.5 | - |", references_table(self.rows(seconds="")))

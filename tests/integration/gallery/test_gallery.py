@@ -56,6 +56,19 @@ class Gallery(FolderTest):
         for title in titles:
             self.assertIn(f"## {title}\n", page)
 
+    def test_the_page_of_peers_has_every_case_by_both_drivers(self):
+        listed = execute(COMPARE, "gallery", "--peers", "--list")
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        names = [line.split()[0] for line in listed.stdout.splitlines()]
+        self.assertGreaterEqual(len(names), 6)
+        self.assertIn("mok-flap", names)
+        with open(READY.parent / "docs" / "data" / "peers.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        for name in names:
+            drivers = {row["driver"] for row in rows if row["scene"] == name}
+            self.assertEqual(drivers, {"monolithic", "partitioned"}, name)
+            self.assertTrue(all(row["reason"] for row in rows if row["scene"] == name), name)
+
     def test_a_number_that_is_off_fails(self):
         process = self.own_scene("exact_radius(load),", "1.001 * exact_radius(load),")
         self.assertEqual(process.returncode, 2)

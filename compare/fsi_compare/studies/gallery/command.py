@@ -9,7 +9,7 @@ from ...base.options import Commands, add_command, add_drivers, add_output, add_
 from ..starting.folder_lock import locked
 from ..starting.programs import find_mesh_maker, find_program
 from .running import Programs, make_runs
-from .scene import BOTH, READY, Number, find_scenes
+from .scene import BOTH, PEERS, READY, Number, find_scenes
 
 DESCRIPTION = """\
 Runs scenes of the gallery with both drivers, holds what they compute against what is known, and writes to OUTDIR:
@@ -27,6 +27,13 @@ def add_parser(commands: Commands, version: str) -> None:
     add_output(command, "results/gallery")
     command.add_argument(
         "--from", metavar="FOLDER", type=folder, dest="source", default=READY, help="a gallery of your own"
+    )
+    command.add_argument(
+        "--peers",
+        action="store_const",
+        const=READY / PEERS,
+        dest="source",
+        help="cases of other programs (docs/peers.md)",
     )
     command.add_argument("--long", action="store_true", help="all scenes, those that take minutes, too")
     command.add_argument("--quick", action="store_true", help="the short forms, a second or two each")

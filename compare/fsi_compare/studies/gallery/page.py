@@ -37,7 +37,7 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[
     stem = scene.name.replace("-", "_")
     report.section(scene.title)
     report.text(*scene.paragraphs)
-    place = f"gallery/{scene.name}"
+    place = scene.place
     commands = _mesh_commands(scene, place, quick)
     settings = "".join(f" --set {name}={value}" for name, value in (scene.quick if quick else {}).items())
     commands += [

@@ -32,6 +32,7 @@ from ...runs.run_folder import read_finished
 
 BOTH = ("fsi-monolithic", "fsi-partitioned")
 READY = Path(__file__).resolve().parents[4] / "gallery"
+PEERS = "peers"  # folder of READY with the scenes that are cases of other programs
 
 
 @dataclass(frozen=True)
@@ -48,6 +49,7 @@ class Number:
     scale: float = 0.0  # what the tolerance counts in; 0: the reference
     spread: float = 0.0  # by which published values of others differ among each other, relative; 0: not known
     model: float = 0.0  # what the reference's model, where it is another one, is worth, relative; 0: it is this one
+    reason: str = ""  # why the value should differ from the reference, for people
 
     @property
     def error(self) -> float:
@@ -119,6 +121,12 @@ class Scene:
     def case(self) -> Path:
         return self.folder / f"{self.name}.toml"
 
+    @property
+    def place(self) -> str:
+        """The folder as a user of the sources would type it."""
+        above = f"{PEERS}/" if self.folder.parent.name == PEERS else ""
+        return f"gallery/{above}{self.name}"
+
     def mesh_words(self, quick: bool) -> List[str]:
         return shlex.split((quick and self.quick_mesh) or self.mesh)
 
@@ -133,6 +141,11 @@ class Scene:
 
 def scene_names(folder: Path = READY) -> List[str]:
     return [name for name in listed(folder) if is_file(folder / name / "scene.py")]
+
+
+def ready_scenes() -> List[str]:
+    """Names of all scenes that come with the program, from its gallery's folder on: `womersley`, `peers/mok-flap`."""
+    return [*scene_names(), *(f"{PEERS}/{name}" for name in scene_names(READY / PEERS))]
 
 
 def find_scenes(wanted: Sequence[str], folder: Path = READY) -> List[Scene]:

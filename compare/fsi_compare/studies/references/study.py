@@ -97,6 +97,7 @@ RECORDS: Sequence[Column[Record]] = (
     Column("verdict", "verdict", lambda r: r.bar.verdict, left=True),
     Column("known from", "source", lambda r: r.number.source, left=True),
     Column("seconds", "seconds", lambda r: r.seconds, ".2g"),
+    Column("why it differs", "reason", lambda r: r.number.reason, left=True),
 )
 
 

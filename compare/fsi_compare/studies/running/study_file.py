@@ -12,7 +12,7 @@ from ...base.files import absolute, exists, is_file, read_toml
 from ..catalogue.names import MESHES
 from ...base.suggestions import nearest
 from ..gallery.mesh_chain import with_places
-from ..gallery.scene import READY, Scene, read_scene, scene_names
+from ..gallery.scene import READY, Scene, read_scene, ready_scenes
 from ..starting.launch import usable_cores
 from .section import LARGEST_COUNT, LARGEST_NUMBER, Section
 
@@ -256,7 +256,7 @@ class _Reader:
         key = f"cases.{name}.scene"
         if "file" in entry:
             raise self.wrong(key, "has a file beside it", "give one of the two")
-        self.scenes[name] = read_scene(READY / self.one_of(key, entry["scene"], scene_names()))
+        self.scenes[name] = read_scene(READY / self.one_of(key, entry["scene"], ready_scenes()))
         return self.scenes[name].case
 
     def of_scene(self, name: str) -> Dict[str, Any]:

@@ -1,0 +1,42 @@
+// Half of a channel that narrows, with a flap on its floor (Mok 2001). Lengths in mm.
+// Sizes of cells; cells along the flap and through it.
+DefineConstant[ far = 50, near = 16, gap = 10, flap = 40, thick = 1 ];
+Point(1) = {0, 0, 0, far};
+Point(2) = {500, 0, 0, gap};
+Point(3) = {505, 0, 0, gap};
+// The floor rises by 0.4035 along its slope, an arc joins it to the level part at x = 1350.
+meet = 505 + 300 / 0.40346;
+back = 1350 - meet;
+angle = Atan(0.40346);
+Point(4) = {meet - back * Cos(angle), 300 - back * Sin(angle), 0, far};
+Point(5) = {1350, 300, 0, far};
+Point(6) = {1350, 300 - back / Tan(angle / 2), 0, far};
+Point(7) = {1750, 300, 0, far};
+Point(8) = {1750, 500, 0, far};
+Point(9) = {0, 500, 0, far};
+Point(10) = {500, 250, 0, near};
+Point(11) = {505, 250, 0, near};
+Line(1) = {1, 2};
+Line(2) = {2, 10};
+Line(3) = {10, 11};
+Line(4) = {11, 3};
+Line(5) = {3, 4};
+Circle(6) = {4, 6, 5};
+Line(7) = {5, 7};
+Line(8) = {7, 8};
+Line(9) = {8, 9};
+Line(10) = {9, 1};
+Line(11) = {2, 3};
+Transfinite Curve{2, 4} = flap + 1;
+Transfinite Curve{3, 11} = thick + 1;
+Curve Loop(1) = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+Curve Loop(2) = {11, -4, -3, -2};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Transfinite Surface{2};
+Physical Surface("fluid") = {1};
+Physical Surface("flap") = {2};
+Physical Curve("inlet") = {10};
+Physical Curve("outlet") = {8};
+Physical Curve("symmetry_y") = {9};
+Physical Curve("wall_ends") = {11};
