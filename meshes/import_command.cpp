@@ -143,6 +143,7 @@ void make_case(const ImportRequest& request) {
   };
   if (!request.groups.empty()) refuse("--group", "the case names its faces");
   if (!request.openings.empty()) refuse("--opening", "the case names its faces");
+  if (request.wall_faces) refuse("--wall-faces", "the case names its faces");
   if (request.scale != 1) refuse("--scale", "give --units");
   if (request.output.file.empty())
     throw InputError(mesh_program, "--output", "is not given", "give -o FOLDER, which is made");
@@ -155,12 +156,13 @@ void make_case(const ImportRequest& request) {
   if (!request.fibre_angle.empty()) words.emplace_back("--fibre-angle=" + request.fibre_angle);
   if (request.join != 0) words.insert(words.end(), {"--join", fmt::format("{}", request.join)});
   words.insert(words.end(), {"--", request.files.front()});
-  const std::string said = converted("", words, request.output.quiet);
+  std::string said = converted("", words, request.output.quiet);
   ImportRequest mesh = request;
   const auto given = made.path() / "given.msh";
   mesh.output.file = (made.path() / "mesh.msh").string();
   mesh.output.shown = (folder / "mesh.msh").string();
-  write_and_report(read_any(mesh, given), mesh.output, TriangleGeometry::plane, said);
+  const AnyMesh read = read_any(mesh, given, said);
+  write_and_report(read, mesh.output, TriangleGeometry::plane, said);
   std::filesystem::remove(given);
   made.move_into_place();
   if (!request.output.quiet)

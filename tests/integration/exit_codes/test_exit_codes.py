@@ -302,7 +302,7 @@ class Geometry(FolderTest):
 
     def test_planes_of_symmetry_that_are_not_normal_to_an_axis(self):
         mesh = make_mesh(self.base / "straight.msh", *TUBES["3d"], "--format", "2.2")
-        cosine, sine = np.cos(0.1), np.sin(0.1)
+        cosine, sine = float(np.cos(0.1)), float(np.sin(0.1))
 
         def turned(node):
             tag, x, y, z = node[1], float(node[2]), float(node[3]), node[4]

@@ -110,10 +110,10 @@ Increment increment_with(double stiffness, int most_passes, std::int64_t factori
 TEST(JointIteration, TakesAStifferDatumWhereTheFluidAndTheWallDoNotComeToAgree) {
   const Increment usual = increment_with(1, 200);
   EXPECT_EQ(usual.stiffenings, 0);
-  const Increment weak = increment_with(1e-3, 40);  // which takes more; ten times as much takes 30
+  const Increment weak = increment_with(1e-3, 34);  // which takes 37 or more; ten times as much takes 30
   EXPECT_EQ(weak.stiffenings, 1);
   EXPECT_FALSE(weak.by_each_medium);
-  EXPECT_GT(weak.passes, 40);
+  EXPECT_GT(weak.passes, 34);
   EXPECT_NEAR(weak.length, usual.length, 1e-5 * usual.length);
   const Increment hopeless = increment_with(1e-8, 40);  // twice ten times as much is too little: by solves, as ever
   EXPECT_GE(hopeless.stiffenings, 2);
