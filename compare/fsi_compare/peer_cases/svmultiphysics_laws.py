@@ -5,7 +5,8 @@ With J_1, J_2, J_i the isochoric invariants, mu = E/(2 (1 + nu)), K = E/(3 (1 - 
 
     neoHookean   mu/2 (J_1 - 3)                              ours: c10/2 (J_1 - 3)
     MR           c1 (J_1 - 3) + c2 (J_2 - 3)                 ours: c10/2 (J_1 - 3) + c01/2 (J_2 - 3)
-    HGO          mu/2 (J_1 - 3) + sum a/(2 b) (exp(b E_i^2) - 1),  E_i = kappa J_1 + (1 - 3 kappa) J_i - 1, as ours
+    HGO          mu/2 (J_1 - 3) + sum a/(2 b) (exp(b E_i^2) - 1),  E_i = kappa J_1 + (1 - 3 kappa) J_i - 1, as
+                 ours, holzapfel-gasser-ogden
     stVK         lambda/2 (tr E)^2 + mu E : E, beside which the penalty stands, too
 
 and the penalty of a change of volume, of which ours has the first:
@@ -157,20 +158,28 @@ def _saint_venant(at: Entry, mu: float, bulk: float, nu: float, units: Units, la
         layer.notes.append((at, words, True))
 
 
-def _artery(at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, angle: Optional[float]) -> None:
+def _two_families(
+    at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, angle: Optional[float]
+) -> None:
     _solid(at, bulk)
     a4, b4, a6, b6, kappa = (at.number(name) for name in ("a4", "b4", "a6", "b6", "kappa"))
-    if a4 != a6 or b4 != b6:
-        raise at.refuse("has two families with constants of their own", "our artery has one set: make a4 = a6, b4 = b6")
     if angle is None:
-        problem = "gives fibres by vectors, the material artery of ours by their angle to the circumference"
+        problem = "gives fibres by vectors, holzapfel-gasser-ogden of ours by their angle to the circumference"
         raise at.refuse(problem, "give --fibre-angle DEGREES")
-    layer.constants = {"material": "artery", "c10": mu, "k1": a4 * units.pressure, "k2": b4, "alpha": angle}
+    layer.constants = {
+        "material": "holzapfel-gasser-ogden",
+        "c10": mu,
+        "k1": a4 * units.pressure,
+        "k2": b4,
+        "alpha": angle,
+    }
+    if a4 != a6 or b4 != b6:
+        layer.constants.update({"k1_second": a6 * units.pressure, "k2_second": b6})
     if kappa:
         layer.constants["kappa"] = kappa
     layer.bulk_modulus = bulk
     words = f"fibres lie at {angle:g} degrees to the circumference (--fibre-angle), not by the vectors of the case; "
-    words += "they bear no compression, those of svMultiPhysics do"
+    words += "the first family at plus, the second at minus that angle"
     layer.notes.append((at, words, True))
 
 
@@ -178,7 +187,7 @@ MAKERS: Dict[str, Callable[[Entry, float, float, float, Units, Layer, Optional[f
     "neoHookean": _neo_hookean,
     "MR": _mooney_rivlin,
     "stVK": _saint_venant,
-    "HGO": _artery,
+    "HGO": _two_families,
 }
 
 
