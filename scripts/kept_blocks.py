@@ -25,9 +25,9 @@ class Kinds(NamedTuple):
     def title(self) -> str:
         return self.monolithic["scene"]
 
-    @property
-    def at_equal_error(self) -> bool:
-        return all(row["equal error"] == "yes" for row in self)
+    def at_equal_error(self, kind: str) -> bool:
+        """Whether it has the monolithic run's error of the solver."""
+        return str(getattr(self, kind)["equal error"]) == "yes"
 
     def ratio(self, kind: str, column: str) -> float:
         """Over monolithic."""
@@ -45,27 +45,27 @@ def kinds(rows: List[Row]) -> List[Kinds]:
     return [Kinds(*(by[kind] for kind in KINDS)) for by in found.values()]
 
 
-def _measured(rows: List[Row]) -> List[Kinds]:
-    """Scenes whose three runs have the same error of the solver."""
-    found = [scene for scene in kinds(rows) if scene.at_equal_error]
+def _measured(rows: List[Row], kind: str) -> List[Kinds]:
+    """Scenes in which this kind has the monolithic run's error of the solver."""
+    found = [scene for scene in kinds(rows) if scene.at_equal_error(kind)]
     if not found:
-        raise BlockError("no scene is at equal error")
+        raise BlockError(f"no scene is at equal error by '{kind}'")
     return found
 
 
 def kinds_answer(rows: List[Row]) -> str:
     """What each kind takes, medians over the scenes at equal error."""
-    scenes = _measured(rows)
+    scenes = {kind: _measured(rows, kind) for kind in KINDS}
 
     def over(column: str) -> List[str]:
         cells = []
         for kind in KINDS[:-1]:
-            ratios = [scene.ratio(kind, column) for scene in scenes]
+            ratios = [scene.ratio(kind, column) for scene in scenes[kind]]
             cells.append(f"{median(ratios):.2g} ({min(ratios):.2g} to {max(ratios):.2g})")
         return [*cells, "1"]
 
     def a_step(kind: str, column: str) -> str:
-        return f"{median(float(getattr(scene, kind)[column]) for scene in scenes):.1f}"
+        return f"{median(float(getattr(scene, kind)[column]) for scene in scenes[kind]):.1f}"
 
     passes = f"{a_step('interface', 'passes a step')} passes, each a solve of fluid and of wall"
     cycles = f"{a_step('block', 'passes a step')} cycles of each medium's preconditioner"
@@ -73,7 +73,8 @@ def kinds_answer(rows: List[Row]) -> str:
     lines = [
         ["", *(f"`{kind}`" for kind in KINDS)],
         ["---"] * 4,
-        [f"seconds over monolithic, {len(scenes)} scenes: median (least to most)", *over("seconds at equal error")],
+        ["scenes at equal error, of those below", *(str(len(scenes[kind])) for kind in KINDS)],
+        ["seconds over monolithic: median (least to most)", *over("seconds at equal error")],
         ["work units over monolithic", *over("work units a step")],
         ["memory over monolithic", *over("MiB")],
         ["in a step", passes, cycles, newton],
@@ -83,25 +84,29 @@ def kinds_answer(rows: List[Row]) -> str:
 
 def kinds_verdict(rows: List[Row]) -> str:
     """The answer in words: who is faster and by how much, and which scenes are left out."""
-    scenes = _measured(rows)
+    scenes = _measured(rows, "interface")
     seconds = "seconds at equal error"
     ratios = [scene.ratio("interface", seconds) for scene in scenes]
     slower = sum(ratio > SAME for ratio in ratios)
     most = max(scenes, key=lambda scene: scene.ratio("interface", seconds))
     lines = [
         f"**Take the monolithic driver.** In {slower} of {len(scenes)} scenes the interface kind takes more seconds at equal error:",
-        f"{median(ratios):.2g} times as many in the median, {max(ratios):.2g} times at most, in {most.title}.",
+        f"{median(ratios):.2g} times as many in the median, {max(ratios):.2g} times at most, in {_quoted([most])}.",
     ]
-    faster = [scene.title for scene, ratio in zip(scenes, ratios) if ratio < 1 / SAME]
-    equal = [scene.title for scene, ratio in zip(scenes, ratios) if 1 / SAME <= ratio <= SAME]
+    faster = [scene for scene, ratio in zip(scenes, ratios) if ratio < 1 / SAME]
+    equal = [scene for scene, ratio in zip(scenes, ratios) if 1 / SAME <= ratio <= SAME]
     if faster:
-        lines.append(f"It takes fewer in {_listed(faster)}.")
+        lines.append(f"It takes fewer in {_quoted(faster)}.")
     if equal:
-        lines.append(f"Within {100 * (SAME - 1):.0f} % the two take the same in {_listed(equal)}.")
-    apart = [scene.title for scene in kinds(rows) if not scene.at_equal_error]
+        lines.append(f"Within {100 * (SAME - 1):.0f} % the two take the same in {_quoted(equal)}.")
+    apart = [scene for scene in kinds(rows) if not scene.at_equal_error("interface")]
     if apart:
-        lines.append(f"Left out, since no tolerance led to the same error: {_listed(apart)}.")
+        lines.append(f"Left out, since no tolerance led to the same error: {_quoted(apart)}.")
     return "\n".join(lines)
+
+
+def _quoted(scenes: List[Kinds]) -> str:
+    return _listed([f'"{scene.title}"' for scene in scenes])
 
 
 def artery_settings(rows: List[Row]) -> str:

@@ -221,14 +221,15 @@ def _draw_wave(axes) -> None:
 def _draw_seconds(axes) -> None:
     """A pair of bars for each scene at equal error, over the monolithic driver's seconds."""
     try:
-        scenes = [scene for scene in kinds(read_table(SECONDS)) if scene.at_equal_error]
+        scenes = [scene for scene in kinds(read_table(SECONDS)) if scene.at_equal_error("interface")]
     except (OSError, ValueError, BlockError) as error:
         fail(f"{error}; scripts/coupling_kinds.py makes the table")
     column = "seconds at equal error"
     scenes.sort(key=lambda scene: -scene.ratio("interface", column))
     for offset, kind in ((0.2, "interface"), (-0.2, "block")):
-        places = [place + offset for place in range(len(scenes))]
-        ratios = [scene.ratio(kind, column) for scene in scenes]
+        equal = [(place, scene) for place, scene in enumerate(scenes) if scene.at_equal_error(kind)]
+        places = [place + offset for place, _ in equal]
+        ratios = [scene.ratio(kind, column) for _, scene in equal]
         axes.barh(places, ratios, 0.4, color=COLORS[kind], label=kind)
     axes.axvline(1, color=COLORS["monolithic"], linewidth=2.5, label="monolithic")
     axes.set_yticks(range(len(scenes)), [scene.title for scene in scenes], fontsize=8.5)
