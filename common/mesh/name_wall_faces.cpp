@@ -155,8 +155,8 @@ std::string name_wall_faces(SimplexMesh<3, Order>& mesh, const std::string& file
   const WallBoundary<Order> boundary(mesh, file);
   auto [ends, inner, outer] = boundary.faces();
   const auto size = [&](const auto& facets) { return shape_of_opening(mesh.nodes, facets).area; };
-  const auto said = fmt::format("By their shape: inner, {:.4g} mm^2; outer, {:.4g} mm^2; wall_ends, {} plane {}.\n",
-                                size(inner), size(outer), boundary.ends(), boundary.ends() == 1 ? "ring" : "rings");
+  std::string said = fmt::format("By their shape: inner, {:.4g} mm^2; outer, {:.4g} mm^2; wall_ends, {} plane {}.\n",
+                                 size(inner), size(outer), boundary.ends(), boundary.ends() == 1 ? "ring" : "rings");
   mesh.facet_groups.push_back({group::wall_ends, std::move(ends)});
   mesh.facet_groups.push_back({group::inner, std::move(inner)});
   mesh.facet_groups.push_back({group::outer, std::move(outer)});
