@@ -15,6 +15,7 @@ import sys
 from pathlib import Path
 from typing import Any, Dict, Iterator, List, NamedTuple, NoReturn, Tuple
 
+from coupling_kinds import BY_ERROR, METHODS
 from kept_blocks import BlockError, kinds
 from kept_tables import read_table
 
@@ -56,10 +57,7 @@ LADDERS = (
     Rung("p2p1", "9-3-3-144", ("3", "4"), 1 / 64),
 )
 # What drivers take by themselves in fixed steps. What solving leaves is then alike (docs/which.md), and far below what mesh and step leave.
-TOLERANCES = {
-    "fsi-monolithic": ("monolithic.newton_tolerance=1e-3", "monolithic.error_tolerance=3e-3"),
-    "fsi-partitioned": ("partitioned.tolerance=3e-3",),
-}
+TOLERANCES = {"fsi-monolithic": BY_ERROR, "fsi-partitioned": (f"partitioned.tolerance={METHODS[0].tolerance:g}",)}
 
 RUN = f"PROGRAM {CASE} --threads 1 --set mesh.file=MESH --set 'time.scheme=\"midpoint\"' --set time.end={END}"
 BLOCK = "kind `block`: --set 'partitioned.scheme=\"block-newton\"'; `interface`: what fsi-partitioned chooses"
