@@ -43,12 +43,12 @@ constexpr std::array<CoupledMethod, 16> coupled_methods{{
 }};
 static_assert(names_match(coupled_solver_list, coupled_methods), "case/choices.hpp owns these names");
 
-CoupledSolverOptions options_for(const CoupledMethod& method, const MonolithicData& data) {
-  const MultigridData& grid = data.multigrid;
+CoupledSolverOptions options_for(const CoupledMethod& method, const Case& setup) {
+  const MultigridData& grid = setup.monolithic.multigrid;
   CoupledSolverOptions options;
   options.iteration = method.iteration;
   options.block_preconditioner = method.block_preconditioner;
-  options.krylov = data.krylov;
+  options.krylov = setup.linear.krylov;
   options.smoothing = grid.smoothing;
   options.cycle = grid.cycle;
   if (method.amli) options.cycle.kind = CoupledCycleKind::amli;
@@ -110,7 +110,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const 
     if (!blocks.coupled()) break;  // not for one medium: the message comes below
     refuse_pressures_per_layer(setup, *blocks.wall_nodes, what);
     refuse_turned_frames<n>(setup, blocks.fluid_frames, blocks.wall_frames, what);
-    return std::make_unique<CoupledLinearSolver<n>>(blocks, options_for(method, setup.monolithic));
+    return std::make_unique<CoupledLinearSolver<n>>(blocks, options_for(method, setup));
   }
   return make_fast_or_direct(name, setup, blocks);
 }

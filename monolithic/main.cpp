@@ -9,7 +9,7 @@ namespace {
 
 template <int n>
 std::unique_ptr<Stepper> stepper(Scene<n>& scene, const Loads& loads, const Case& setup) {
-  return std::make_unique<NewtonStepper<n>>(scene, loads, setup.monolithic.newton, number_scene(scene),
+  return std::make_unique<NewtonStepper<n>>(scene, loads, setup.newton, number_scene(scene),
                                             [&setup](const JacobianBlocks<n>& blocks) {
                                               return make_linear_solver(setup.monolithic.linear_solver, setup, blocks);
                                             });

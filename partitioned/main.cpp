@@ -10,7 +10,7 @@ template <int n>
 std::unique_ptr<Stepper> stepper(Scene<n>& scene, const Loads& loads, const Case& setup) {
   if (scene.coupled()) return make_coupling_stepper(scene, loads, setup);
   // Nothing to couple: the part that there is, by Newton's method.
-  return std::make_unique<NewtonStepper<n>>(scene, loads, setup.monolithic.newton, number_single_medium(scene),
+  return std::make_unique<NewtonStepper<n>>(scene, loads, setup.newton, number_single_medium(scene),
                                             [&setup](const JacobianBlocks<n>& blocks) {
                                               return make_fast_or_direct(setup.monolithic.linear_solver, setup, blocks);
                                             });

@@ -14,7 +14,7 @@ struct MediumSolvers {
   bool wall_decides = false;
 };
 
-/// As partitioned.linear_solver and [partitioned.fast] ask. Both media factorise, or both iterate, as a system of all their
+/// As partitioned.linear_solver and [linear] ask. Both media factorise, or both iterate, as a system of all their
 /// unknowns would: by its size, and in plane scenes by the wall's stiffness.
 template <int n>
 MediumSolvers<n> medium_solvers(const Scene<n>& scene, const PartitionedData& options);

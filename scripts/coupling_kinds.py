@@ -39,9 +39,9 @@ ARTERY = TOP / "meshes/artery/axisymmetric"
 GALLERY = TOP / "gallery"
 MATERIALS = ("neo-hookean", "mooney-rivlin", "artery")
 PULSE = ("time.step=0.03125", 'time.scheme="midpoint"', "output.fields=[]")
-BY_ERROR = ("monolithic.newton_tolerance=1e-3", "monolithic.error_tolerance=3e-3")  # the drivers' own, in fixed steps
+BY_ERROR = ("newton.tolerance=1e-3", "newton.error_tolerance=3e-3")  # the drivers' own, in fixed steps
 # What solving leaves where nothing but the solver's tolerance differs.
-TIGHT = ("monolithic.newton_tolerance=1e-10", "monolithic.error_tolerance=0")
+TIGHT = ("newton.tolerance=1e-10", "newton.error_tolerance=0")
 STEP = 10.0  # between neighbouring tolerances
 MOST = 6  # tolerances of a method on the way to the monolithic run's error
 LOOSEST = 0.5  # above it a tolerance demands nothing
@@ -49,7 +49,7 @@ ALIKE = 1.5  # factor within which two errors count as equal
 TABLES = ("centerline_pressure.csv", "wall_displacement.csv", "openings.csv", "points.csv")
 ORIGIN = """# made by scripts/coupling_kinds.py BIN WORK, programs of version {version}, {processor}, one thread
 # seconds: processor seconds of the whole program, median of {turns} by turns; error: the largest relative Euclidean norm, over tables
-# and times, of what a run differs by from the monolithic driver with newton_tolerance = 1e-10. Two tolerances with their seconds and
+# and times, of what a run differs by from the monolithic driver with newton.tolerance = 1e-10. Two tolerances with their seconds and
 # errors are those whose errors enclose the monolithic run's; all behind them is read off between the two, memory: the larger one
 """
 

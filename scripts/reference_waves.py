@@ -52,7 +52,7 @@ ORDERS = (1.0, 4.0)  # observed orders that are taken for an extrapolation
 LOWEST = 0.5  # order by which the error is estimated of solutions that hardly converge
 TIMES = [1.5 + 0.5 * i for i in range(16)]  # ms, kept in the files
 END = 9.375  # ms: half of the averaged pressure's window after the last of them
-SETTINGS = (f"time.end={END}", "monolithic.newton_tolerance=1e-4", "output.every=0", "output.checkpoint_every=0")
+SETTINGS = (f"time.end={END}", "newton.tolerance=1e-4", "output.every=0", "output.checkpoint_every=0")
 
 
 def mesh(programs: Path, work: Path, grid: str) -> Path:

@@ -28,7 +28,7 @@ solvers() { "$programs/fsi-compare" solvers "$@" || [ $? -eq 2 ]; }
 solvers -o "$results/tables" --without "$too_large" >"$results/tables.txt"
 solvers -o "$results/sub-problems" --sub-problems --methods fast --materials neo-hookean --systems 1:1 \
   >"$results/sub-problems.txt"
-solvers -o "$results/stress" --stress --set monolithic.direct_below=0 >"$results/stress.txt"
+solvers -o "$results/stress" --stress --set linear.direct_below=0 >"$results/stress.txt"
 
 # run NAME [OPTION...]: a run of the neo-Hookean artery, unless it is there already
 run() {
@@ -49,7 +49,7 @@ run intermediate-amg_fgmres --set mesh.level=intermediate --set monolithic.linea
 run fine-amg_fgmres --set mesh.level=fine --set monolithic.linear_solver=amg_fgmres --set time.end=0.5
 # The peer's setting (tolerance 1e-6), one and two threads.
 for threads in 1 2; do
-  run "peer-$threads" --set mesh.level=intermediate --set monolithic.newton_tolerance=1e-6 --threads $threads
+  run "peer-$threads" --set mesh.level=intermediate --set newton.tolerance=1e-6 --threads $threads
 done
 
 runs=()

@@ -30,12 +30,12 @@ run() {
 materials=(neo-hookean mooney-rivlin artery)
 for material in "${materials[@]}"; do
   run "coarse-$material-monolithic" fsi-monolithic "$material"
-  run "coarse-$material-full" fsi-monolithic "$material" --set monolithic.mode=full
+  run "coarse-$material-full" fsi-monolithic "$material" --set newton.mode=full
   run "coarse-$material-partitioned" fsi-partitioned "$material" --set partitioned.scheme=aitken \
     --set partitioned.tolerance=1e-9
   run "intermediate-$material-monolithic" fsi-monolithic "$material" --set mesh.level=intermediate
 done
-run intermediate-neo-hookean-full fsi-monolithic neo-hookean --set mesh.level=intermediate --set monolithic.mode=full \
+run intermediate-neo-hookean-full fsi-monolithic neo-hookean --set mesh.level=intermediate --set newton.mode=full \
   --set time.end=1.5
 for tolerance in 1e-2 1e-3 1e-6; do
   run "coarse-neo-hookean-partitioned-$tolerance" fsi-partitioned neo-hookean --set partitioned.scheme=aitken \

@@ -172,31 +172,37 @@ struct MultigridData {
   SubProblemCycleOptions sub_problems;
 };
 
-/// [monolithic]
-struct MonolithicData {
-  std::string linear_solver = "fast";  ///< one of linear_solver_names()
-  NewtonOptions newton = standard_newton();
-  FastOptions fast;
-  KrylovOptions krylov;  ///< of the coupled solvers; their tolerance comes with each solve
-  MultigridData multigrid;
-
-  /// Of error_tolerance in a run of fixed steps that names neither this nor newton_tolerance: leaves a tenth of the
+/// What [newton] leaves out.
+struct NewtonStandards {
+  /// Of error_tolerance in a run of fixed steps that names neither this nor tolerance: leaves a tenth of the
   /// discretisation's error at most (docs/evidence.md).
-  static constexpr double standard_error_tolerance = 3e-3;
-  static constexpr double wall_error_tolerance = 3e-4;  ///< the same of a wall without fluid
+  static constexpr double error_tolerance = 3e-3;
+  static constexpr double error_tolerance_of_wall = 3e-4;  ///< the same of a wall without fluid
   /// Elsewhere.
-  static NewtonOptions standard_newton() {
+  static NewtonOptions options() {
     NewtonOptions options;
     options.tolerance = 1e-3;
     return options;
   }
 };
 
+/// [linear]; its tolerance is one of Newton's method, NewtonOptions::linear_tolerance
+struct LinearData {
+  FastOptions fast;      ///< of the whole system, or of the sub-problems
+  KrylovOptions krylov;  ///< of the coupled solvers; their tolerance comes with each solve
+};
+
+/// [monolithic]
+struct MonolithicData {
+  std::string linear_solver = "fast";  ///< one of linear_solver_names()
+  MultigridData multigrid;
+};
+
 /// [partitioned]
 struct PartitionedData {
   std::optional<std::string> scheme;  ///< one of coupling_scheme_names(); empty: by the scene
   /// ||d~ - d|| <= tolerance ||d~|| on the interface; of robin-neumann-inexact and block-newton
-  /// the error of a step that is demanded, in place of what [monolithic] demands
+  /// the error of a step that is demanded, in place of what [newton] demands
   std::optional<double> tolerance;
   static constexpr double standard_tolerance = 1e-6;  ///< of the gap
   ToleranceOf tolerance_of = ToleranceOf::pressure;   ///< pressure: alike for what the gap is worth as a pressure
@@ -208,7 +214,7 @@ struct PartitionedData {
   int max_iterations = 200;
   QuasiNewtonOptions quasi_newton;     ///< but for relaxation and mixing, which the scheme chooses
   std::string linear_solver = "fast";  ///< of the sub-problems, one of general_solver_names()
-  FastOptions fast;                    ///< of the sub-problems
+  FastOptions fast;  ///< LinearData::fast, which the reader copies: who solves a sub-problem has no other
 
   double gap_tolerance() const { return tolerance.value_or(standard_tolerance); }
 };
@@ -255,7 +261,9 @@ struct Case {
   std::optional<PrestressData> prestress;
   std::optional<TimeData> time;
   std::optional<StaticData> static_load;
-  MeshMotionOptions mesh_motion;  ///< [mesh_motion], of scenes with fluid and wall
+  MeshMotionOptions mesh_motion;                      ///< [mesh_motion], of scenes with fluid and wall
+  NewtonOptions newton = NewtonStandards::options();  ///< [newton], of both drivers
+  LinearData linear;                                  ///< [linear], likewise
   MonolithicData monolithic;
   PartitionedData partitioned;
   PetscData petsc{};

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "case/renamed_keys.hpp"
 
 namespace fsi {
 
@@ -76,6 +77,11 @@ bool CaseSource::is_overridden(const std::string& key) const {
   return overridden.count(key) > 0;
 }
 
+std::string CaseSource::name_in_case(const std::string& key) const {
+  const auto former = former_of.find(key);
+  return former == former_of.end() ? key : former->second;
+}
+
 std::string CaseSource::place(const std::string& key, const toml::source_region& region) const {
   if (is_overridden(key)) return "--set";
   return region.begin.line > 0 ? fmt::format("{}:{}", file, region.begin.line) : file;
@@ -84,7 +90,7 @@ std::string CaseSource::place(const std::string& key, const toml::source_region&
 void CaseEntry::refuse(const std::string& problem, const std::string& remedy) const {
   // The whole file begins in line 1, which would say nothing.
   const std::string place = key_.empty() ? source_->file : source_->place(key_, node_->source());
-  throw InputError(place, one_line(key_), one_line(problem), one_line(remedy));
+  throw InputError(place, one_line(source_->name_in_case(key_)), one_line(problem), one_line(remedy));
 }
 
 void CaseEntry::refuse_value(const std::string& problem, const std::string& remedy) const {
@@ -215,6 +221,8 @@ void refuse_unknown_keys(const CaseEntry& section, const std::vector<std::string
   for (const auto& entry : section.children()) {
     const auto name = entry.key().substr(prefix.size());  // a quoted key may hold dots
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (const auto former = nearest_name(name, former_names(section.key())); edit_distance(name, former) <= 2)
+      entry.refuse("unknown key", "did you mean " + prefix + former + "?");
     const auto nearest = nearest_name(name, known);
     const std::string problem = entry.is_section() ? "unknown section" : "unknown key";
     // Where most letters differ, the nearest name is none that was meant.

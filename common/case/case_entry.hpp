@@ -4,6 +4,7 @@
 
 #include <toml++/toml.h>
 
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -33,7 +34,10 @@ struct CaseSource {
   mutable std::vector<std::string> warnings;
   mutable std::vector<UnitDoubt> doubts{};     ///< warnings that the whole case decides about
   mutable std::vector<std::string> remarks{};  ///< what was done with what is given, for the log
+  /// By its present name what the case calls a key, where that is a name of an earlier version (case/renamed_keys.hpp).
+  std::map<std::string, std::string> former_of{};
 
+  std::string name_in_case(const std::string& key) const;
   bool is_overridden(const std::string& key) const;
   /// "case.toml:12", "--set", or "case.toml" when there is no line.
   std::string place(const std::string& key, const toml::source_region& region) const;

@@ -10,7 +10,7 @@ namespace fsi {
 // (case_keys.hpp): a new key of [fluid], [structure], [inlet], [load], [time] or [static] counts unless its row says
 // otherwise. Left out, so that a run can be extended, rescued or continued with other steps: title, [output],
 // [economy], [time] step, end, predictor, retries and what adaptive steps go by, [static], volume_factor, the solver sections
-// [monolithic] and [partitioned], the mesh's path (a checkpoint knows the mesh by its contents, and the steps), and
+// [newton], [linear], [monolithic] and [partitioned], the mesh's path (a checkpoint knows the mesh by its contents, and the steps), and
 // keys that the run does not read: those of stabilisations with elements that need none.
 
 /// The entries that determine the equations: one `key = value` a line in the order of the tables, defaults too, numbers

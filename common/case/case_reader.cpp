@@ -20,6 +20,7 @@
 #include "case/opening_keys.hpp"
 #include "case/periodic_end.hpp"
 #include "case/pressure_doubts.hpp"
+#include "case/renamed_keys.hpp"
 #include "case/start_pressure.hpp"
 #include "case/support_keys.hpp"
 #include "case/table_times.hpp"
@@ -171,10 +172,10 @@ void warn_of_wall_density(const CaseEntry& whole_case, const Case& scene) {
 /// errors choose the steps, the solver's must not be seen.
 void choose_newton_stop(const CaseEntry& whole_case, Case& scene) {
   if (!scene.time || scene.time->adaptive) return;
-  const CaseEntry monolithic = whole_case.child("monolithic");
-  if (monolithic.has("newton_tolerance") || monolithic.has("error_tolerance")) return;
-  scene.monolithic.newton.error_tolerance =
-      scene.fluid ? MonolithicData::standard_error_tolerance : MonolithicData::wall_error_tolerance;
+  const CaseEntry newton = whole_case.child("newton");
+  if (newton.has("tolerance") || newton.has("error_tolerance")) return;
+  scene.newton.error_tolerance =
+      scene.fluid ? NewtonStandards::error_tolerance : NewtonStandards::error_tolerance_of_wall;
 }
 
 std::string contents_of(const std::filesystem::path& file) {
@@ -215,6 +216,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   toml::table document = parsed_document(text, source);
   name_lists(document, source);
   apply_overrides(overrides, document, source);
+  rename_keys(document, source);
 
   const CaseEntry whole_case(document, "", "", source);
   Case scene;
@@ -238,6 +240,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   check_periodic_end(whole_case, scene);
   check_derived_output(whole_case, scene);
   choose_newton_stop(whole_case, scene);
+  scene.partitioned.fast = scene.linear.fast;
   warn_of_wall_density(whole_case, scene);
   warn_of_stabilisation(whole_case, scene);
   choose_waves(whole_case, scene);

@@ -223,7 +223,7 @@ void join_network(const CaseEntry& whole_case, Case& scene) {
   const CaseEntry network = whole_case.child("network");
   if (!scene.fluid) network.refuse("stands in a case without fluid", "add [fluid], or remove it");
   join_openings(whole_case, scene);
-  scene.monolithic.fast.exact = scene.partitioned.fast.exact = true;
+  scene.linear.fast.exact = true;
   if (!scene.time) return;
   if (scene.time->start == StartOfOpenings::lumped)
     whole_case.child("time").child("start").refuse(

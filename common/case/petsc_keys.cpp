@@ -26,7 +26,7 @@ void check_petsc(const CaseEntry& entry, PetscData& petsc) {
                               "-fsi_mesh_ksp_atol", "-fsi_mesh_ksp_max_it"})
       if (word == owned)
         entry.refuse(fmt::format("options has \"{}\", which each solve sets by what it is for", word),
-                     "give monolithic.linear_tolerance, or leave it out");
+                     "give linear.tolerance, or leave it out");
   }
 }
 

@@ -63,16 +63,63 @@ void check_multigrid(const CaseEntry& entry, MultigridData& multigrid) {
 }
 
 /// Version 0.1 had another mode, whose estimate of its error missed what comes back in the next steps' pressure.
-KeyValue<MonolithicData> newton_mode() {
-  auto mode = name_from(at(&MonolithicData::newton, &NewtonOptions::mode), newton_modes());
-  mode.read = [read = mode.read](const CaseEntry& entry, MonolithicData& monolithic) {
+KeyValue<NewtonOptions> newton_mode() {
+  auto mode = name_from(at(&NewtonOptions::mode), newton_modes());
+  mode.read = [read = mode.read](const CaseEntry& entry, NewtonOptions& newton) {
     if (entry.text() == "linearised")
       entry.refuse_name("is gone: it left up to 10 % of the pressure where it said 0.1 %",
-                        "use \"kept\", with a looser monolithic.newton_tolerance, 1e-2 say, where fewer solves are "
-                        "worth more than digits");
-    read(entry, monolithic);
+                        "use \"kept\", with a looser newton.tolerance, 1e-2 say, where fewer solves are worth more "
+                        "than digits");
+    read(entry, newton);
   };
   return mode;
+}
+
+/// As KeyValue's place of a part, with the defaults of a case in place of the part's own.
+template <class Part>
+KeyValue<Case> in_case(KeyValue<Part> value, Part Case::*part) {
+  return {[read = value.read, part](const CaseEntry& entry, Case& scene) { read(entry, scene.*part); },
+          [write = value.write, part](const Case& scene) { return write(scene.*part); }, value.standard, value.unit};
+}
+
+std::vector<CaseKey<NewtonOptions>> newton_keys() {
+  using N = NewtonOptions;
+  auto last_increment = number(at(&N::tolerance), tolerance);
+  last_increment.standard = text_for_people(NewtonStandards::options().tolerance);
+  return {
+      leaf("mode", optional, "{}; kept: factors serve while the residual keeps falling; full: new ones each iteration",
+           newton_mode()),
+      leaf("tolerance", optional, "last increment relative to the first of the step, default {}", last_increment),
+      leaf("error_tolerance", optional,
+           fmt::format("estimated error of a step, relative to what it changes, in place of tolerance; default {} in "
+                       "runs of fixed steps that name neither, {} without fluid, else 0: not demanded",
+                       text_for_people(NewtonStandards::error_tolerance),
+                       text_for_people(NewtonStandards::error_tolerance_of_wall)),
+           number(at(&N::error_tolerance), tolerance_or_none)),
+      leaf("residual_tolerance", optional, "residual relative to the first of the step, default {}: not demanded",
+           number(at(&N::residual_tolerance), tolerance_or_none)),
+      leaf("max_iterations", optional, "Newton iterations per step, default {}",
+           whole(at(&N::max_iterations), 1, most_iterations)),
+  };
+}
+
+std::vector<CaseKey<Case>> linear_keys() {
+  using L = LinearData;
+  return {
+      leaf("tolerance", optional,
+           "residual of each linear solve relative to its right-hand side, default {}: what Newton's convergence needs",
+           number(at(&Case::newton, &NewtonOptions::linear_tolerance), tolerance_or_none)),
+      leaf("max_iterations", optional, "of the coupled solvers: iterations of each linear solve, default {}",
+           in_case(whole(at(&L::krylov, &KrylovOptions::max_iterations), 1, most_iterations), &Case::linear)),
+      leaf("restart", optional, "of the coupled solvers: directions that GMRES and FGMRES keep, default {}",
+           in_case(whole(at(&L::krylov, &KrylovOptions::restart), 1, most_directions), &Case::linear)),
+      leaf("direct_below", optional,
+           "unknowns below which fast factorises the matrix, " + direct_below_standards() + ", but " +
+               where_the_wall_judges() +
+               "; of the whole system, of a sub-problem, or with robin-neumann-inexact and block-newton of both media "
+               "together",
+           in_case(whole(at(&L::fast, &FastOptions::direct_below), 0, most_unknowns), &Case::linear)),
+  };
 }
 
 std::vector<CaseKey<MonolithicData>> monolithic_keys() {
@@ -85,35 +132,10 @@ std::vector<CaseKey<MonolithicData>> monolithic_keys() {
            "blocks, these inverted by multigrid or (..._exact) factorised; amg and amli are coupled multigrid, alone "
            "or inside GMRES or FGMRES",
            name_from(at(&M::linear_solver), linear_solver_names())),
-      leaf("linear_tolerance", optional,
-           "residual of each linear solve relative to its right-hand side, default {}: what Newton's convergence needs",
-           number(at(&M::newton, &NewtonOptions::linear_tolerance), tolerance_or_none)),
-      leaf("max_linear_iterations", optional, "iterations of each linear solve, default {}",
-           whole(at(&M::krylov, &KrylovOptions::max_iterations), 1, most_iterations)),
-      leaf("direct_below", optional,
-           "unknowns below which fast factorises the matrix, " + direct_below_standards() + ", but " +
-               where_the_wall_judges(),
-           whole(at(&M::fast, &FastOptions::direct_below), 0, most_unknowns)),
-      leaf("krylov_restart", optional, "directions that GMRES and FGMRES keep, default {}",
-           whole(at(&M::krylov, &KrylovOptions::restart), 1, most_directions)),
       section<MultigridData, M>(
           "multigrid", optional, "multigrid of the sub-problems and of the coupled system", multigrid_keys(),
           [](M& monolithic) -> MultigridData& { return monolithic.multigrid; },
           [](const M& monolithic) { return &monolithic.multigrid; }, KeyRole::running, check_multigrid),
-      leaf("mode", optional, "{}; kept: factors serve while the residual keeps falling; full: new ones each iteration",
-           newton_mode()),
-      leaf("newton_tolerance", optional, "last increment relative to the first of the step, default {}",
-           number(at(&M::newton, &NewtonOptions::tolerance), tolerance)),
-      leaf("error_tolerance", optional,
-           fmt::format(
-               "estimated error of a step, relative to what it changes, in place of newton_tolerance; default {} in "
-               "runs of fixed steps that name neither, {} without fluid, else 0: not demanded",
-               text_for_people(M::standard_error_tolerance), text_for_people(M::wall_error_tolerance)),
-           number(at(&M::newton, &NewtonOptions::error_tolerance), tolerance_or_none)),
-      leaf("residual_tolerance", optional, "residual relative to the first of the step, default {}: not demanded",
-           number(at(&M::newton, &NewtonOptions::residual_tolerance), tolerance_or_none)),
-      leaf("max_iterations", optional, "Newton iterations per step, default {}",
-           whole(at(&M::newton, &NewtonOptions::max_iterations), 1, most_iterations)),
   };
 }
 
@@ -124,13 +146,12 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
       leaf("scheme", optional,
            "coupling: {}; default robin-neumann-inexact, iqn-ils where the wall stands in the fluid",
            name_from(at(&P::scheme), coupling_scheme_names())),
-      leaf(
-          "tolerance", optional,
-          fmt::format("gap between fluid and wall relative to the interface's displacement, default {}; "
-                      "robin-neumann-inexact and "
-                      "block-newton: error of a step relative to what it changes, without it what [monolithic] demands",
-                      text_for_people(P::standard_tolerance)),
-          number(at(&P::tolerance), tolerance)),
+      leaf("tolerance", optional,
+           fmt::format("gap between fluid and wall relative to the interface's displacement, default {}; "
+                       "robin-neumann-inexact and "
+                       "block-newton: error of a step relative to what it changes, without it what [newton] demands",
+                       text_for_people(P::standard_tolerance)),
+           number(at(&P::tolerance), tolerance)),
       leaf("tolerance_of", optional,
            "{}; pressure: the tolerance holds, besides, for the pressure that the gap is worth in one step relative to "
            "that on the interface; displacement: for the displacement alone, as the paper has it",
@@ -164,12 +185,6 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
            number(at(&P::quasi_newton, &QuasiNewton::filter), tolerance_or_none)),
       leaf("linear_solver", optional, "of the sub-problems: {}",
            name_from(at(&P::linear_solver), general_solver_names())),
-      leaf("direct_below", optional,
-           "unknowns of a sub-problem, of robin-neumann-inexact and block-newton those of both together, below which "
-           "fast "
-           "factorises the matrix, " +
-               direct_below_standards() + ", but with these two " + where_the_wall_judges(),
-           whole(at(&P::fast, &FastOptions::direct_below), 0, most_unknowns)),
   };
 }
 
@@ -249,6 +264,10 @@ CaseKey<Case> default_section(const std::string& name, const std::string& about,
 
 std::vector<CaseKey<Case>> solver_keys() {
   return {
+      default_section("newton", "Newton's method of both drivers", newton_keys(), &Case::newton),
+      section<Case, Case>(
+          "linear", optional, "linear solvers of both drivers", linear_keys(),
+          [](Case& scene) -> Case& { return scene; }, [](const Case& scene) { return &scene; }, KeyRole::running),
       default_section("monolithic", "for fsi-monolithic", monolithic_keys(), &Case::monolithic),
       default_section("partitioned", "for fsi-partitioned", partitioned_keys(), &Case::partitioned),
       petsc_section(),

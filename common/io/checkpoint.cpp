@@ -288,7 +288,7 @@ void require_same_run(const fs::path& file, const Checkpoint& checkpoint, const 
                          ")",
                      "restart with the case file of that run; only title, time.step, time.end, time.periods, "
                      "time.predictor, "
-                     "static.load_steps, [monolithic], [partitioned] and [output] may differ");
+                     "static.load_steps, [newton], [linear], [monolithic], [partitioned] and [output] may differ");
   if (checkpoint.mesh_hash != mesh_hash)
     throw InputError(file.string(), "mesh",
                      "belongs to another mesh (hash " + checkpoint.mesh_hash + ", not " + mesh_hash + ")",

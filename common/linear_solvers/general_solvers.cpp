@@ -82,7 +82,7 @@ std::unique_ptr<LinearSolver> make_fast_or_direct(const std::string& name, const
   if (!is_general_solver(name))
     throw InputError(setup.path.string(), "monolithic.linear_solver",
                      "\"" + name + "\" is for scenes of fluid and wall", "give " + one_of(general_solver_names()));
-  return make_general_solver<n>(name, setup.monolithic.fast, blocks);
+  return make_general_solver<n>(name, setup.linear.fast, blocks);
 }
 
 std::string other_solver_on_processes(const std::string& name, const FastOptions& fast, int dimension,

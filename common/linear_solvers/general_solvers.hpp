@@ -24,7 +24,7 @@ std::unique_ptr<LinearSolver> make_general_solver(const std::string& name, const
 template <int n>
 LinearSolverFactory<n> general_solver_factory(const std::string& name, const FastOptions& fast);
 
-/// As the case's [monolithic] asks, for a scene with fluid or wall only.
+/// As the case's [monolithic] and [linear] ask, for a scene with fluid or wall only.
 /// \throws InputError for a solver of coupled scenes
 template <int n>
 std::unique_ptr<LinearSolver> make_fast_or_direct(const std::string& name, const Case& setup,

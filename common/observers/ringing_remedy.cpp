@@ -10,10 +10,10 @@ constexpr double comes_back = 2;  // times the largest error of a step: 1.5 was 
 constexpr double tighter = 0.01;  // what to try, relative to the tolerance in use
 
 std::string remedy_by_solver(const Ringing& ringing, const Case& setup) {
-  const NewtonOptions& newton = setup.monolithic.newton;
+  const NewtonOptions& newton = setup.newton;
   if (!ringing.coupled && newton.error_tolerance > 0)
-    return fmt::format("give monolithic.error_tolerance = {:.0e}", tighter * newton.error_tolerance);
-  if (!ringing.coupled) return fmt::format("give monolithic.newton_tolerance = {:.0e}", tighter * newton.tolerance);
+    return fmt::format("give newton.error_tolerance = {:.0e}", tighter * newton.error_tolerance);
+  if (!ringing.coupled) return fmt::format("give newton.tolerance = {:.0e}", tighter * newton.tolerance);
   if (setup.partitioned.tolerance_of != ToleranceOf::pressure) return "give partitioned.tolerance_of = \"pressure\"";
   return fmt::format("give partitioned.tolerance = {:.0e}", tighter * setup.partitioned.gap_tolerance());
 }

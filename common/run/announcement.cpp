@@ -77,9 +77,8 @@ void announce(RunParts<n>& parts, const RunCheckpoints<n>& checkpoints, Console&
   const auto& monolithic = parts.setup.monolithic;
   const auto& partitioned = parts.setup.partitioned;
   const bool by_parts = parts.stepper->reports_coupling();
-  if (const std::string other =
-          other_solver_on_processes(by_parts ? partitioned.linear_solver : monolithic.linear_solver,
-                                    by_parts ? partitioned.fast : monolithic.fast, n, parts.processes);
+  if (const std::string other = other_solver_on_processes(
+          by_parts ? partitioned.linear_solver : monolithic.linear_solver, parts.setup.linear.fast, n, parts.processes);
       !other.empty())
     log.info(other);
   for (const auto& choice : parts.stepper->choices()) {

@@ -142,7 +142,7 @@ int NewtonReport::linearisations() const {
 }
 
 const NameTable<NewtonMode>& newton_modes() {
-  static const NameTable<NewtonMode> table{"monolithic.mode", {{"kept", NewtonMode::kept}, {"full", NewtonMode::full}}};
+  static const NameTable<NewtonMode> table{"newton.mode", {{"kept", NewtonMode::kept}, {"full", NewtonMode::full}}};
   return table;
 }
 

@@ -90,7 +90,7 @@ NewtonMarch<n>::NewtonMarch(Scene<n>& scene, const Loads& loads, NewtonOptions o
 template <int n>
 std::vector<StepperChoice> NewtonMarch<n>::stopping() const {
   if (options_.error_tolerance == 0) return {};
-  return {{"monolithic.error_tolerance", fmt::format("{:g}", options_.error_tolerance),
+  return {{"newton.error_tolerance", fmt::format("{:g}", options_.error_tolerance),
            "a step is solved when its error is estimated to be that part of what the step changes"}};
 }
 
@@ -160,8 +160,8 @@ void NewtonMarch<n>::advance_stage(State& state, StepData& data) {
 template <int n>
 std::string NewtonMarch<n>::remedy(const NewtonReport& failed) const {
   std::string text = scene_.is_static() ? "more static.load_steps or a smaller load" : "a smaller time.step or load";
-  if (options_.mode != NewtonMode::full) text += ", or monolithic.mode = \"full\"";
-  if (failed.count() >= options_.max_iterations) text += ", or a larger monolithic.max_iterations";
+  if (options_.mode != NewtonMode::full) text += ", or newton.mode = \"full\"";
+  if (failed.count() >= options_.max_iterations) text += ", or a larger newton.max_iterations";
   return text;
 }
 
@@ -240,7 +240,7 @@ template <int n>
 std::vector<StepperChoice> NewtonStepper<n>::choices() const {
   std::vector<StepperChoice> all = this->stopping();
   if (const std::string decides = system_.solver().decides(); !decides.empty())
-    all.push_back({"monolithic.direct_below", "by the wall", decides});
+    all.push_back({"linear.direct_below", "by the wall", decides});
   return all;
 }
 

@@ -164,7 +164,7 @@ class LinearStudy {
     json["newton"] = Json::array();
     json["systems"] = Json::array();
     const auto make_fast = [&](const JacobianBlocks<n>& blocks) { return make_linear_solver("fast", setup_, blocks); };
-    NewtonOptions options = setup_.monolithic.newton;
+    NewtonOptions options = setup_.newton;
     NewtonStepper<n> stepper(*scene_, loads_, options, number_scene(*scene_), make_fast);
     System<n> system("coupled", *scene_, number_scene(*scene_), make_fast);
     State state = scene_->at_rest();
@@ -199,7 +199,7 @@ class LinearStudy {
     scene_->impose_conditions(state.now);
     scene_->impose_interface(state, data.rates);
     system.work_on(state, data);
-    NewtonOptions options = setup_.monolithic.newton;
+    NewtonOptions options = setup_.newton;
     options.mode = NewtonMode::full;
     options.stop_at_rounding = false;  // the last increment tells the order of convergence
     options.linear_tolerance = std::min(1e-9, tolerance_);

@@ -11,7 +11,7 @@ namespace fsi {
 namespace {
 
 NewtonOptions newton_options(const Case& setup) {
-  NewtonOptions options = setup.monolithic.newton;
+  NewtonOptions options = setup.newton;
   if (setup.partitioned.tolerance) options.error_tolerance = *setup.partitioned.tolerance;
   return options;
 }
@@ -28,7 +28,7 @@ BlockNewtonStepper<n>::BlockNewtonStepper(Scene<n>& scene, const Loads& loads, c
                             chosen_scheme(setup, scene).reason, stiffness_.factor, stiffness_.reason)}},
       problem_(scene, setup.partitioned, stiffness_.factor) {
   if (const std::string decision = problem_.linear_decision(); !decision.empty())
-    choices_.push_back({"partitioned.direct_below", "by the wall", decision});
+    choices_.push_back({"linear.direct_below", "by the wall", decision});
   if (setup.partitioned.tolerance) return;
   for (auto& stop : this->stopping()) choices_.push_back(std::move(stop));
 }

@@ -46,7 +46,7 @@ PassAccuracy with_its_own_wall(PassAccuracy accuracy) {
 
 double demand(const Case& setup) {
   if (setup.partitioned.tolerance) return *setup.partitioned.tolerance;
-  const NewtonOptions& newton = setup.monolithic.newton;
+  const NewtonOptions& newton = setup.newton;
   return newton.error_tolerance > 0 ? newton.error_tolerance : newton.tolerance;
 }
 
@@ -63,7 +63,7 @@ InexactStepper<n>::InexactStepper(Scene<n>& scene, const Loads& loads, const Cas
   if (!setup.partitioned.tolerance)
     Base::add_choice({"partitioned.tolerance", fmt::format("{:g}", demand_),
                       "a step is solved when its error is estimated to be that part of what the step changes, as "
-                      "[monolithic] demands it"});
+                      "[newton] demands it"});
 }
 
 template <int n>

@@ -138,7 +138,7 @@ TEST(CoupledMultigrid, UndampedSmootherDiverges) {
   auto& system = artery_system("neo-hookean", "coarse", 0, 1);
   Case setup = system.setup();
   setup.monolithic.multigrid.smoothing.damping = 1;
-  setup.monolithic.krylov.max_iterations = 30;
+  setup.linear.krylov.max_iterations = 30;
   const auto solver = make_linear_solver<3>("amg", setup, system.blocks());
   solver->update();
   std::vector<double> x;

@@ -41,11 +41,11 @@ REFUSED = {
 }
 # What stands in a case and is ours to decide: what is done in its place, by the entry's name.
 INSTEAD = {
-    "LS": "linear solvers are chosen by the drivers, [monolithic] and [partitioned]",
+    "LS": "linear solvers are chosen by the drivers, see [linear]",
     "Coupled": "fluid, wall and mesh are always coupled within a step",
     "Min_iterations": "iterations end by the drivers' tolerances",
     "Max_iterations": "iterations end by the drivers' tolerances",
-    "Tolerance": "the drivers' own, monolithic.error_tolerance",
+    "Tolerance": "the drivers' own, newton.error_tolerance",
     "Output": "fields are named by output.fields",
     "Zero_out_perimeter": "the rim of an opening sticks to the wall",
     "Impose_on_state_variable_integral": "supports fix displacements",

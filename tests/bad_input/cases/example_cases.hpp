@@ -34,7 +34,7 @@ step = 0.125
 end = 12.0
 [monolithic]
 linear_solver = "direct"
-newton_tolerance = 1e-8
+multigrid.levels = 10
 [partitioned]
 scheme = "aitken"
 tolerance = 1e-6

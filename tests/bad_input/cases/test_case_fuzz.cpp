@@ -78,14 +78,15 @@ TEST(CaseFuzz, MutatedFilesAreReadOrRefused) {
   for (const auto* valid : {&coupled_case, &fluid_case, &static_case}) {
     Random random(42);
     int cases = 0, refusals = 0;
-    for (int i = 0; i < 500; ++i) {
+    for (int i = 0; i < 2000; ++i) {
       std::string text = *valid;
       for (std::size_t edits = 1 + random.below(4); edits > 0; --edits) text = mutated(text, random);
       ++(accepted(text) ? cases : refusals);
     }
-    // Both happen, or the mutations are too tame or too wild to test anything.
-    EXPECT_GT(cases, 20);
-    EXPECT_GT(refusals, 100);
+    // Both happen, or the mutations are too tame or too wild to test anything. Of 20,000 mutations of each, 3.5 to 5.3 %
+    // are cases.
+    EXPECT_GT(cases, 40);
+    EXPECT_GT(refusals, 400);
   }
 }
 
@@ -95,7 +96,7 @@ TEST(CaseFuzz, TruncatedFilesAreReadOrRefused) {
 
 TEST(CaseFuzz, MutatedOverridesAreReadOrRefused) {
   Random random(7);
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     std::string text = "structure.layers.media.c10=3.5";
     for (std::size_t edits = 1 + random.below(4); edits > 0; --edits) text = mutated(text, random);
     accepted(coupled_case, {text});

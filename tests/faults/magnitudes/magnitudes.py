@@ -48,8 +48,8 @@ step = {step!r}
 end = {end!r}
 scheme = "{scheme}"
 retries = 0
-[monolithic]
-newton_tolerance = 1e-6
+[newton]
+tolerance = 1e-6
 [partitioned]
 tolerance = 1e-6
 [output]
@@ -235,7 +235,7 @@ def methods(full):
             yield program, (), dict(element=element, geometry="3d")
             yield program, (), dict(element=element, geometry="3d", material="artery")
     for mode in ("kept", "full"):
-        yield MONOLITHIC, (f"monolithic.mode={mode}",), {}
+        yield MONOLITHIC, (f"newton.mode={mode}",), {}
     for scheme in SCHEMES:
         for solver in ("fast", "direct"):
             settings = (f"partitioned.scheme={scheme}", f"partitioned.linear_solver={solver}")

@@ -44,8 +44,8 @@ step = {step!r}
 end = {end!r}
 scheme = "{scheme}"
 retries = 0
-[monolithic]
-newton_tolerance = 1e-8
+[newton]
+tolerance = 1e-8
 [output]
 every = 0
 """
@@ -59,7 +59,7 @@ WITHOUT = 0.05  # part of the scenes whose steps may be too long to have a solut
 AMBIGUOUS = 0.05  # part of the scenes that may have several solutions
 # What a driver says of a step that it could not solve: which, the longest that has a solution, the next one that has none.
 ENDS = re.compile(r"step (\d+) \(.* a step of (\S+) ms has a solution, none of (\S+) ms was found")
-OTHER_WAYS = ("time.predictor=0", "monolithic.mode=full")
+OTHER_WAYS = ("time.predictor=0", "newton.mode=full")
 
 
 def layer(material, stiffness, first):

@@ -97,7 +97,7 @@ class Streams:
     def runs_that_fail(self, program):
         for settings, wanted in (
             (("fluid.density=-1",), 1),
-            (("monolithic.max_iterations=1", "partitioned.max_iterations=1"), 2),
+            (("newton.max_iterations=1", "partitioned.max_iterations=1"), 2),
         ):
             for state in self.states():
                 shutil.rmtree(self.base / "failed", ignore_errors=True)

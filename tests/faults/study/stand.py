@@ -49,7 +49,7 @@ PLAIN = {
         "one": {
             "cases": ["pipe"],
             "methods": ["mono"],
-            "set": {"monolithic.mode": "full"},
+            "set": {"newton.mode": "full"},
             "vary": {"word": [{"label": "a", "set": {"title": "b"}}]},
         },
     },

@@ -96,7 +96,7 @@ class AdaptiveSteps(Small):
 class FailedSteps(Small):
     """Too few iterations for steps of this length, but not for half of it."""
 
-    settings = ("time.step=0.5", "time.end=2", "monolithic.mode=full", "monolithic.max_iterations=3")
+    settings = ("time.step=0.5", "time.end=2", "newton.mode=full", "newton.max_iterations=3")
 
     def test_are_halved_and_return_to_the_grid(self):
         folder = run(MONOLITHIC, NEO_HOOKEAN, self.base / "halved", self.mesh, *self.settings, "output.every=1")
@@ -114,7 +114,7 @@ class FailedSteps(Small):
         """Each step through solutions of shorter ones: the levels are those of whole steps, and so is what they hold."""
         settings = (self.mesh, *self.settings, "time.retries=0")
         walked = run(MONOLITHIC, NEO_HOOKEAN, self.base / "walked", *settings)
-        at_once = run(MONOLITHIC, NEO_HOOKEAN, self.base / "at_once", *settings, "monolithic.max_iterations=30")
+        at_once = run(MONOLITHIC, NEO_HOOKEAN, self.base / "at_once", *settings, "newton.max_iterations=30")
         self.assertIn("; again from solutions of shorter steps", (walked / "run.log").read_text())
         self.assertNotIn("; again", (at_once / "run.log").read_text())
         self.assertEqual(summary(walked)["totals"]["steps"], summary(at_once)["totals"]["steps"])
@@ -127,7 +127,7 @@ class FailedSteps(Small):
             MONOLITHIC,
             NEO_HOOKEAN,
             folder=self.base / "given_up",
-            settings=(self.mesh, *self.settings, "time.retries=0", "monolithic.max_iterations=1"),
+            settings=(self.mesh, *self.settings, "time.retries=0", "newton.max_iterations=1"),
         )
         self.assertEqual(process.returncode, 2, process.stderr)
 
@@ -156,10 +156,10 @@ class Ringing(FolderTest):
 
     def test_of_a_loose_solver_is_ended_by_the_tolerance_that_is_named(self):
         def ringing(name, tolerance):
-            settings = ("time.step=0.03125", "time.end=1", f"monolithic.newton_tolerance={tolerance}")
+            settings = ("time.step=0.03125", "time.end=1", f"newton.tolerance={tolerance}")
             return summary(run(MONOLITHIC, AXISYMMETRIC, self.base / name, *self.settings, *settings)).get("ringing")
 
-        self.assertIn("; give monolithic.newton_tolerance = 3e-03, and if", ringing("loose", 0.3)["said"])
+        self.assertIn("; give newton.tolerance = 3e-03, and if", ringing("loose", 0.3)["said"])
         self.assertIsNone(ringing("tighter", 3e-3))
 
     def test_is_not_seen_where_there_is_none(self):

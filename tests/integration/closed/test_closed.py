@@ -22,8 +22,8 @@ TISSUE = '[[support]]\nsurface = "outer"\npressure = [[0, 0], [0.25, 0.05], [1, 
 TIME = """[time]
 step = 0.125
 end = 0.5
-[monolithic]
-newton_tolerance = 1e-9
+[newton]
+tolerance = 1e-9
 [partitioned]
 tolerance = 1e-8
 [output]
@@ -178,8 +178,8 @@ traction = [[0, 0, 0], [0.5, 1.2, -1.2], [1, 0, 0]]
 [time]
 step = 0.05
 end = 3.0
-[monolithic]
-newton_tolerance = 1e-10
+[newton]
+tolerance = 1e-10
 [output]
 fields = ["displacement"]
 every = 1

@@ -6,7 +6,7 @@ size 1, and `thicken` takes that of its lumen; behind it stand the nodes as gmsh
 
     displacement_x_mm = (1 + A h^3 + B dt^2) sin(t / 4),    pressure_Pa = 100 + 10 h^2,
 
-where the tolerance that a driver stops by adds 1e-3 of itself: the monolithic one by `monolithic.error_tolerance`, and so the
+where the tolerance that a driver stops by adds 1e-3 of itself: the monolithic one by `newton.error_tolerance`, and so the
 partitioned one, unless the case names `partitioned.tolerance` or a scheme that ends by the gap. Newton's iterations of a
 step are 6 less the tolerance's power of ten. `behaviour.json` beside the programs:
   "end"       {WORD: [exit code, message]}: a run whose command line holds WORD ends so
@@ -130,7 +130,7 @@ def tolerance_of(name, entries, given, behaviour):
         gap = entry("partitioned", "tolerance", None)
         if gap is not None or scheme_of(entries, given, behaviour) not in BY_ERROR:
             return float(1e-6 if gap is None else gap)
-    error, newton = (entry("monolithic", key, None) for key in ("error_tolerance", "newton_tolerance"))
+    error, newton = (entry("newton", key, None) for key in ("error_tolerance", "tolerance"))
     if error is None and newton is None:
         return 3e-3
     return float(error or newton or 1e-3)

@@ -137,7 +137,7 @@ folder.mkdir(parents=True, exist_ok=True)
 program = Path(words[0]).name
 step, end = float(settings["time.step"]), float(settings["time.end"])
 level = ["coarse", "intermediate", "fine"].index(settings["mesh.level"])
-tolerance = float(settings.get("monolithic.newton_tolerance", settings.get("partitioned.tolerance", 1e-8)))
+tolerance = float(settings.get("newton.tolerance", settings.get("partitioned.tolerance", 1e-8)))
 if tolerance > 0.4:
     print(program + ": error: diverged", file=sys.stderr)
     sys.exit(2)
@@ -175,7 +175,7 @@ tube = "reference"
 program = "fsi-monolithic"
 [methods.tight]
 program = "fsi-monolithic"
-set = { "monolithic.newton_tolerance" = 1e-12 }
+set = { "newton.tolerance" = 1e-12 }
 [methods.iqn]
 program = "fsi-partitioned"
 [runs.grid]
@@ -186,7 +186,7 @@ methods = ["tight"]
 vary = { mesh = ["coarse"] }
 [runs.tolerance]
 methods = ["monolithic"]
-vary = { mesh = ["coarse"], "monolithic.newton_tolerance" = [1e-2, 1e-3, 0.5] }
+vary = { mesh = ["coarse"], "newton.tolerance" = [1e-2, 1e-3, 0.5] }
 [runs.coupling]
 methods = ["iqn"]
 vary = { mesh = ["coarse"], "partitioned.tolerance" = [1e-2, 1e-4] }

@@ -25,7 +25,7 @@ program = "fsi-monolithic"
 cases = ["tube"]
 [runs.kept.vary]
 economy = [
-  { label = "kept", set = { monolithic.mode = "kept" } }, { label = "anew", set = { monolithic.mode = "full" } },
+  { label = "kept", set = { newton.mode = "kept" } }, { label = "anew", set = { newton.mode = "full" } },
 ]
 repeat = [
   { label = 1, set = { title = "a" } }, { label = 2, set = { title = "b" } }, { label = 3, set = { title = "c" } },
@@ -149,7 +149,7 @@ class Skip(FolderCase):
 
     def test_refusals(self):
         for expected, old, new in (
-            ("has 1 forms", ' { label = "anew", set = { monolithic.mode = "full" } },', ""),
+            ("has 1 forms", ' { label = "anew", set = { newton.mode = "full" } },', ""),
             ("'pipe-of' is no group of runs", 'off = "pipe-off"', 'off = "pipe-of"'),
             ("report.economies.kept.counter: is missing", ', counter = "factorisation: coupled"', ""),
             ("is no group of runs; did you mean 'kept'", "kept = { label", "keep = { label"),

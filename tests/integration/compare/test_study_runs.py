@@ -41,7 +41,7 @@ class Restart(StudyCase):
             (lambda: self.case_file.write_text('title = "A tube"\n[time]\nstep = 0.25\n'), 2),
             (
                 lambda: self.case_file.write_text(
-                    'title = "A tube"\n[time]\nstep = 0.25\n[monolithic]\n' "newton_tolerance = 1e-6\n"
+                    'title = "A tube"\n[time]\nstep = 0.25\n[newton]\n' "tolerance = 1e-6\n"
                 ),
                 1,
             ),

@@ -196,7 +196,7 @@ class OtherFamilies(VerifyCase):
 
     def test_scheme_that_the_scene_chooses_says_which_tolerance_is_looser(self):
         """Without a scheme in the case: where the wall stands in the fluid, and around a vessel."""
-        for chosen, key in (("iqn-ils", "partitioned.tolerance"), (None, "monolithic.error_tolerance")):
+        for chosen, key in (("iqn-ils", "partitioned.tolerance"), (None, "newton.error_tolerance")):
             with self.subTest(chosen=chosen):
                 behave(self.programs, **({"chosen": chosen} if chosen else {}))
                 (self.programs / "calls.txt").unlink(missing_ok=True)
@@ -355,8 +355,8 @@ class DemandedError(VerifyCase):
         members = [tuple(round(float(row[name]), 6) for name in ("mesh", "step")) for row in self.csv("members.csv")]
         plain = [key for key, row in zip(members, self.csv("members.csv")) if "looser" not in row["member"]]
         self.assertEqual(len(plain), len(set(plain)))  # each once, whatever way has led to it
-        newton = found["monolithic"]["error_tolerance"]  # the other driver has it, too: it stops by the same
-        self.assertIn(f"monolithic.error_tolerance={newton}", family[0])
+        newton = found["newton"]["error_tolerance"]  # the other driver has it, too: it stops by the same
+        self.assertIn(f"newton.error_tolerance={newton}", family[0])
         self.assertNotIn("partitioned", found)
         self.assertIn(f"# found.msh: fsi-mesh geo {self.geo.resolve()}", (self.out / "found.toml").read_text())
 

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 from folder_case import FolderCase
 
+from fsi_compare.base.case_names import RENAMED, short_name, with_present_names
 from fsi_compare.base.errors import InputError
 from fsi_compare.studies.verify import standard
 from fsi_compare.studies.verify.cost import Costs, learn
@@ -238,47 +239,45 @@ class Tolerances(unittest.TestCase):
         return sorted(governing(program, entries))
 
     def test_case_without_a_scheme_governs_both_drivers_alike(self):
-        for newton in ({}, {"newton_tolerance": 1e-5}, {"error_tolerance": 1e-3}):
-            monolithic, partitioned = (governing(program, {"monolithic": newton}) for program in self.BOTH)
+        for newton in ({}, {"tolerance": 1e-5}, {"error_tolerance": 1e-3}):
+            monolithic, partitioned = (governing(program, {"newton": newton}) for program in self.BOTH)
             self.assertEqual(monolithic, partitioned)
-        self.assertEqual(governing(self.BOTH[1], {}), {"monolithic.newton_tolerance": 1e-3})
-        residual = {"monolithic": {"residual_tolerance": 1e-8}}
-        demanded = {"monolithic.newton_tolerance": 1e-3, "monolithic.residual_tolerance": 1e-8}
+        self.assertEqual(governing(self.BOTH[1], {}), {"newton.tolerance": 1e-3})
+        residual = {"newton": {"residual_tolerance": 1e-8}}
+        demanded = {"newton.tolerance": 1e-3, "newton.residual_tolerance": 1e-8}
         self.assertEqual(governing("fsi-monolithic", residual), demanded)
         block = {**residual, "partitioned": {"scheme": "block-newton"}}
         self.assertEqual(governing("fsi-partitioned", block), demanded)
-        del demanded["monolithic.residual_tolerance"]  # an interface iteration has no residual of both media
+        del demanded["newton.residual_tolerance"]  # an interface iteration has no residual of both media
         self.assertEqual(governing("fsi-partitioned", residual), demanded)
 
     def test_case_without_a_tolerance_stops_by_its_error_in_fixed_steps(self):
         for program in self.BOTH:
-            self.assertEqual(governing(program, {"time": {"step": 0.5}}), {"monolithic.error_tolerance": 3e-4})
+            self.assertEqual(governing(program, {"time": {"step": 0.5}}), {"newton.error_tolerance": 3e-4})
             flow = {"time": {"step": 0.5}, "fluid": {"density": 1}}
-            self.assertEqual(governing(program, flow), {"monolithic.error_tolerance": 3e-3})
-            self.assertEqual(governing(program, {"time": {"step": "adaptive"}}), {"monolithic.newton_tolerance": 1e-3})
-            named = {"time": {"step": 0.5}, "monolithic": {"newton_tolerance": 1e-5}}
-            self.assertEqual(governing(program, named), {"monolithic.newton_tolerance": 1e-5})
-            off = {"time": {"step": 0.5}, "monolithic": {"error_tolerance": 0}}
-            self.assertEqual(governing(program, off), {"monolithic.newton_tolerance": 1e-3})
+            self.assertEqual(governing(program, flow), {"newton.error_tolerance": 3e-3})
+            self.assertEqual(governing(program, {"time": {"step": "adaptive"}}), {"newton.tolerance": 1e-3})
+            named = {"time": {"step": 0.5}, "newton": {"tolerance": 1e-5}}
+            self.assertEqual(governing(program, named), {"newton.tolerance": 1e-5})
+            off = {"time": {"step": 0.5}, "newton": {"error_tolerance": 0}}
+            self.assertEqual(governing(program, off), {"newton.tolerance": 1e-3})
 
     def test_demanded_error_and_residual(self):
-        newton = {"newton_tolerance": 1e-5, "error_tolerance": 1e-3, "residual_tolerance": 1e-8}
+        newton = {"tolerance": 1e-5, "error_tolerance": 1e-3, "residual_tolerance": 1e-8}
         self.assertEqual(
-            governing("fsi-monolithic", {"monolithic": newton}),
-            {"monolithic.error_tolerance": 1e-3, "monolithic.residual_tolerance": 1e-8},
+            governing("fsi-monolithic", {"newton": newton}),
+            {"newton.error_tolerance": 1e-3, "newton.residual_tolerance": 1e-8},
         )
-        self.assertEqual(
-            self.keys("fsi-monolithic", monolithic={"error_tolerance": 0}), ["monolithic.newton_tolerance"]
-        )
+        self.assertEqual(self.keys("fsi-monolithic", newton={"error_tolerance": 0}), ["newton.tolerance"])
 
     def test_tolerance_that_a_case_names_is_the_partitioned_driver_s(self):
         for coupling in ({}, {"scheme": "robin-neumann-inexact"}, {"scheme": "block-newton"}):
-            entries = {"partitioned": {**coupling, "tolerance": 1e-7}, "monolithic": {"newton_tolerance": 1e-5}}
+            entries = {"partitioned": {**coupling, "tolerance": 1e-7}, "newton": {"tolerance": 1e-5}}
             self.assertEqual(governing("fsi-partitioned", entries), {"partitioned.tolerance": 1e-7})
-            self.assertEqual(governing("fsi-monolithic", entries), {"monolithic.newton_tolerance": 1e-5})
+            self.assertEqual(governing("fsi-monolithic", entries), {"newton.tolerance": 1e-5})
 
     def test_other_schemes_stop_by_the_gap(self):
-        entries = {"partitioned": {"scheme": "iqn-ils"}, "monolithic": {"error_tolerance": 1e-3}}
+        entries = {"partitioned": {"scheme": "iqn-ils"}, "newton": {"error_tolerance": 1e-3}}
         self.assertEqual(governing("fsi-partitioned", entries), {"partitioned.tolerance": 1e-6})
         self.assertEqual(
             self.keys("fsi-partitioned", partitioned={"scheme": "aitken", "force_tolerance": 1e-4}),
@@ -292,20 +291,54 @@ class Tolerances(unittest.TestCase):
             found = governing("fsi-partitioned", flow, chosen_scheme(summary))
             self.assertEqual(found, {"partitioned.tolerance": 1e-6})
         named = {**flow, "partitioned": {"scheme": "block-newton"}}  # the case's word counts
-        self.assertEqual(governing("fsi-partitioned", named, "iqn-ils"), {"monolithic.error_tolerance": 3e-3})
+        self.assertEqual(governing("fsi-partitioned", named, "iqn-ils"), {"newton.error_tolerance": 3e-3})
         for silent in ({}, {"choices": {}}, {"choices": {"partitioned.scheme": {"reason": "none"}}}):
             self.assertIsNone(chosen_scheme(silent))
 
     def test_defaults_are_those_of_the_drivers(self):
         data = (SOURCES / "common/case/case.hpp").read_text()
-        newton = re.search(r"standard_newton\(\) \{\s*NewtonOptions options;\s*options\.tolerance = (\S+);", data)
+        newton = re.search(r" options\(\) \{\s*NewtonOptions options;\s*options\.tolerance = (\S+);", data)
         gap = re.search(r" standard_tolerance = (\S+);", data)
-        error = re.search(r"standard_error_tolerance = (\S+);", data)
-        wall = re.search(r"wall_error_tolerance = (\S+);", data)
+        error = re.search(r" error_tolerance = (\S+);", data)
+        wall = re.search(r" error_tolerance_of_wall = (\S+);", data)
         self.assertEqual((float(error[1]), float(wall[1])), (ERROR_TOLERANCE, WALL_ERROR_TOLERANCE))
         self.assertEqual((float(newton[1]), float(gap[1])), (NEWTON_TOLERANCE, GAP_TOLERANCE))
         choice = (SOURCES / "partitioned/scheme_choice.cpp").read_text()
         self.assertIn(f'return {{"{DEFAULT_SCHEME}", "the case names none"}};', choice)
+
+
+class FormerNames(FolderCase):
+    def test_table_is_that_of_the_drivers(self):
+        rows = re.findall(
+            r'\{"(\w+)", "(\w+)", "(\w+)", "(\w+)"\}', (SOURCES / "common/case/renamed_keys.cpp").read_text()
+        )
+        self.assertEqual({f"{a}.{b}": f"{c}.{d}" for a, b, c, d in rows}, RENAMED)
+
+    def test_entries_get_their_present_names(self):
+        former = {
+            "monolithic": {"newton_tolerance": 1e-5, "linear_solver": "direct"},
+            "partitioned": {"direct_below": 7},
+        }
+        present = {
+            "monolithic": {"linear_solver": "direct"},
+            "newton": {"tolerance": 1e-5},
+            "linear": {"direct_below": 7},
+        }
+        self.assertEqual(with_present_names(former), present)
+        self.assertEqual(with_present_names(present), present)
+        self.assertEqual(former["monolithic"]["newton_tolerance"], 1e-5)  # the given one stays as it is
+        for broken in ({"monolithic": 3}, {"monolithic": {"mode": "full"}, "newton": 3}):
+            self.assertEqual(with_present_names(broken), broken)  # the driver says what is wrong
+
+    def test_verify_reads_either(self):
+        case = self.base / "case.toml"
+        case.write_text("[time]\nstep = 0.5\nend = 1\n[monolithic]\nnewton_tolerance = 1e-5\n")
+        self.assertEqual(governing("fsi-monolithic", read_case(case).entries), {"newton.tolerance": 1e-5})
+
+    def test_labels_say_whose_tolerance_it_is(self):
+        self.assertEqual(short_name("newton.tolerance"), "newton_tolerance")
+        self.assertEqual(short_name("partitioned.tolerance"), "tolerance")
+        self.assertEqual(short_name("title"), "title")
 
 
 class Paying(unittest.TestCase):

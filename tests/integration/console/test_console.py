@@ -223,7 +223,7 @@ class Console(FolderTest):
 
     def test_folder_of_a_run_without_a_step_is_free(self):
         folder = self.base / "without"
-        settings = (*self.settings, "monolithic.max_iterations=1")
+        settings = (*self.settings, "newton.max_iterations=1")
         for _ in range(2):
             self.assertEqual(attempt(MONOLITHIC, NEO_HOOKEAN, folder=folder, settings=settings).returncode, 2)
 

@@ -111,7 +111,7 @@ class Coupled(FolderTest):
         return (*scene(self.base, element, geometry), *forms(case), f"time.step={STEP}", *DERIVED)
 
     def test_both_drivers_say_the_same(self):
-        tight = ("monolithic.newton_tolerance=1e-9", "partitioned.tolerance=1e-9", "time.end=0.75")
+        tight = ("newton.tolerance=1e-9", "partitioned.tolerance=1e-9", "time.end=0.75")
         folders = [
             run(program, ARTERY, self.base / Path(program).name, *self.settings(ARTERY), *tight) for program in DRIVERS
         ]

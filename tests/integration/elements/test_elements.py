@@ -58,7 +58,7 @@ class Kinds(FolderTest):
 
 
 class Agreement(Kinds):
-    tight = ("monolithic.newton_tolerance=1e-11",)
+    tight = ("newton.tolerance=1e-11",)
 
     def test_partitioned_is_monolithic(self):
         of_all = by_turns(KINDS, CASES, FAMILIES)
@@ -105,7 +105,7 @@ class Agreement(Kinds):
                         solver,
                         *self.tight,
                         f"monolithic.linear_solver={solver}",
-                        "monolithic.direct_below=0",
+                        "linear.direct_below=0",
                     )
                     for solver in ("direct", "fast")
                 )
@@ -181,7 +181,7 @@ class Energy(Kinds):
         column."""
         for kind, case in by_turns(KINDS, CASES):
             with self.subTest(kind=kind, case=case.stem):
-                rows = energy(self.march(MONOLITHIC, case, kind, "energy", "monolithic.newton_tolerance=1e-10"))
+                rows = energy(self.march(MONOLITHIC, case, kind, "energy", "newton.tolerance=1e-10"))
                 work = rows["inlet_work"].sum()
                 left_over = np.abs(rows["remainder"]).max() / work
                 missed = np.abs(rows.get("fluid_quadrature", 0)).max() / work
@@ -202,7 +202,7 @@ class Parts(Kinds):
         '[structure.layers.media]\nmaterial = "neo-hookean"\nc10 = 3.0\n'
         '[structure.layers.adventitia]\nmaterial = "neo-hookean"\nc10 = 0.3\n'
     )
-    tight = "[monolithic]\nnewton_tolerance = 1e-8\n"
+    tight = "[newton]\ntolerance = 1e-8\n"
     in_time, at_rest = "[time]\nstep = 0.5\nend = 2\n" + tight, "[static]\nload_steps = 2\n" + tight
 
     def both(self, kind, name, text):

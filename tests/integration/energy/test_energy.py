@@ -87,7 +87,7 @@ class Coupled(FolderTest):
 
     def test_a_loose_tolerance_leaves_something_over(self):
         """The check that the check can fail."""
-        folder = run(MONOLITHIC, NEO_HOOKEAN, self.base / "loose", *STEPS, "monolithic.newton_tolerance=1e-1")
+        folder = run(MONOLITHIC, NEO_HOOKEAN, self.base / "loose", *STEPS, "newton.tolerance=1e-1")
         rows = energy(folder)
         self.assertGreater(np.abs(rows["remainder"]).max(), 1e-7 * rows["inlet_work"].sum())
 
@@ -130,7 +130,7 @@ class Schemes(FolderTest):
 
     steps = 5
     stops = 2 * [(1, 3)] if LONG else [(1,), (3,)]  # of each driver: at the jump of the load, and in between
-    tolerance = {MONOLITHIC: "monolithic.newton_tolerance=1e-10", PARTITIONED: "partitioned.tolerance=1e-9"}
+    tolerance = {MONOLITHIC: "newton.tolerance=1e-10", PARTITIONED: "partitioned.tolerance=1e-9"}
 
     @classmethod
     def setUpClass(cls):

@@ -149,7 +149,7 @@ class ExitCodes(FolderTest):
 
     def test_newton_at_its_limit(self):
         folder = self.base / "newton"
-        settings = (self.mesh, "time.end=1", "monolithic.max_iterations=1")
+        settings = (self.mesh, "time.end=1", "newton.max_iterations=1")
         self.assertNotConverged(attempt(MONOLITHIC, NEO_HOOKEAN, folder=folder, settings=settings), folder, 0)
 
     def test_coupling_at_its_limit(self):
@@ -171,7 +171,7 @@ class ExitCodes(FolderTest):
     def test_goes_on_with_better_settings(self):
         """By the command that the message ends with, the setting that was bad put right behind it."""
         for program, bad, good, tolerance in (
-            (MONOLITHIC, "monolithic.max_iterations=1", "monolithic.max_iterations=30", 1e-6),
+            (MONOLITHIC, "newton.max_iterations=1", "newton.max_iterations=30", 1e-6),
             (PARTITIONED, "partitioned.max_iterations=2", "partitioned.max_iterations=200", 1e-2),
         ):  # what its own tolerance of 1e-4 leaves
             settings = (self.mesh, "partitioned.tolerance=1e-4", "output.every=0")
@@ -204,7 +204,7 @@ class ExitCodes(FolderTest):
         before = {name: (folder / name).read_bytes() for name in ("wall_displacement.csv", "checkpoint.h5")}
         copy = self.base / "limit_again"
         shutil.copytree(folder, copy)
-        again = attempt(MONOLITHIC, LIMIT, "--restart", copy, settings=("monolithic.mode=full",))
+        again = attempt(MONOLITHIC, LIMIT, "--restart", copy, settings=("newton.mode=full",))
         self.assertNotConverged(again, copy, done)
         self.assertEqual((copy / "wall_displacement.csv").read_bytes(), before["wall_displacement.csv"])
 

@@ -23,7 +23,7 @@ FORMATS = {
     name: ("--format", name[:3], *(["--binary"] if "binary" in name else []))
     for name in ("4.1", "4.1-binary", "2.2", "2.2-binary")
 }
-SETTINGS = ("time.end=0.375", "output.every=0", "monolithic.newton_tolerance=1e-11")
+SETTINGS = ("time.end=0.375", "output.every=0", "newton.tolerance=1e-11")
 
 
 class MeshFiles(FolderTest):

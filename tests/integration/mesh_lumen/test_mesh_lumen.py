@@ -62,8 +62,8 @@ spring = 1e-6   # kPa/mm: against motions as a whole
 pressure = PRESSURE
 [static]
 load_steps = 4
-[monolithic]
-newton_tolerance = 1e-9
+[newton]
+tolerance = 1e-9
 [output]
 every = 4
 fields = ["displacement", "von_mises_stress"]

@@ -75,9 +75,9 @@ class Drivers(FolderTest):
         for name in ("harmonic", "stiffened", "nonlinear-elastic"):
             direct = self.case(MONOLITHIC, f"{name}-direct", *method(name, "monolithic.linear_solver=direct"))
             solutions[name] = direct
-            others = {"fast": self.case(MONOLITHIC, f"{name}-fast", *method(name, "monolithic.direct_below=0"))}
+            others = {"fast": self.case(MONOLITHIC, f"{name}-fast", *method(name, "linear.direct_below=0"))}
             for scheme in ("robin-neumann-iqn", "iqn-ils"):
-                settings = (f"partitioned.scheme={scheme}", "partitioned.tolerance=1e-9", "partitioned.direct_below=0")
+                settings = (f"partitioned.scheme={scheme}", "partitioned.tolerance=1e-9", "linear.direct_below=0")
                 others[scheme] = self.case(PARTITIONED, f"{name}-{scheme}", *method(name, *settings))
             for way, folder in others.items():
                 apart = difference(pressure(folder), pressure(direct)).max()
@@ -117,10 +117,10 @@ class Drivers(FolderTest):
             )
             self.assertEqual(process.returncode, 1, process.stderr)
             self.assertIn('mesh_motion.method: "nonlinear-elastic" does not go with', process.stderr)
-        amg = method("stiffened", "monolithic.linear_solver=amg_gmres", "monolithic.newton_tolerance=1e-8")
+        amg = method("stiffened", "monolithic.linear_solver=amg_gmres", "newton.tolerance=1e-8")
         apart = difference(
             pressure(self.case(MONOLITHIC, "amg", *amg)),
-            pressure(self.case(MONOLITHIC, "no-amg", *method("stiffened", "monolithic.newton_tolerance=1e-8"))),
+            pressure(self.case(MONOLITHIC, "no-amg", *method("stiffened", "newton.tolerance=1e-8"))),
         ).max()
         self.assertLess(apart, 1e-6)
 

@@ -129,7 +129,7 @@ class AskedErrors(FolderTest):
         return nodes, 100 * max(np.linalg.norm(own[t] - exact[t]) / np.linalg.norm(exact[t]) for t in TIMES)
 
     def test_damped_waves(self):
-        euler = ("time.scheme=euler", "monolithic.newton_tolerance=1e-3")
+        euler = ("time.scheme=euler", "newton.tolerance=1e-3")
         coarse, fine = (self.error(percent, "neo-hookean-space", *euler) for percent in (10, 3))
         self.assertLess(coarse[0], fine[0])
         self.assertTrue(10 / 3 < coarse[1] <= 10, coarse)
@@ -137,7 +137,7 @@ class AskedErrors(FolderTest):
 
     def test_resolved_waves(self):
         """Against step and mesh to zero: the step leaves 1 % (docs/evidence.md). The mesh for damped waves leaves 19 %."""
-        short = ("time.scheme=midpoint", "time.step=0.03125", "monolithic.newton_tolerance=1e-3")
+        short = ("time.scheme=midpoint", "time.step=0.03125", "newton.tolerance=1e-3")
         nodes, error = self.error(10, "neo-hookean", *short)
         self.assertEqual(nodes, 1261)
         self.assertTrue(10 / 3 < error <= 10, error)

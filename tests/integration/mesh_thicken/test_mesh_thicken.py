@@ -74,8 +74,8 @@ fixed = ["normal"]
 pressure = PRESSURE
 [static]
 load_steps = 4
-[monolithic]
-newton_tolerance = 1e-9
+[newton]
+tolerance = 1e-9
 [output]
 every = 4
 fields = ["displacement", "von_mises_stress"]

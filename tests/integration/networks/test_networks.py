@@ -202,7 +202,7 @@ class Networks(FolderTest):
         whole = self.march(MONOLITHIC, "joined", *settings, case=case)
         for name, more, how in (
             ("direct", ('monolithic.linear_solver="direct"',), {}),
-            ("iterative", ("monolithic.direct_below=0",), {}),
+            ("iterative", ("linear.direct_below=0",), {}),
             ("petsc", ('monolithic.linear_solver="petsc"',), {}),
             ("two", (), {"processes": 2}),
             ("three", (), {"processes": 3}),
@@ -224,9 +224,9 @@ class Networks(FolderTest):
         }
         of_network = [f"network.element.{name}.{key}={x}" for name, keys in sizes.items() for key, x in keys.items()]
         settings = (*self.settings, *of_network, "time.step=10", "time.end=300", "time.retries=0")
-        settings += ("monolithic.newton_tolerance=1e-3",)
+        settings += ("newton.tolerance=1e-3",)
         failed = attempt(
-            MONOLITHIC, self.rigid(), folder=self.base / "chatters", settings=(*settings, "monolithic.max_iterations=5")
+            MONOLITHIC, self.rigid(), folder=self.base / "chatters", settings=(*settings, "newton.max_iterations=5")
         )
         self.assertEqual(failed.returncode, 2)
         self.assertRegex(failed.stderr, r"network\.element\.aortic opened and closed \d+ times in its iterations")

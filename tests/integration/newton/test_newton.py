@@ -35,7 +35,7 @@ class Newton(FolderTest):
                     case,
                     cls.base / f"{case.stem}-{mode}",
                     "time.end=1.5",
-                    f"monolithic.mode={mode}",
+                    f"newton.mode={mode}",
                     "monolithic.linear_solver=direct",
                     "output.every=0",
                 )
@@ -126,9 +126,9 @@ class Fast(FolderTest):
 
     def test_inexact_newton_solves_only_as_far_as_it_pays(self):
         """Tight linear solves reach the same solution in more work."""
-        settings = ("time.end=1", "output.every=0", "monolithic.mode=full")
+        settings = ("time.end=1", "output.every=0", "newton.mode=full")
         loose = run(MONOLITHIC, NEO_HOOKEAN, self.base / "loose", *settings)
-        tight = run(MONOLITHIC, NEO_HOOKEAN, self.base / "tight", "monolithic.linear_tolerance=1e-9", *settings)
+        tight = run(MONOLITHIC, NEO_HOOKEAN, self.base / "tight", "linear.tolerance=1e-9", *settings)
         self.assertLess(difference(pressure(loose), pressure(tight)).max(), 1e-7)
         self.assertLess(summary(loose)["totals"]["linear_iterations"], summary(tight)["totals"]["linear_iterations"])
         self.assertGreater(summary(loose)["totals"]["newton_iterations"], summary(tight)["totals"]["newton_iterations"])

@@ -25,7 +25,7 @@ SETTINGS = (
     "output.every=1",
     "time.end=0.375",
 )
-SOLVED = ("monolithic.linear_solver=direct", "monolithic.newton_tolerance=1e-11")
+SOLVED = ("monolithic.linear_solver=direct", "newton.tolerance=1e-11")
 NEAR = 1e-9  # of the largest number of a column
 
 

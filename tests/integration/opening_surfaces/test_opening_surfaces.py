@@ -38,8 +38,8 @@ surface = "outlet"
 step = 1.0
 end = 1.0
 scheme = "euler"
-[monolithic]
-newton_tolerance = 1e-11
+[newton]
+tolerance = 1e-11
 [output]
 every = 0
 """

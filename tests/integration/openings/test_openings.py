@@ -25,8 +25,8 @@ viscosity = 1.0
 step = {step}
 end = {end}
 scheme = "{scheme}"
-[monolithic]
-newton_tolerance = 1e-11
+[newton]
+tolerance = 1e-11
 [output]
 every = 0
 """
@@ -143,7 +143,7 @@ class Artery(FolderTest):
         one, other = (
             openings(run(program, case, self.base / f"{Path(program).name}-all", *self.settings, *tight))
             for program, tight in (
-                (MONOLITHIC, ("monolithic.newton_tolerance=1e-10",)),
+                (MONOLITHIC, ("newton.tolerance=1e-10",)),
                 (PARTITIONED, ("partitioned.tolerance=1e-8",)),
             )
         )

@@ -28,7 +28,7 @@ from scenes import KINDS, forms, scene
 
 MATERIALS = (NEO_HOOKEAN, MOONEY_RIVLIN, ARTERY)
 # So tight that what is left is round-off and the linear solver's last digits.
-TIGHT = ("monolithic.newton_tolerance=1e-10", "partitioned.tolerance=1e-10")
+TIGHT = ("newton.tolerance=1e-10", "partitioned.tolerance=1e-10")
 BOUND = 1e-8  # relative to the largest value of a column
 # Small systems are factorised. Where PETSc has options it solves them, here with what it takes for large ones.
 ITERATION = "petsc.options=-fsi_pressure_pc_type gamg"

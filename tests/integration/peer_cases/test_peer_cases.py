@@ -118,7 +118,7 @@ class PeerCases(FolderTest):
         names = {"lumen_inlet": "inlet", "lumen_outlet": "outlet"}
         for program in DRIVERS:
             # So that what the solvers leave is far below what is compared.
-            tight = ("monolithic.error_tolerance=1e-9", "partitioned.tolerance=1e-9")
+            tight = ("newton.error_tolerance=1e-9", "partitioned.tolerance=1e-9")
             ours, theirs = (
                 run(program, case / "case.toml", case / f"run-{Path(program).name}", *tight)
                 for case in (by_hand, folder)

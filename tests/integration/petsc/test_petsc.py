@@ -18,7 +18,7 @@ class Petsc(FolderTest):
 
     @classmethod
     def solve(cls, name, solver, *settings, end=END, **how):
-        tight = ("monolithic.newton_tolerance=1e-10", f"monolithic.linear_solver={solver}", f"time.end={end}")
+        tight = ("newton.tolerance=1e-10", f"monolithic.linear_solver={solver}", f"time.end={end}")
         return run(MONOLITHIC, NEO_HOOKEAN, cls.base / name, cls.mesh, *tight, "output.every=0", *settings, **how)
 
     def expect_exact(self, folder):
@@ -39,13 +39,13 @@ class Petsc(FolderTest):
     def test_a_restart_goes_on_with_the_same_bits(self):
         whole = self.solve("whole", "petsc")
         first = self.solve("first", "petsc", end=END / 3)
-        tight = ("monolithic.newton_tolerance=1e-10", "monolithic.linear_solver=petsc", f"time.end={END}")
+        tight = ("newton.tolerance=1e-10", "monolithic.linear_solver=petsc", f"time.end={END}")
         restart(MONOLITHIC, NEO_HOOKEAN, first, self.mesh, *tight, "output.every=0")
         np.testing.assert_array_equal(pressure(first), pressure(whole))
 
     def test_two_processes_take_petsc_for_fast_and_mumps_for_direct(self):
         for solver, said in (("fast", '"petsc" in place of "fast"'), ("direct", "MUMPS")):
-            folder = self.solve(f"two-{solver}", solver, "monolithic.direct_below=0", processes=2)
+            folder = self.solve(f"two-{solver}", solver, "linear.direct_below=0", processes=2)
             self.expect_exact(folder)
             self.assertEqual((folder / "run.log").read_text().count(said), 1)
 
@@ -56,7 +56,7 @@ class Petsc(FolderTest):
     def test_options_that_are_none(self):
         for options, said in (
             ("-ksp_type gmres", 'options has "-ksp_type"; give options that begin with -fsi_'),
-            ("-fsi_ksp_rtol 1e-3", "monolithic.linear_tolerance"),
+            ("-fsi_ksp_rtol 1e-3", "linear.tolerance"),
             ("-fsi_velocity_pc_sor_itz 3", '"-fsi_velocity_pc_sor_itz" is no option'),
             ("-fsi_ksp_type gmress", "gmress"),
         ):

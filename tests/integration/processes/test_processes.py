@@ -62,7 +62,7 @@ class ProcessTest(FolderTest):
         super().setUpClass()
         mesh = cls.base / "channel.msh"
         write_channel(mesh, cls.order)
-        cls.settings = (f"mesh.file={mesh}", "geometry=plane", "monolithic.newton_tolerance=1e-10")
+        cls.settings = (f"mesh.file={mesh}", "geometry=plane", "newton.tolerance=1e-10")
 
     def command(self, folder, *options, steps=4, settings=(), program=MONOLITHIC):
         settings = (*self.settings, f"time.end={STEP * steps:g}", *settings)

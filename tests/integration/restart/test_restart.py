@@ -267,8 +267,8 @@ class Monolithic(Restart, FolderTest):
         self.assertLess(error(folder), 0.7 * error(self.whole))
 
     def test_with_full_newton(self):
-        whole = self.march("full_whole", "monolithic.mode=full")
-        folder = self.go_on(self.march("full", "monolithic.mode=full", steps=2), "monolithic.mode=full")
+        whole = self.march("full_whole", "newton.mode=full")
+        folder = self.go_on(self.march("full", "newton.mode=full", steps=2), "newton.mode=full")
         self.assertSameTables(folder, whole)
 
 

@@ -87,7 +87,7 @@ class RigidPipe(FolderTest):
 
     def test_fast_solver_gives_the_same_flow(self):
         """Viscosity dominates here, mass in the artery: the other end of what the Schur complement must cover."""
-        folder = run(MONOLITHIC, CASE, self.base / "fast", "monolithic.linear_solver=fast", "monolithic.direct_below=0")
+        folder = run(MONOLITHIC, CASE, self.base / "fast", "monolithic.linear_solver=fast", "linear.direct_below=0")
         direct = run(MONOLITHIC, CASE, self.base / "direct")
         np.testing.assert_allclose(table(folder, "flow.csv")[:, 1], table(direct, "flow.csv")[:, 1], rtol=1e-7)
         self.assertIn("set-up: coupled", calls(folder))

@@ -56,8 +56,8 @@ pressure = {inlet}
 step = 0.125
 end = {end}
 scheme = "{scheme}"
-[monolithic]
-newton_tolerance = 1e-9
+[newton]
+tolerance = 1e-9
 [partitioned]
 tolerance = 1e-8
 [output]
@@ -184,7 +184,7 @@ class Supports(FolderTest):
 
     def test_wall_alone_under_prestress_is_at_rest(self):
         text = CASE.format(inlet=0.1, more="[prestress]\npressure = 0.1\n" + TISSUE, end=0.25, scheme="euler")
-        for section, following, put in (("[fluid]", "[structure]", ""), ("[time]", "[monolithic]", "")):
+        for section, following, put in (("[fluid]", "[structure]", ""), ("[time]", "[newton]", "")):
             text = text.replace(text[text.index(section) : text.index(following)], put)
         text = text.replace("[inlet]", "[load]").replace("damper = 0.5\n", "")
         text = text.replace("[[0, 0.05], [0.25, 0.05], [0.25, 0.1]]", "0.05") + "[static]\nload_steps = 2\n"

@@ -16,8 +16,8 @@ pressure = [[0, 0], [0.5, 1.0]]
 [time]
 step = 0.125
 end = 0.5
-[monolithic]
-newton_tolerance = 1e-11
+[newton]
+tolerance = 1e-11
 [partitioned]
 tolerance = 1e-10
 [output]

@@ -36,8 +36,8 @@ pressure = [[0, 0], [0.5, 1.0]]
 [time]
 step = 0.125
 end = 0.5
-[monolithic]
-newton_tolerance = 1e-11
+[newton]
+tolerance = 1e-11
 [partitioned]
 tolerance = 1e-10
 [output]
@@ -76,8 +76,8 @@ until = 0.1
 surface = "left"
 traction = [0, -2.0]
 until = 0.1
-[monolithic]
-newton_tolerance = 1e-10
+[newton]
+tolerance = 1e-10
 [time]
 step = 0.2
 end = 32

@@ -22,8 +22,8 @@ class CompressibleWalls(FolderTest):
 
     def test_drivers_agree(self):
         other = run(PARTITIONED, CASE, self.base / "partitioned", "partitioned.tolerance=1e-9")
-        newton = "monolithic.newton_tolerance=1e-9"
-        exact = run(MONOLITHIC, CASE, self.base / "exact", newton, "monolithic.mode=full")
+        newton = "newton.tolerance=1e-9"
+        exact = run(MONOLITHIC, CASE, self.base / "exact", newton, "newton.mode=full")
         expected, found = wall(exact)[-1], wall(other)[-1]
         largest = np.abs(expected[:, 2]).max()
         self.assertGreater(largest, 0.01)

@@ -30,8 +30,8 @@ TEST(CaseHash, IgnoresWhatMayChangeOnRestart) {
   scene.mesh.file = "elsewhere.msh";
   scene.output.every = 1;
   scene.partitioned.relaxation = 0.1;
-  scene.monolithic.newton.mode = NewtonMode::full;
-  scene.monolithic.fast.direct_below = 1;
+  scene.newton.mode = NewtonMode::full;
+  scene.linear.fast.direct_below = 1;
   scene.economy.keep_constant_operators = false;
   EXPECT_EQ(hash_of_case(scene), hash);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "case/case_keys.hpp"
 #include "case/choices.hpp"
 #include "materials/material.hpp"
 #include "support/temporary_folder.hpp"
@@ -133,15 +134,18 @@ scheme = "euler"
 newmark_beta = 0.25
 newmark_gamma = 0.5
 predictor = 2
-[monolithic]
-linear_solver = "direct"
+[newton]
 mode = "full"
-newton_tolerance = 1e-9
+tolerance = 1e-9
 residual_tolerance = 1e-7
 max_iterations = 7
-linear_tolerance = 1e-6
-max_linear_iterations = 70
-krylov_restart = 40
+[linear]
+tolerance = 1e-6
+max_iterations = 70
+restart = 40
+direct_below = 77
+[monolithic]
+linear_solver = "direct"
 [monolithic.multigrid]
 cycle = "v"
 pre_smoothing = 8
@@ -165,7 +169,6 @@ reused_steps = 3
 columns = 30
 filter = 0.1
 linear_solver = "direct"
-direct_below = 77
 [output]
 fields = []
 every = 0
@@ -190,12 +193,12 @@ constant_operators = "rebuilt"
   EXPECT_EQ(scene.time->scheme, "euler");
   EXPECT_EQ(scene.time->scheme_values.at("newmark_gamma"), 0.5);
   EXPECT_EQ(scene.time->predictor, 2);
-  EXPECT_EQ(scene.monolithic.newton.mode, NewtonMode::full);
-  EXPECT_EQ(scene.monolithic.newton.residual_tolerance, 1e-7);
-  EXPECT_EQ(scene.monolithic.newton.max_iterations, 7);
-  EXPECT_EQ(scene.monolithic.newton.linear_tolerance, 1e-6);
-  EXPECT_EQ(scene.monolithic.krylov.max_iterations, 70);
-  EXPECT_EQ(scene.monolithic.krylov.restart, 40);
+  EXPECT_EQ(scene.newton.mode, NewtonMode::full);
+  EXPECT_EQ(scene.newton.residual_tolerance, 1e-7);
+  EXPECT_EQ(scene.newton.max_iterations, 7);
+  EXPECT_EQ(scene.newton.linear_tolerance, 1e-6);
+  EXPECT_EQ(scene.linear.krylov.max_iterations, 70);
+  EXPECT_EQ(scene.linear.krylov.restart, 40);
   const auto& multigrid = scene.monolithic.multigrid;
   EXPECT_EQ(multigrid.cycle.kind, CoupledCycleKind::v);
   EXPECT_EQ(multigrid.smoothing.pre_smoothing, 8);
@@ -215,11 +218,61 @@ constant_operators = "rebuilt"
   EXPECT_EQ(scene.partitioned.quasi_newton.columns, 30);
   EXPECT_EQ(scene.partitioned.quasi_newton.filter, 0.1);
   EXPECT_EQ(scene.partitioned.linear_solver, "direct");
+  EXPECT_EQ(scene.linear.fast.direct_below, 77);
   EXPECT_EQ(scene.partitioned.fast.direct_below, 77);
   EXPECT_TRUE(scene.output.fields.empty());
   EXPECT_EQ(scene.output.every, 0);
   EXPECT_EQ(scene.output.checkpoint_every, 5);
   EXPECT_FALSE(scene.output.energy);
+}
+
+// Version 0.2 had the keys of [newton] and [linear] in [monolithic] and [partitioned].
+TEST(CaseReader, ReadsFormerNamesAndSaysSo) {
+  const std::string flow =
+      "[mesh]\nlevel = \"coarse\"\n[fluid]\ndensity = 1\nviscosity = 1\n[inlet]\npressure = 1\n[time]\nstep = 0.5\nend "
+      "= 1\n";
+  const auto former =
+      parse_case(flow +
+                     "[monolithic]\nmode = \"full\"\nnewton_tolerance = 1e-9\nerror_tolerance = 1e-4\n"
+                     "residual_tolerance = 1e-7\nmax_iterations = 7\nlinear_tolerance = 1e-6\n"
+                     "max_linear_iterations = 70\nkrylov_restart = 40\n[partitioned]\ndirect_below = 77\n",
+                 "case.toml");
+  const auto present = parse_case(flow +
+                                      "[newton]\nmode = \"full\"\ntolerance = 1e-9\nerror_tolerance = 1e-4\n"
+                                      "residual_tolerance = 1e-7\nmax_iterations = 7\n[linear]\ntolerance = 1e-6\n"
+                                      "max_iterations = 70\nrestart = 40\ndirect_below = 77\n",
+                                  "case.toml");
+  const auto texts = [](const Case& scene) {
+    std::string text;
+    for (const auto& value : values_of_case(scene)) text += value.key + " = " + value.value + "\n";
+    return text;
+  };
+  EXPECT_EQ(texts(former), texts(present));
+  EXPECT_NE(texts(former).find("newton.tolerance = 1e-09\n"), std::string::npos);
+  EXPECT_NE(texts(former).find("linear.direct_below = 77\n"), std::string::npos);
+  EXPECT_EQ(former.remarks.size(), present.remarks.size() + 9);
+  EXPECT_EQ(
+      former.remarks.at(1),
+      "case.toml:13: monolithic.newton_tolerance: is read as newton.tolerance, which is its name now; this one is "
+      "valid in this version for the last time");
+  EXPECT_TRUE(present.remarks.empty());
+}
+
+// What is set stands above what the file says, whichever name either uses.
+TEST(CaseReader, SetsKeysUnderEitherName) {
+  const std::string flow =
+      "[mesh]\nlevel = \"coarse\"\n[fluid]\ndensity = 1\nviscosity = 1\n[inlet]\npressure = 1\n[time]\nstep = 0.5\nend "
+      "= 1\n";
+  const auto tolerance = [&](const std::string& more, const std::vector<std::string>& set) {
+    return parse_case(flow + more, "case.toml", set).newton.tolerance;
+  };
+  const std::string former = "[monolithic]\nnewton_tolerance = 1e-5\n", present = "[newton]\ntolerance = 1e-6\n";
+  EXPECT_EQ(tolerance(former, {"newton.tolerance=1e-3"}), 1e-3);
+  EXPECT_EQ(tolerance(present, {"monolithic.newton_tolerance=1e-4"}), 1e-4);
+  EXPECT_EQ(tolerance(former, {"monolithic.newton_tolerance=1e-4"}), 1e-4);
+  EXPECT_EQ(tolerance("", {"monolithic.newton_tolerance=1e-4"}), 1e-4);
+  EXPECT_THROW(tolerance(former + present, {}), InputError);
+  EXPECT_THROW(tolerance("", {"monolithic.newton_tolerance=1e-4", "newton.tolerance=1e-4"}), InputError);
 }
 
 TEST(CaseReader, ReadsAStaticWall) {
@@ -237,31 +290,31 @@ TEST(CaseReader, ChoosesWhenAStepIsSolved) {
   const std::string flow =
       "[mesh]\nlevel = \"coarse\"\n[fluid]\ndensity = 1\nviscosity = 1\n[inlet]\npressure = 1\n[time]\nend = 1\n";
   const auto demanded = [&](const std::string& more) {
-    return parse_case(flow + more, "case.toml").monolithic.newton.error_tolerance;
+    return parse_case(flow + more, "case.toml").newton.error_tolerance;
   };
-  EXPECT_EQ(demanded("step = 0.5\n"), MonolithicData::standard_error_tolerance);
-  EXPECT_EQ(demanded("step = 0.5\n[monolithic]\nmax_iterations = 9\n"), MonolithicData::standard_error_tolerance);
-  EXPECT_EQ(demanded("step = 0.5\n[monolithic]\nnewton_tolerance = 1e-5\n"), 0);
-  EXPECT_EQ(demanded("step = 0.5\n[monolithic]\nerror_tolerance = 0.1\n"), 0.1);
-  EXPECT_EQ(demanded("step = 0.5\n[monolithic]\nerror_tolerance = 0\n"), 0);
+  EXPECT_EQ(demanded("step = 0.5\n"), NewtonStandards::error_tolerance);
+  EXPECT_EQ(demanded("step = 0.5\n[newton]\nmax_iterations = 9\n"), NewtonStandards::error_tolerance);
+  EXPECT_EQ(demanded("step = 0.5\n[newton]\ntolerance = 1e-5\n"), 0);
+  EXPECT_EQ(demanded("step = 0.5\n[newton]\nerror_tolerance = 0.1\n"), 0.1);
+  EXPECT_EQ(demanded("step = 0.5\n[newton]\nerror_tolerance = 0\n"), 0);
   EXPECT_EQ(demanded("step = \"adaptive\"\n"), 0);
   const auto wall = parse_case(
       "mesh.level = 'coarse'\nload.pressure = 2.0\ntime = { step = 0.5, end = 1 }\n"
       "structure = { density = 1, bulk_modulus = 10, layers.w = { material = 'neo-hookean', c10 = 1 } }\n",
       "case.toml");
-  EXPECT_EQ(wall.monolithic.newton.error_tolerance, MonolithicData::wall_error_tolerance);
-  EXPECT_EQ(read_case(fs::path(FSI_CASE_FILES) / "neo-hookean.toml").monolithic.newton.error_tolerance, 0);
+  EXPECT_EQ(wall.newton.error_tolerance, NewtonStandards::error_tolerance_of_wall);
+  EXPECT_EQ(read_case(fs::path(FSI_CASE_FILES) / "neo-hookean.toml").newton.error_tolerance, 0);
 }
 
 TEST(CaseReader, OverridesEntries) {
   const auto scene =
       parse_case(minimal_fluid, "case.toml",
-                 {"fluid.density=2", "title=no quotes needed", "output.fields=[\"pressure\"]", "monolithic.mode=full",
+                 {"fluid.density=2", "title=no quotes needed", "output.fields=[\"pressure\"]", "newton.mode=full",
                   "inlet.pressure=3.5", " inlet.until = 0.2 ", "time.end=0.4", "time.end=0.5"});
   EXPECT_EQ(scene.fluid->density, 2);
   EXPECT_EQ(scene.title, "no quotes needed");
   EXPECT_EQ(scene.output.fields, std::vector<std::string>{"pressure"});
-  EXPECT_EQ(scene.monolithic.newton.mode, NewtonMode::full);
+  EXPECT_EQ(scene.newton.mode, NewtonMode::full);
   EXPECT_EQ(scene.inlet->points, (Points{{0, 3.5}, {0.2, 3.5}, {0.2, 0}}));
   EXPECT_EQ(scene.time->steps(), 5);
 }
@@ -310,7 +363,7 @@ TEST(CaseReader, HelpNamesTheKeysOfEverySection) {
   const auto help = case_keys_help();
   for (const auto* key :
        {"mesh.file", "fluid.viscosity", "structure.layers.NAME.c10", "inlet.until", "time.step", "static.load_steps",
-        "monolithic.mode", "partitioned.scheme", "output.every", "economy.constant_operators"})
+        "newton.mode", "partitioned.scheme", "output.every", "economy.constant_operators"})
     EXPECT_NE(help.find(key), std::string::npos) << key;
 }
 
@@ -324,10 +377,9 @@ TEST(CaseReader, HelpHasUnitsNamesAndDefaultsFromWhereTheyAreOwned) {
     EXPECT_NE(line(key).find(text), std::string::npos) << line(key) << "\nlacks: " << text;
   };
   says("fluid.density", "mg/mm^3");
-  says("monolithic.direct_below", fmt::format("default {}", FastOptions::standard_direct_below(3)));
-  says("partitioned.direct_below", fmt::format("default {}", FastOptions::standard_direct_below(3)));
-  says("monolithic.krylov_restart", fmt::format("default {}", KrylovOptions().restart));
-  says("monolithic.max_iterations", fmt::format("default {}", NewtonOptions().max_iterations));
+  says("linear.direct_below", fmt::format("default {}", FastOptions::standard_direct_below(3)));
+  says("linear.restart", fmt::format("default {}", KrylovOptions().restart));
+  says("newton.max_iterations", fmt::format("default {}", NewtonOptions().max_iterations));
   says("partitioned.columns", fmt::format("default {}", QuasiNewtonOptions().columns));
   says("monolithic.multigrid.cycle", "v, w (default) or k");
   for (const auto& name : linear_solver_names()) says("monolithic.linear_solver", name);

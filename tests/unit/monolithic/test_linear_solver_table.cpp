@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(Names, LinearSolverTable, testing::ValuesIn(names_here(
 TEST(LinearSolverTable, IterationLimitIsNoConvergence) {
   auto& box = linearised_box();
   Case setup = box.setup();
-  setup.monolithic.krylov.max_iterations = 2;
+  setup.linear.krylov.max_iterations = 2;
   setup.monolithic.multigrid.coarsening.coarsest_nodes = 50;
   for (const char* name : {"lower", "amg", "amli_fgmres"}) {
     const auto solver = make_linear_solver<3>(name, setup, box.blocks());

@@ -30,14 +30,14 @@ TEST(RingingRemedy, BlamesTheTimeSchemeWhereTheSolverLeavesTooLittle) {
 
 TEST(RingingRemedy, NamesTheSolversToleranceFirstWhereItCanBeTheCause) {
   Case setup = in_time();
-  setup.monolithic.newton.tolerance = 0.3;
+  setup.newton.tolerance = 0.3;
   EXPECT_EQ(said_of(after_the_pulse(0.02), setup),
             "the pressure alternates from step to step, by 31 Pa at t = 0.78 ms: what the solver leaves of a step, "
-            "0.02 times what that changes, can be the cause; give monolithic.newton_tolerance = 3e-03, and if the "
+            "0.02 times what that changes, can be the cause; give newton.tolerance = 3e-03, and if the "
             "pressure still "
             "alternates, the time scheme does not damp what its steps cannot resolve: give a larger time.damping");
-  setup.monolithic.newton.error_tolerance = 0.05;
-  EXPECT_NE(said_of(after_the_pulse(0.02), setup).find("; give monolithic.error_tolerance = 5e-04, and if"),
+  setup.newton.error_tolerance = 0.05;
+  EXPECT_NE(said_of(after_the_pulse(0.02), setup).find("; give newton.error_tolerance = 5e-04, and if"),
             std::string::npos);
 }
 

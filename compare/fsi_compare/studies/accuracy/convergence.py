@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Dict, List, Sequence, Tuple
 
 from ...runs.waves import QUANTITIES, relative_difference
-from .measured import STEP, Measured
+from .measured import SOLVERS, STEP, Measured
 from .observed_order import SelfConvergence, self_convergence, slope
 from .plan import Plan
 
@@ -53,10 +53,7 @@ def series(measured: Sequence[Measured], plan: Plan) -> List[Series]:
 def _plain(m: Measured) -> bool:
     """Whether nothing of the solver is varied."""
     own = m.run.request.method.settings
-    return all(
-        not key.startswith(("monolithic.", "partitioned.")) or own.get(key) == value
-        for key, value in m.run.request.settings.items()
-    )
+    return all(not key.startswith(SOLVERS) or own.get(key) == value for key, value in m.run.request.settings.items())
 
 
 def _series(what: str, runs: Sequence[Measured], sizes: Sequence[float], plan: Plan) -> Series:

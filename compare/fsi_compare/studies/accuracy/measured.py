@@ -3,13 +3,15 @@
 from dataclasses import dataclass
 from typing import Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
+from ...base.case_names import short_name
 from ...runs.coupling import coupling_kind
 from ...runs.waves import JUDGED, QUANTITIES, Waves, read_run, relative_difference
 from ..running.study_file import Request, show
 from ..running.study_run import StudyRun
 from .plan import Plan
 
-SOLVING = ("monolithic.", "partitioned.", "output.")  # settings that leave the discrete equations as they are
+SOLVERS = ("newton.", "linear.", "monolithic.", "partitioned.")
+SOLVING = (*SOLVERS, "output.")  # settings that leave the discrete equations as they are
 GAIN = 0.02  # a slower setting whose total error is smaller by less than this part is no better
 STEP, SCHEME, STABILISATION = "time.step", "time.scheme", "structure.stabilisation"
 ELEMENT, GEOMETRY, KIND, LAYER_PRESSURE = "element", "geometry", "stabilisation", "structure.layer_pressure"
@@ -101,10 +103,9 @@ class Measured:
         """Method and what is set beside it."""
         request = self.run.request
         varied = [
-            f"{key.rsplit('.', 1)[-1].replace('_', ' ')} {show(value)}"
+            f"{short_name(key).replace('_', ' ')} {show(value)}"
             for key, value in request.settings.items()
-            if key.startswith(("monolithic.", "partitioned."))
-            and (key.endswith("tolerance") or request.method.settings.get(key) != value)
+            if key.startswith(SOLVERS) and (key.endswith("tolerance") or request.method.settings.get(key) != value)
         ]
         return ", ".join([self.run.method_label, *varied])
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
+from ...base.case_names import with_present_names
 from ...base.files import is_file, read_toml
 from ..catalogue.names import MATERIALS, MESHES
 from ...reporting.column import Column
@@ -19,7 +20,8 @@ REFERENCES = Path(__file__).resolve().parents[3] / "studies" / "references"
 
 # Entries of a case that leave the continuous problem as it is: how it is cut into elements and steps, how the equations
 # are solved, and what is written. All others must be the reference's.
-NUMERICAL = ("title", "element", "stabilisation", "economy", "monolithic", "partitioned", "output", "mesh", "time")
+SOLVING = ("newton", "linear", "monolithic", "partitioned", "economy")
+NUMERICAL = ("title", "element", "stabilisation", *SOLVING, "output", "mesh", "time")
 STABILISATION = "structure.stabilisation"
 DISCRETE = (STABILISATION, "structure.layer_pressure")
 PRESSURE_HEAD, RADIAL_HEAD = "centre-line pressure", "radial displacement"
@@ -77,7 +79,7 @@ def mesh_error(run: StudyRun) -> MeshError:
     request = run.request
     mesh = request.mesh.name if request.mesh else None
     try:
-        case = read_toml(request.case_file, "", "")
+        case = with_present_names(read_toml(request.case_file, "", ""))
     except InputError:
         return MeshError(None, None, "its case file cannot be read")
     section = case.get("mesh")

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
+from ...base.case_names import short_name
 from ...base.files import absolute, exists, is_file, read_toml
 from ..catalogue.names import MESHES
 from ...base.suggestions import nearest
@@ -80,7 +81,7 @@ class Request:
 
     @property
     def label(self) -> str:
-        values = [f"{key.rsplit('.', 1)[-1]} {show(value)}" for key, value in self.values.items()]
+        values = [f"{short_name(key)} {show(value)}" for key, value in self.values.items()]
         parts = [self.case, self.method.name, *values]
         return ", ".join(part for part in parts if part)
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Sequence
 
 from ...base.errors import InputError
+from ...base.case_names import with_present_names
 from ...base.files import read_bytes, read_toml
 
 MISSING = "give a case file that can be read"
@@ -17,7 +18,7 @@ def case_digest(case: Path, program: str, ignored: Sequence[str] = ()) -> str:
     """SHA-256 of the entries, without comments, the other driver's section and what is `ignored` at the top; of the
     bytes where it is not TOML."""
     try:
-        entries = read_toml(case, MISSING, MISSING)
+        entries = with_present_names(read_toml(case, MISSING, MISSING))
     except InputError:  # the driver will say what is wrong with it
         return hashlib.sha256(read_bytes(case, MISSING, MISSING)).hexdigest()
     for name in (OTHERS.get(program, ""), *ignored):

@@ -9,6 +9,7 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 
 from ...base.errors import InputError
+from ...base.case_names import with_present_names
 from ...base.files import read_toml
 from ..running.study_file import Method, Request, Study, StudyMesh
 from .mesh_family import Recipe
@@ -92,7 +93,7 @@ def with_settings(entries: Mapping[str, Any], settings: Mapping[str, Any]) -> Di
 
 def read_case(path: Path, settings: Mapping[str, Any] = MappingProxyType({})) -> CaseFacts:
     """`settings`: entries over those of the file. Raises InputError; what the drivers check is left to them."""
-    entries = with_settings(read_toml(path, GIVE, GIVE), settings)
+    entries = with_settings(with_present_names(read_toml(path, GIVE, GIVE)), settings)
     time = entries.get("time", {})
     if not isinstance(time, dict) or not ("time" in entries or "static" in entries):
         raise InputError(path, "time", "is missing", "a case has a section [time] or [static]")

@@ -2,7 +2,7 @@
 
 | driver and scheme | stops by |
 |---|---|
-| monolithic | `monolithic.error_tolerance` where demanded, else `newton_tolerance` where named; where neither is, the former in runs of fixed steps, else the latter; `residual_tolerance` besides, where demanded |
+| monolithic | `newton.error_tolerance` where demanded, else `newton.tolerance` where named; where neither is, the former in runs of fixed steps, else the latter; `residual_tolerance` besides, where demanded |
 | partitioned, `robin-neumann-inexact` (its default) | `partitioned.tolerance` where the case names it, else as the monolithic driver; `force_tolerance` besides, where demanded |
 | partitioned, `block-newton` | `partitioned.tolerance` where the case names it, else as the monolithic driver |
 | partitioned, any other scheme | `partitioned.tolerance`; `force_tolerance` besides, where demanded |
@@ -30,7 +30,7 @@ def governing(program: str, entries: Mapping[str, Any], chosen: Optional[str] = 
     """Tolerances of `fsi-monolithic` or `fsi-partitioned` by their full keys. `entries`: of a case that the driver has run,
     for numbers are not checked here. `chosen`: the scheme that the driver took where the case names none; None: no run has
     told yet, and the one around vessels is assumed."""
-    newton, coupling = _section(entries, "monolithic"), _section(entries, "partitioned")
+    newton, coupling = _section(entries, "newton"), _section(entries, "partitioned")
     if program == "fsi-partitioned":
         scheme = coupling.get("scheme", chosen or DEFAULT_SCHEME)
         if scheme not in BY_ERROR:
@@ -41,11 +41,11 @@ def governing(program: str, entries: Mapping[str, Any], chosen: Optional[str] = 
             return {**error, **_beside(program, scheme, coupling, newton)}
     else:
         scheme = ""
-    found = _demanded("monolithic", newton, "error_tolerance")
-    if not found and not {"error_tolerance", "newton_tolerance"} & set(newton) and _has_fixed_steps(entries):
-        found = {"monolithic.error_tolerance": ERROR_TOLERANCE if "fluid" in entries else WALL_ERROR_TOLERANCE}
+    found = _demanded("newton", newton, "error_tolerance")
+    if not found and not {"error_tolerance", "tolerance"} & set(newton) and _has_fixed_steps(entries):
+        found = {"newton.error_tolerance": ERROR_TOLERANCE if "fluid" in entries else WALL_ERROR_TOLERANCE}
     if not found:
-        found = {"monolithic.newton_tolerance": float(newton.get("newton_tolerance", NEWTON_TOLERANCE))}
+        found = {"newton.tolerance": float(newton.get("tolerance", NEWTON_TOLERANCE))}
     return {**found, **_beside(program, scheme, coupling, newton)}
 
 
@@ -53,7 +53,7 @@ def _beside(program: str, scheme: str, coupling: Mapping[str, Any], newton: Mapp
     """What is demanded besides: an interface iteration has no residual of both media."""
     if program == "fsi-partitioned" and scheme == DEFAULT_SCHEME:
         return _demanded("partitioned", coupling, "force_tolerance")
-    return _demanded("monolithic", newton, "residual_tolerance")
+    return _demanded("newton", newton, "residual_tolerance")
 
 
 def _has_fixed_steps(entries: Mapping[str, Any]) -> bool:

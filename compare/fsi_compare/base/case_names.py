@@ -1,0 +1,34 @@
+"""Keys of case files that earlier versions named otherwise, as common/case/renamed_keys.cpp has them."""
+
+from typing import Any, Dict, Mapping
+
+_NEWTON = ("mode", "error_tolerance", "residual_tolerance", "max_iterations")
+RENAMED = {
+    **{f"monolithic.{name}": f"newton.{name}" for name in _NEWTON},
+    "monolithic.newton_tolerance": "newton.tolerance",
+    "monolithic.linear_tolerance": "linear.tolerance",
+    "monolithic.max_linear_iterations": "linear.max_iterations",
+    "monolithic.krylov_restart": "linear.restart",
+    "monolithic.direct_below": "linear.direct_below",
+    "partitioned.direct_below": "linear.direct_below",
+}
+
+
+def short_name(key: str) -> str:
+    """Of a key in labels: its last part, and the section where that alone would not say of what."""
+    section, _, name = key.rpartition(".")
+    return f"{section}_{name}" if section in ("newton", "linear") else name
+
+
+def with_present_names(entries: Mapping[str, Any]) -> Dict[str, Any]:
+    """The entries of a case with their present names. Where both are given the drivers refuse the case."""
+    found = dict(entries)
+    for former, present in RENAMED.items():
+        section, name = former.split(".")
+        place, key = present.split(".")
+        if isinstance(found.get(section), dict) and name in found[section] and isinstance(found.get(place, {}), dict):
+            found[section] = {other: value for other, value in found[section].items() if other != name}
+            found[place] = {key: entries[section][name], **found.get(place, {})}
+            if not found[section]:
+                del found[section]
+    return found
