@@ -36,12 +36,15 @@ class Restart(StudyCase):
         self.assertIn("--set partitioned.scheme=iqn-ils", part)
 
     def test_a_change_makes_a_run_anew(self):
+        tube = 'title = "A tube"\n[time]\nstep = 0.25\n'
         self.call()
         for change, again in (
-            (lambda: self.case_file.write_text('title = "A tube"\n[time]\nstep = 0.25\n'), 2),
+            (lambda: self.case_file.write_text(tube), 2),
+            (lambda: self.case_file.write_text(tube + "[newton]\ntolerance = 1e-6\n"), 2),
+            (lambda: self.case_file.write_text(tube + "[monolithic]\nnewton_tolerance = 1e-6\n"), 0),  # the same
             (
                 lambda: self.case_file.write_text(
-                    'title = "A tube"\n[time]\nstep = 0.25\n[newton]\n' "tolerance = 1e-6\n"
+                    tube + '[newton]\ntolerance = 1e-6\n[monolithic]\nlinear_solver = "direct"\n'
                 ),
                 1,
             ),
