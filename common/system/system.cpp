@@ -20,9 +20,8 @@ System<n>::System(std::string name, Scene<n>& scene, Numbering numbering, const 
     : name_(std::move(name)),
       scene_(scene),
       numbering_(std::move(numbering)),
-      derivatives_(!numbering_.has_fluid()  ? FluidDerivatives::none
-                   : !numbering_.has_mesh() ? FluidDerivatives::fluid
-                                            : FluidDerivatives::fluid_and_domain),
+      fluid_jacobian_(make_fluid_jacobian(scene, numbering_)),
+      wall_jacobian_(numbering_.has_wall() ? WallMatrix<n>(scene.wall->graph()) : WallMatrix<n>()),
       interface_(interface_pairs(scene)),
       openings_(scene),
       mesh_tangent_(scene.nonlinear_mesh_motion && numbering_.has_mesh()
@@ -36,16 +35,15 @@ System<n>::System(std::string name, Scene<n>& scene, Numbering numbering, const 
 }
 
 template <int n>
-JacobianBlocks<n> System<n>::blocks() {
+JacobianBlocks<n> System<n>::blocks() const {
   JacobianBlocks<n> blocks{numbering_};
   if (numbering_.has_wall()) {
-    blocks.wall = &scene_.wall->jacobian();
+    blocks.wall = &wall_jacobian_;
     blocks.wall_nodes = &scene_.wall->nodes();
   }
   if (numbering_.has_fluid()) {
-    auto& jacobian = scene_.fluid->jacobian(derivatives_);
-    blocks.fluid = &jacobian.fluid;
-    if (numbering_.has_mesh()) blocks.shape_derivatives = &jacobian.shape_derivatives;
+    blocks.fluid = &fluid_jacobian_.fluid;
+    if (numbering_.has_mesh()) blocks.shape_derivatives = &fluid_jacobian_.shape_derivatives;
     blocks.fluid_nodes = &scene_.fluid->nodes();
   }
   if (numbering_.has_mesh()) {
@@ -290,6 +288,12 @@ std::vector<InterfacePair> System<n>::interface_pairs(const Scene<n>& scene) {
 }
 
 template <int n>
+FluidJacobian<n> System<n>::make_fluid_jacobian(const Scene<n>& scene, const Numbering& numbering) {
+  if (!numbering.has_fluid()) return {};
+  return {scene.fluid->graph(), numbering.has_mesh() ? FluidDerivatives::fluid_and_domain : FluidDerivatives::fluid};
+}
+
+template <int n>
 AssemblyResult System<n>::assemble(bool derivatives) {
   AssemblyResult result;
   has_rows_ = keeps_rows_ = false;
@@ -305,13 +309,11 @@ AssemblyResult System<n>::assemble(bool derivatives) {
   }
   if (numbering_.has_fluid()) {
     assert(scene_.fluid);
-    result.include(scene_.assemble_fluid(state_->now, *data_, fluid_residual_,
-                                         derivatives ? derivatives_ : FluidDerivatives::none));
+    result.include(
+        scene_.assemble_fluid(state_->now, *data_, fluid_residual_, derivatives ? &fluid_jacobian_ : nullptr));
     if (derivatives) {
-      auto& jacobian = scene_.fluid->jacobian(derivatives_);
-      scene_.fluid_frames.turn_blocks(jacobian.fluid);
-      if (derivatives_ == FluidDerivatives::fluid_and_domain)
-        scene_.fluid_frames.turn_blocks(jacobian.shape_derivatives);
+      scene_.fluid_frames.turn_blocks(fluid_jacobian_.fluid);
+      if (numbering_.has_mesh()) scene_.fluid_frames.turn_blocks(fluid_jacobian_.shape_derivatives);
       openings_.linearise(state_->now, data_->rates, !numbering_.mesh.empty());
       if (impedance_ && impedance_->medium == InterfaceImpedance::Medium::fluid) add_impedance_derivatives();
     }
@@ -319,8 +321,8 @@ AssemblyResult System<n>::assemble(bool derivatives) {
   if (numbering_.has_wall()) {
     assert(scene_.wall);
     result.include(scene_.wall->assemble(scene_.wall_input(state_->now, *data_), data_->wall_pressure, state_->now.wall,
-                                         wall_residual_, derivatives));
-    if (derivatives) scene_.wall_frames.turn_blocks(scene_.wall->jacobian());
+                                         wall_residual_, derivatives ? &wall_jacobian_ : nullptr));
+    if (derivatives) scene_.wall_frames.turn_blocks(wall_jacobian_);
     if (derivatives && impedance_ && impedance_->medium == InterfaceImpedance::Medium::wall)
       add_wall_impedance_derivatives();
   }
@@ -371,7 +373,7 @@ void System<n>::add_impedance() {
 
 template <int n>
 void System<n>::add_impedance_derivatives() {
-  auto& fluid = scene_.fluid->jacobian(derivatives_).fluid;
+  auto& fluid = fluid_jacobian_.fluid;
   for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
     const int node = impedance_->nodes[i];
     for (int k = 0; k < n; ++k) {
@@ -400,7 +402,7 @@ void System<n>::add_wall_impedance() {
 template <int n>
 void System<n>::add_wall_impedance_derivatives() {
   const double rate = data_->rates.interface.rate();
-  auto& wall = scene_.wall->jacobian();
+  auto& wall = wall_jacobian_;
   for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
     const int node = impedance_->nodes[i];
     for (int k = 0; k < n; ++k) {

@@ -27,7 +27,8 @@ struct LinearisationPoint {
 };
 
 /// The discrete equations of a scene, or of one of its sub-problems, under a numbering: residual, Jacobian and linear
-/// solve, as Newton's method asks for them. Works on a State that it does not own. Where the scene is shared out, each
+/// solve, as Newton's method asks for them. Owns the matrices of its Jacobian: several systems on one scene each have
+/// their own, but for the constant operator of the mesh motion. Works on a State that it does not own. Where the scene is shared out, each
 /// process has the equations of its nodes, all ask together, and all get the same norms. linearise() and solve() throw
 /// Stopped where the program was asked to end.
 template <int n>
@@ -49,7 +50,12 @@ class System : public NewtonProblem {
   const std::vector<double>& residual() const { return residual_; }
   const LinearSolver& solver() const { return *solver_; }
   /// The Jacobian, for as long as the system lives; its values are those of the last linearise().
-  JacobianBlocks<n> blocks();
+  JacobianBlocks<n> blocks() const;
+  /// Values of its matrices of the media; null where a medium has no unknowns.
+  const std::vector<double>* fluid_values() const {
+    return numbering_.has_fluid() ? &fluid_jacobian_.fluid.values : nullptr;
+  }
+  const std::vector<double>* wall_values() const { return numbering_.has_wall() ? &wall_jacobian_.values : nullptr; }
   const LinearisationPoint& linearisation_point() const { return point_; }
   /// Rows of the fluid's last residual before boundary conditions: on the interface the force of the fluid on the wall.
   const std::vector<double>& fluid_residual() const { return fluid_residual_; }
@@ -117,6 +123,7 @@ class System : public NewtonProblem {
  private:
   const Communicator& processes() const { return *numbering_.processes; }
   static std::vector<InterfacePair> interface_pairs(const Scene<n>& scene);
+  static FluidJacobian<n> make_fluid_jacobian(const Scene<n>& scene, const Numbering& numbering);
 
   AssemblyResult assemble(bool derivatives);
   /// The residual of the media's rows as they are, with the interface's load and impedance.
@@ -151,7 +158,8 @@ class System : public NewtonProblem {
   std::string name_;
   Scene<n>& scene_;
   Numbering numbering_;
-  FluidDerivatives derivatives_;
+  FluidJacobian<n> fluid_jacobian_;
+  WallMatrix<n> wall_jacobian_;
   std::vector<InterfacePair> interface_;
   OpeningTerms<n> openings_;
   MeshMotionTangent<n> mesh_tangent_;  ///< of a nonlinear mesh motion; empty otherwise

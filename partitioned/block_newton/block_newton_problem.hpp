@@ -71,6 +71,8 @@ class BlockNewtonProblem : public NewtonProblem {
   double gap_pressure() const;
   /// All that lacks over the force between fluid and wall.
   double relative_residual() const;
+  const System<n>& fluid() const { return fluid_; }
+  const System<n>& wall() const { return wall_; }
   /// LinearSolver::decides() of the media, which decide alike.
   std::string linear_decision() const { return wall_.solver().decides(); }
   /// Pairs and rank that corrections of the datum are made of.

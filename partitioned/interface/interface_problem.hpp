@@ -69,6 +69,9 @@ class InterfaceProblem {
   }
   /// Of schemes that do not iterate: whether the next step is iterated all the same, x being what its passes are a function of.
   virtual void iterate(bool /*on*/) {}
+  /// The equations of either medium by itself.
+  virtual const System<n>& fluid() const = 0;
+  const System<n>& wall() const { return wall_; }
   /// x of the first guess, extrapolated by `order`.
   virtual std::vector<double> first_guess(int order) = 0;
   /// r(x), the sub-problems solved as `accuracy` says; leaves their fields in the state. \throws PassFailure

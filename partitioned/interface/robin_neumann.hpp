@@ -45,6 +45,8 @@ class RobinNeumann : public InterfaceProblem<n> {
   }
 
  public:
+  const System<n>& fluid() const override { return fluid_; }
+
   void start(State& state, StepData& data) override {
     Base::start(state, data);
     if (data.rates.stage == 0) stage_loads_.clear();  // of a step that failed

@@ -53,6 +53,8 @@ class RobinRobin : private RobinSides, public InterfaceProblem<n> {
 
   const RobinCoefficient& coefficient() const { return coefficient_; }
 
+  const System<n>& fluid() const override { return fluid_; }
+
   void start(State& state, StepData& data) override {
     Base::start(state, data);
     fluid_.work_on(state, data);

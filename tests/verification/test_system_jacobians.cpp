@@ -371,10 +371,13 @@ SparseMatrix spoiled_matrix(const Scenario& scenario, Spoil spoil) {
   State state = scenario.state;
   system.work_on(state, scenario.data);
   system.linearise();
-  auto& fluid = scenario.scene->fluid->jacobian(FluidDerivatives::fluid_and_domain);
+  const auto blocks = system.blocks();
+  FluidJacobian<3> fluid;
+  fluid.fluid = *blocks.fluid;
+  fluid.shape_derivatives = *blocks.shape_derivatives;
   spoil(numbering, fluid);
   GatheredMatrix::Builder builder(numbering.size);
-  gather_blocks(builder, scenario.scene->wall->jacobian(), numbering.wall_rows, numbering.wall);
+  gather_blocks(builder, *blocks.wall, numbering.wall_rows, numbering.wall);
   gather_blocks(builder, fluid.fluid, numbering.fluid_rows, numbering.fluid);
   gather_blocks(builder, fluid.shape_derivatives, numbering.fluid_rows, numbering.mesh);
   gather_diagonal_blocks(builder, scenario.scene->mesh_motion, numbering.mesh_rows, numbering.mesh);
