@@ -270,10 +270,10 @@ void BlockNewtonProblem<n>::find_lack() {
   lack_.gap = gap_left();
   {
     const Stopwatch watch(cost.fluid_seconds);
-    fluid_.find_lack(fluid_forces_, lack_.fluid);
+    fluid_.linear_residual(fluid_forces_, lack_.fluid);
   }
   const Stopwatch watch(cost.wall_seconds);
-  wall_.find_lack(wall_forces_, lack_.wall);
+  wall_.linear_residual(wall_forces_, lack_.wall);
 }
 
 template <int n>
@@ -362,11 +362,11 @@ bool BlockNewtonProblem<n>::next_pass(const std::vector<double>& dx, double tole
       for (int k = 0; k < n; ++k)
         fluid_forces_[MixedLayout<n>::vector(scene_.interface[i].fluid, k)] =
             -robin_.impedance[i] * data_->rates.interface.velocity_change(dx[i * n + k]);
-    if (!note(fluid_, fluid_.answer(fluid_forces_, tolerance), cost.fluid_linear)) return false;
+    if (!note(fluid_, fluid_.add_response(fluid_forces_, tolerance), cost.fluid_linear)) return false;
   }
   const Stopwatch watch(cost.wall_seconds);
   load_wall();
-  return note(wall_, wall_.answer(wall_forces_, tolerance), cost.wall_linear);
+  return note(wall_, wall_.add_response(wall_forces_, tolerance), cost.wall_linear);
 }
 
 template <int n>

@@ -11,7 +11,7 @@
 #include "partitioned/medium_solvers.hpp"
 #include "scene/scene.hpp"
 #include "solvers/newton.hpp"
-#include "system/system.hpp"
+#include "system/medium_system.hpp"
 
 namespace fsi {
 
@@ -137,7 +137,7 @@ class BlockNewtonProblem : public NewtonProblem {
   double stiffness_;
   int most_passes_;
   InterfaceImpedance robin_;
-  System<n> fluid_, wall_;
+  MediumSystem<n> fluid_, wall_;
   InterfaceSpace space_;
   AffineMap map_;  ///< from x_ to the gap
   JointIteration<n> joint_;

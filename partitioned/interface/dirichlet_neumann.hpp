@@ -63,7 +63,7 @@ class DirichletNeumann : public InterfaceProblem<n> {
   }
 
  private:
-  System<n> fluid_;
+  MediumSystem<n> fluid_;
   std::vector<double> d_;
 };
 

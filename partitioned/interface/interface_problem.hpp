@@ -14,7 +14,7 @@
 #include "partitioned/interface/mesh_motion_solver.hpp"
 #include "partitioned/interface/sub_problem.hpp"
 #include "scene/scene.hpp"
-#include "system/system.hpp"
+#include "system/medium_system.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {
@@ -39,7 +39,7 @@ struct PassAccuracy {
 template <int n>
 class InterfaceProblem {
  public:
-  /// \param wall_impedance  joins the wall's equations (System), and is made later; null: nothing
+  /// \param wall_impedance  joins the wall's equations (MediumSystem), and is made later; null: nothing
   InterfaceProblem(Scene<n>& scene, const PartitionedData& options, const InterfaceImpedance* wall_impedance = nullptr)
       : InterfaceProblem(scene, solver_factory(options), wall_impedance) {}
   /// \param wall_solver  of the wall's linearised equations
@@ -252,7 +252,7 @@ class InterfaceProblem {
   Scene<n>& scene_;
   Membrane membrane_;                                 ///< the wall on the interface
   std::unique_ptr<MeshMotionSolver<n>> mesh_motion_;  ///< made when first asked for
-  System<n> wall_;
+  MediumSystem<n> wall_;
   State* state_ = nullptr;
   StepData* data_ = nullptr;
 

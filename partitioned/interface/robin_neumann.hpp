@@ -160,7 +160,7 @@ class RobinNeumann : public InterfaceProblem<n> {
   }
 
   InterfaceImpedance robin_;  ///< R_f + c (u - v), v being g / c
-  System<n> fluid_;
+  MediumSystem<n> fluid_;
 
  private:
   /// Where elements are small the membrane's impedance may let the interface go so far in a step that they fold. Four

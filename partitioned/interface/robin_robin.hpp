@@ -234,7 +234,7 @@ class RobinRobin : private RobinSides, public InterfaceProblem<n> {
 
   RobinCoefficient coefficient_;
   double alpha_;  ///< kPa/(mm/ms)
-  System<n> fluid_;
+  MediumSystem<n> fluid_;
   std::vector<double> next_traction_;            ///< of the step in progress
   std::vector<double> load_;                     ///< of the wall in its last solution, kPa mm^2
   std::vector<double> whole_rows_;               ///< the fluid's, ghosts too

@@ -137,7 +137,7 @@ TEST(JointIteration, CyclesKnowTheJacobian) {
   StepData data;
   data.rates = scene->integrator->rates(state, 0.125);
   data.opening_pressures = {0.1, 0.2};
-  System<3> system("fluid", *scene, number_fluid(*scene, true), general_solver_factory<3>("fast", iterative));
+  MediumSystem<3> system("fluid", *scene, number_fluid(*scene, true), general_solver_factory<3>("fast", iterative));
   system.work_on(state, data);
   system.evaluate();
   EXPECT_EQ(system.cycled(), nullptr) << "before there is a Jacobian";

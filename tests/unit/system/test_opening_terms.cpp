@@ -15,8 +15,8 @@
 #include "support/random.hpp"
 #include "support/scenes.hpp"
 #include "system/jacobian_product.hpp"
+#include "system/medium_system.hpp"
 #include "system/numbering.hpp"
-#include "system/system.hpp"
 
 namespace fsi::test {
 
@@ -222,7 +222,7 @@ TEST(OpeningTerms, AreNotFactorisedForWhoAsksForCycles) {
   FastOptions few;
   few.direct_below = 0;
   few.max_iterations = few.restart = 1;
-  System<3> system("tested", *open.scene, number_fluid(*open.scene), general_solver_factory<3>("fast", few));
+  MediumSystem<3> system("tested", *open.scene, number_fluid(*open.scene), general_solver_factory<3>("fast", few));
   system.work_on(open.state, open.data);
   system.evaluate();
   system.linearise();
