@@ -74,7 +74,7 @@ void MediumSystem<n>::linear_residual(const std::vector<double>& forces, std::ve
   if (increment_is_zero_) {
     residual = residual_;
   } else {
-    cycled()->multiply_whole(increment_, residual);
+    preconditioner()->multiply_whole(increment_, residual);
     axpy(1, residual_, residual);
   }
   add_forces(forces, residual);

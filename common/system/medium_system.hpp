@@ -38,8 +38,8 @@ class MediumSystem : public System<n> {
 
   /// Of a medium that iterates: what its solver does, for an iteration over several media. Null where it factorises, and
   /// where openings join the Jacobian.
-  CycledMedium* cycled() { return solver_->cycled(); }
-  bool cycles() const { return solver_->cycles(); }
+  MediumPreconditioner* preconditioner() { return solver_->medium_preconditioner(); }
+  bool is_iterative() const { return solver_->is_iterative(); }
   /// For such an iteration: the increment becomes zero,
   void begin_increment();
   /// is corrected by -z,
