@@ -27,11 +27,12 @@ struct Setup {
     state = moved(*scene);
     data.rates = scene->integrator->rates(state, setup.time->step);
   }
-  void fluid(FluidDerivatives derivatives) {
-    scene->fluid->assemble(scene->fluid_input(state, data.rates), {}, fluid_residual, derivatives);
+  /// \param jacobian  null: the residual alone
+  void fluid(FluidJacobian<3>* jacobian) {
+    scene->fluid->assemble(scene->fluid_input(state, data.rates), {}, fluid_residual, jacobian);
   }
-  void wall(bool derivatives) {
-    scene->wall->assemble(scene->wall_input(state, data.rates), 0.0, state.now.wall, wall_residual, derivatives);
+  void wall(WallMatrix<3>* jacobian) {
+    scene->wall->assemble(scene->wall_input(state, data.rates), 0.0, state.now.wall, wall_residual, jacobian);
   }
 };
 
@@ -42,21 +43,25 @@ void rate(benchmark::State& run, std::size_t elements) {
 
 void fluid(benchmark::State& run, FluidDerivatives derivatives) {
   Setup s("neo-hookean", static_cast<int>(run.range(0)));
-  for (auto _ : run) s.fluid(derivatives);
+  FluidJacobian<3> jacobian(s.scene->fluid->graph(), derivatives);
+  for (auto _ : run) s.fluid(derivatives == FluidDerivatives::none ? nullptr : &jacobian);
   rate(run, s.scene->fluid->element_count());
 }
 
 void wall(benchmark::State& run, const std::string& material, bool derivatives) {
   Setup s(material, static_cast<int>(run.range(0)));
-  for (auto _ : run) s.wall(derivatives);
+  WallMatrix<3> jacobian(s.scene->wall->graph());
+  for (auto _ : run) s.wall(derivatives ? &jacobian : nullptr);
   rate(run, s.scene->wall->element_count());
 }
 
 void coupled(benchmark::State& run, const std::string& material) {
   Setup s(material, static_cast<int>(run.range(0)));
+  FluidJacobian<3> of_fluid(s.scene->fluid->graph(), FluidDerivatives::fluid_and_domain);
+  WallMatrix<3> of_wall(s.scene->wall->graph());
   for (auto _ : run) {
-    s.fluid(FluidDerivatives::fluid_and_domain);
-    s.wall(true);
+    s.fluid(&of_fluid);
+    s.wall(&of_wall);
   }
   rate(run, s.scene->fluid->element_count() + s.scene->wall->element_count());
 }
@@ -100,7 +105,8 @@ void fluid_of(benchmark::State& run, FluidDerivatives derivatives) {
   in.fluid_reference = s.zero.data();
   in.fluid_factor = in.mesh_factor = 8;
   in.step = 0.125;
-  for (auto _ : run) fluid.assemble(in, {}, s.residual, derivatives);
+  FluidJacobian<n> jacobian(fluid.graph(), derivatives);
+  for (auto _ : run) fluid.assemble(in, {}, s.residual, &jacobian);
   rate(run, s.part.cells.size());
 }
 
@@ -109,7 +115,8 @@ void wall_of(benchmark::State& run, const Material& material) {
   Medium<Element> s(1);
   WallProblem<Element> wall(s.part, {1.2, 1e5, 0.5}, {{1, material}}, {});
   const WallInput in{s.mixed.data(), s.zero.data(), 64.0};
-  for (auto _ : run) wall.assemble(in, 0.0, s.mixed, s.residual, true);
+  WallMatrix<n> jacobian(wall.graph());
+  for (auto _ : run) wall.assemble(in, 0.0, s.mixed, s.residual, &jacobian);
   rate(run, s.part.cells.size());
 }
 

@@ -200,6 +200,11 @@ void CouplingStepper<n>::go_on_by(std::unique_ptr<InterfaceProblem<n>> problem,
 }
 
 template <int n>
+MatrixValues CouplingStepper<n>::matrix_values() const {
+  return {problem_->fluid().fluid_values(), problem_->wall().wall_values()};
+}
+
+template <int n>
 double CouplingStepper<n>::change_since(const State& state, const StepData& data, const GoodPass& good) const {
   std::vector<double> fluid = state.now.fluid, wall = state.now.wall;
   axpy(-1, good.fields.fluid, fluid);

@@ -37,6 +37,7 @@ class CouplingStepper : public Stepper {
   std::optional<CouplingMethod> coupling_method() const override;
   bool reports_coupling() const override { return true; }
   std::vector<StepperChoice> choices() const override { return choices_; }
+  MatrixValues matrix_values() const override;
 
   StepReport advance(State& state) override;
   /// advance() in two: the step is solved, unless the judge rejects it (report().rejected),

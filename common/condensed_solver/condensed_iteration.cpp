@@ -208,15 +208,16 @@ double CondensedIteration<n>::quick_residual(const std::vector<double>& b, doubl
 
 template <int n>
 void CondensedIteration<n>::correct(double tolerance, const InnerSolver& inner_solver, LinearReport& report) {
-  take(residual_, tolerance, right_);
+  restrict_residual(residual_, tolerance, right_);
   solution_.assign(right_.size(), 0.0);
   if (const double scale = norm_of_all(right_); scale > 0)
     report.iterations += inner_solver(right_, scale, tolerance, solution_);
-  complete(solution_, tolerance, correction_);
+  expand(solution_, tolerance, correction_);
 }
 
 template <int n>
-void CondensedIteration<n>::take(const std::vector<double>& residual, double tolerance, std::vector<double>& right) {
+void CondensedIteration<n>::restrict_residual(const std::vector<double>& residual, double tolerance,
+                                              std::vector<double>& right) {
   const OneDenseThread same_bits_for_any_number;  // the extension may be factorised
   layout_.take(residual, right);
   if (!extension_) return;
@@ -228,8 +229,8 @@ void CondensedIteration<n>::take(const std::vector<double>& residual, double tol
 }
 
 template <int n>
-void CondensedIteration<n>::complete(const std::vector<double>& solution, double tolerance,
-                                     std::vector<double>& correction) {
+void CondensedIteration<n>::expand(const std::vector<double>& solution, double tolerance,
+                                   std::vector<double>& correction) {
   const Numbering& numbering = blocks_.numbering;
   const OneDenseThread same_bits_for_any_number;
   correction.assign(numbering.columns(), 0.0);

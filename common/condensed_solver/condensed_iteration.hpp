@@ -53,8 +53,8 @@ class CondensedIteration {
   /// The steps of a correction, for an iteration over several systems: what velocities and pressures are to answer of a
   /// residual, and what becomes of their answer, in the order of the layout, the mesh with it.
   /// \param tolerance  of that answer
-  void take(const std::vector<double>& residual, double tolerance, std::vector<double>& right);
-  void complete(const std::vector<double>& solution, double tolerance, std::vector<double>& correction);
+  void restrict_residual(const std::vector<double>& residual, double tolerance, std::vector<double>& right);
+  void expand(const std::vector<double>& solution, double tolerance, std::vector<double>& correction);
   /// y = J x
   void multiply(const std::vector<double>& x, std::vector<double>& y) { jacobian_.multiply(x, y); }
 

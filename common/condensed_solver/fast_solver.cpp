@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "algebra/direct_solver.hpp"
+#include "algebra/vector_operations.hpp"
 #include "condensed_solver/condensed_iteration.hpp"
 #include "condensed_solver/factorised_flow.hpp"
 #include "condensed_solver/velocity_pressure_preconditioner.hpp"
@@ -47,14 +48,15 @@ DirectSolver::Options factors(bool few_digits, const JacobianBlocks<n>& blocks) 
 }  // namespace
 
 template <int n>
-struct FastSolver<n>::Iterative : CycledMedium {
+struct FastSolver<n>::Iterative : MediumPreconditioner {
   VelocityPressureLayout<n> layout;
   VelocityPressureMatrix<n> matrix;
   VelocityPressurePreconditioner<n> preconditioner;
   CondensedIteration<n> iteration;
   SingleGmres gmres;
   std::vector<float> single_right, single_solution;
-  std::vector<double> solution;
+  std::vector<double> restricted, solution;
+  mutable std::vector<double> gathered;
 
   Iterative(const JacobianBlocks<n>& blocks, const FastOptions& options)
       : layout(blocks),
@@ -67,32 +69,21 @@ struct FastSolver<n>::Iterative : CycledMedium {
     const int velocity = (layout.velocity_of_fluid.empty() ? layout.velocity_of_wall : layout.velocity_of_fluid)[node];
     return velocity < 0 ? -1 : velocity * VelocityPressureMatrix<n>::lanes;
   }
-  void multiply(const std::vector<float>& x, std::vector<float>& y) const override {
-    y.resize(matrix.size());
-    matrix.multiply(x, y);
+  void multiply(Input x, Output y) const override { matrix.multiply(x, y); }
+  void apply(Input x, Output y) override { preconditioner.apply(x, y); }
+  void apply(Input x, Output y, Output product) override { preconditioner.apply(x, y, product); }
+  void gather(const std::vector<double>& of_system, Output mine) const override {
+    layout.take(of_system, gathered);
+    matrix.take(gathered, 1, mine);
   }
-  void cycle(const std::vector<float>& x, std::vector<float>& y) override {
-    y.resize(matrix.size());
-    preconditioner.apply(x, y);
+  double restrict_residual(const std::vector<double>& residual, double tolerance) override {
+    iteration.restrict_residual(residual, tolerance, restricted);
+    return norm(restricted);
   }
-  void cycle(const std::vector<float>& x, std::vector<float>& y, std::vector<float>& product) override {
-    y.resize(matrix.size());
-    product.resize(matrix.size());
-    preconditioner.apply(x, y, product);
-  }
-  void order(const std::vector<double>& of_system, std::vector<double>& mine) const override {
-    layout.take(of_system, mine);
-  }
-  void take(const std::vector<double>& residual, double tolerance, std::vector<double>& right) override {
-    iteration.take(residual, tolerance, right);
-  }
-  void shorten(const std::vector<double>& right, double factor, std::vector<float>& x) const override {
-    matrix.take(right, factor, x);
-  }
-  void complete(const std::vector<float>& x, double factor, double tolerance,
-                std::vector<double>& correction) override {
+  void write_restricted(double factor, Output right) const override { matrix.take(restricted, factor, right); }
+  void expand(Input x, double factor, double tolerance, std::vector<double>& correction) override {
     matrix.give(x, factor, solution);
-    iteration.complete(solution, tolerance, correction);
+    iteration.expand(solution, tolerance, correction);
   }
   void multiply_whole(const std::vector<double>& x, std::vector<double>& y) override { iteration.multiply(x, y); }
 };
@@ -291,7 +282,7 @@ LinearStatistics FastSolver<n>::statistics() const {
 }
 
 template <int n>
-CycledMedium* FastSolver<n>::cycled() {
+MediumPreconditioner* FastSolver<n>::medium_preconditioner() {
   return uses_factorisation() ? nullptr : iterative_.get();
 }
 
@@ -315,6 +306,7 @@ LinearReport FastSolver<n>::iterate(const std::vector<double>& b, double toleran
   Iterative& it = *iterative_;
   const auto inner = [&](const std::vector<double>& right, double scale, double wanted, std::vector<double>& solution) {
     // Scaled to one, so that small residuals do not leave the range of single precision.
+    it.single_right.resize(it.matrix.size());
     it.matrix.take(right, 1 / scale, it.single_right);
     const auto solved = it.gmres.solve([&](const auto& r, auto& z, auto& y) { it.preconditioner.apply(r, z, y); },
                                        it.single_right, it.single_solution, wanted, options_.restart);

@@ -43,8 +43,8 @@ class FastSolver : public LinearSolver {
   double keep_contraction() const override;
 
   LinearStatistics statistics() const override;
-  CycledMedium* cycled() override;
-  bool cycles() const override { return iterative_ != nullptr; }
+  MediumPreconditioner* medium_preconditioner() override;
+  bool is_iterative() const override { return iterative_ != nullptr; }
 
   /// The Jacobian is factorised: the system is small, or the iteration failed on it.
   bool uses_factorisation() const { return direct_ || factorised_; }

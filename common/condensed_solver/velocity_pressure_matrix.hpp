@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algebra/split_blocks.hpp"
+#include "algebra/vector_view.hpp"
 #include "base/parallel_for.hpp"
 #include "condensed_solver/interface_shape_derivatives.hpp"
 #include "condensed_solver/velocity_pressure_blocks.hpp"
@@ -50,8 +51,8 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   std::size_t size() const { return velocity_size() + layout_.pressures; }
 
   /// The same unknowns in double precision, not padded, and back.
-  void take(const std::vector<double>& from, double factor, std::vector<float>& to) const {
-    to.resize(size());
+  /// \param to  of size()
+  void take(const std::vector<double>& from, double factor, VectorView<float> to) const {
     parallel_for(layout_.velocities, layout_.velocities > 2000, [&](int v) {
       for (int i = 0; i < lanes; ++i)
         to[static_cast<std::size_t>(v) * lanes + i] =
@@ -60,7 +61,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     for (int p = 0; p < layout_.pressures; ++p)
       to[velocity_size() + p] = static_cast<float>(factor * from[layout_.velocity_size() + p]);
   }
-  void give(const std::vector<float>& from, double factor, std::vector<double>& to) const {
+  void give(VectorView<const float> from, double factor, std::vector<double>& to) const {
     to.resize(layout_.size());
     parallel_for(layout_.velocities, layout_.velocities > 2000, [&](int v) {
       for (int k = 0; k < n; ++k)
@@ -76,8 +77,8 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     fill_continuity();
   }
 
-  /// y = F x
-  void multiply(const std::vector<float>& x, std::vector<float>& y) const {
+  /// y = F x, both of size()
+  void multiply(VectorView<const float> x, VectorView<float> y) const {
     const float* pressure = x.data() + velocity_size();
     parallel_for(layout_.velocities, layout_.velocities > 500, [&](int v) {
       store(momentum_.row_product(v, x.data()) + gradient_product(v, pressure),
@@ -86,7 +87,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     multiply_continuity(x, y);
   }
   /// The pressures' rows of it.
-  void multiply_continuity(const std::vector<float>& x, std::vector<float>& y) const {
+  void multiply_continuity(VectorView<const float> x, VectorView<float> y) const {
     const float* pressure = x.data() + velocity_size();
     float* rows = y.data() + velocity_size();
     parallel_for(layout_.pressures, layout_.pressures > 500, [&](int p) {
@@ -112,6 +113,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     double largest = 0;  // which x is scaled by: the range of single precision is short
     for (const double value : x) largest = std::max(largest, std::abs(value));
     const double scale = largest > 0 ? largest : 1;
+    single_x_.resize(size());
     take(x, 1 / scale, single_x_);
     single_y_.resize(size());
     multiply(single_x_, single_y_);

@@ -74,8 +74,8 @@ class VelocityPressurePreconditioner {
     inverse_schur_.set_up(schur_, pressure, BlockPreconditionerChoices::factorises_schur_complement(n));
   }
 
-  /// z = P^-1 r
-  void apply(const std::vector<float>& r, std::vector<float>& z) {
+  /// z = P^-1 r, both of the matrix's size
+  void apply(VectorView<const float> r, VectorView<float> z) {
     const float* pressure_rows = r.data() + matrix_.velocity_size();
     for (std::size_t i = 0; i < sweep_.size(); ++i) sweep_[i] = inverse_lumped_[i] * r[i];
     parallel_for(layout_.pressures, layout_.pressures > 500, [&](int p) {
@@ -95,7 +95,7 @@ class VelocityPressurePreconditioner {
 
   /// Besides, product = F z. It costs half of a product with A: the backward part of the last sweep has computed U x, and
   /// A times what was there before that sweep is known from the residual which it answers to ([Eisenstat1981]).
-  void apply(const std::vector<float>& r, std::vector<float>& z, std::vector<float>& product) {
+  void apply(VectorView<const float> r, VectorView<float> z, VectorView<float> product) {
     apply(r, z);
     const bool once = options_.momentum_sweeps == 1 && !coarse_;
     const std::vector<float>&x = once ? velocity_ : sweep_, &left = once ? velocity_residual_ : sweep_residual_;

@@ -45,13 +45,11 @@ class Fluid {
   /// Overwrites the residual, in the mixed layout, with all terms but prescribed values; the tractions of the open
   /// boundaries included: -p N, and those against backflow.
   /// \param pressures  from outside, kPa, of the open boundaries in their order; missing ones are zero
+  /// \param jacobian   on the graph(): the derivatives that it has room for are overwritten, for given pressures from
+  ///                   outside: how these answer the flow, dp/dQ w w^T, w the normals of an opening, would fill the
+  ///                   matrix (system/low_rank_solver.hpp). Null: no derivatives
   virtual AssemblyResult assemble(const FluidInput& in, const std::vector<double>& pressures,
-                                  std::vector<double>& residual,
-                                  FluidDerivatives derivatives = FluidDerivatives::none) = 0;
-
-  /// The derivatives last assembled, for given pressures from outside: how these answer the flow, dp/dQ w w^T, w the normals
-  /// of an opening, would fill the matrix (system/low_rank_solver.hpp). Storage appears with the first request.
-  virtual FluidJacobian<n>& jacobian(FluidDerivatives derivatives) = 0;
+                                  std::vector<double>& residual, FluidJacobian<n>* jacobian = nullptr) = 0;
 
   /// uJ, of a level: mesh displacement (empty where the domain is rigid) and flow (u, p). Of the elements that sums count
   /// here, as work() is of these and of the openings' facets.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "algebra/block_matrix.hpp"
 #include "fem/nodal_layout.hpp"
 
@@ -22,16 +24,30 @@ struct FluidInput {
   const double* projected_gradient = nullptr;
 };
 
+/// Which derivatives an element loop is asked for.
+enum class FluidDerivatives { none, fluid, fluid_and_domain };
+
 /// Derivatives of the fluid's residual with respect to its own unknowns (u, p) and to the mesh displacement.
+/// Owned by the System that solves with it; the element loops fill it.
 template <int n>
 struct FluidJacobian {
   static constexpr int own = MixedLayout<n>::entries;
   BlockMatrix<own, own> fluid;            ///< columns (u, p)
   BlockMatrix<own, n> shape_derivatives;  ///< columns d_m; empty where not asked for
-};
 
-/// Which derivatives an element loop is asked for.
-enum class FluidDerivatives { none, fluid, fluid_and_domain };
+  FluidJacobian() = default;
+  /// Zeros on the fluid's graph, for these derivatives.
+  FluidJacobian(const std::shared_ptr<const NodeGraph>& graph, FluidDerivatives derivatives) {
+    if (derivatives != FluidDerivatives::none) fluid = BlockMatrix<own, own>(graph);
+    if (derivatives == FluidDerivatives::fluid_and_domain) shape_derivatives = BlockMatrix<own, n>(graph);
+  }
+
+  /// Those that it has room for.
+  FluidDerivatives derivatives() const {
+    if (!fluid.graph) return FluidDerivatives::none;
+    return shape_derivatives.graph ? FluidDerivatives::fluid_and_domain : FluidDerivatives::fluid;
+  }
+};
 
 /// One balance of a step: where its equations hold, with what weight, and the levels between which the step leads.
 struct FluidStep {

@@ -27,25 +27,26 @@ FluidProblem<Element>::FluidProblem(Part part, const AleFluid& form, std::vector
 
 template <class Element>
 AssemblyResult FluidProblem<Element>::assemble(const FluidInput& in, const std::vector<double>& pressures,
-                                               std::vector<double>& residual, FluidDerivatives derivatives) {
+                                               std::vector<double>& residual, FluidJacobian<n>* jacobian) {
   assert(pressures.size() <= open_.size());
-  jacobian(derivatives);  // storage
   residual.assign(space_.mixed_size(), 0.0);
-  const auto result = assemble_fluid(form_, packs_, projected(in), residual, derivatives, &jacobian_);
-  add_openings(in, pressures, residual, derivatives);
+  const auto derivatives = jacobian ? jacobian->derivatives() : FluidDerivatives::none;
+  const auto result = assemble_fluid(form_, packs_, projected(in), residual, derivatives, jacobian);
+  add_openings(in, pressures, residual, jacobian);
   return result;
 }
 
 template <class Element>
 void FluidProblem<Element>::add_openings(const FluidInput& in, const std::vector<double>& pressures,
-                                         std::vector<double>& residual, FluidDerivatives derivatives) {
+                                         std::vector<double>& residual, FluidJacobian<n>* jacobian) {
+  const auto derivatives = jacobian ? jacobian->derivatives() : FluidDerivatives::none;
   for (std::size_t i = 0; i < open_.size(); ++i)
     open_[i].add_pressure(i < pressures.size() ? pressures[i] : 0, in.mesh, residual,
-                          derivatives == FluidDerivatives::fluid_and_domain ? &jacobian_.shape_derivatives : nullptr);
+                          derivatives == FluidDerivatives::fluid_and_domain ? &jacobian->shape_derivatives : nullptr);
   for (const auto& [open, facets] : backflow_)
-    facets.add(form_.density, in.fluid, residual.data(), derivatives == FluidDerivatives::none ? nullptr : &jacobian_);
+    facets.add(form_.density, in.fluid, residual.data(), derivatives == FluidDerivatives::none ? nullptr : jacobian);
   for (const auto& [open, beta] : moving_backflow_)
-    open_[open].moving()->add_backflow(form_.density, beta, in, residual.data(), &jacobian_, derivatives);
+    open_[open].moving()->add_backflow(form_.density, beta, in, residual.data(), jacobian, derivatives);
 }
 
 template <class Element>
@@ -56,15 +57,6 @@ void FluidProblem<Element>::stabilise_backflow(std::size_t open, double coeffici
     moving_backflow_.emplace(open, coefficient);
   else if (coefficient != 0)
     backflow_.emplace(open, BackflowFacets<Element>(coefficient, part_, open_.at(open).facets(), *space_.graph()));
-}
-
-template <class Element>
-auto FluidProblem<Element>::jacobian(FluidDerivatives derivatives) -> FluidJacobian<n>& {
-  if (derivatives != FluidDerivatives::none && jacobian_.fluid.values.empty())
-    jacobian_.fluid = decltype(jacobian_.fluid)(this->graph());
-  if (derivatives == FluidDerivatives::fluid_and_domain && jacobian_.shape_derivatives.values.empty())
-    jacobian_.shape_derivatives = decltype(jacobian_.shape_derivatives)(this->graph());
-  return jacobian_;
 }
 
 template <class Element>
@@ -105,7 +97,7 @@ double FluidProblem<Element>::power_at(const std::vector<int>& nodes, const Flui
   }
   rows_.assign(space_.mixed_size(), 0.0);
   assemble_fluid(form_, *packs_at_, projected(in), rows_);
-  add_openings(in, pressures, rows_, FluidDerivatives::none);
+  add_openings(in, pressures, rows_, nullptr);
   double power = 0;
   for (const int node : nodes)
     if (part_.owns(node))

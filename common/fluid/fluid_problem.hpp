@@ -36,8 +36,7 @@ class FluidProblem : public Fluid<Element::components> {
   const std::vector<OpenBoundary<n>>& open_boundaries() const override { return open_; }
 
   AssemblyResult assemble(const FluidInput& in, const std::vector<double>& pressures, std::vector<double>& residual,
-                          FluidDerivatives derivatives = FluidDerivatives::none) override;
-  FluidJacobian<n>& jacobian(FluidDerivatives derivatives) override;
+                          FluidJacobian<n>* jacobian = nullptr) override;
   double kinetic_energy(const std::vector<double>& mesh, const std::vector<double>& flow) const override;
   FluidWork work(const FluidStep& step) const override;
   FluidInput projected(const FluidInput& in) override;
@@ -50,15 +49,14 @@ class FluidProblem : public Fluid<Element::components> {
  private:
   /// Adds what the openings do to a residual and, if asked, its derivatives.
   void add_openings(const FluidInput& in, const std::vector<double>& pressures, std::vector<double>& residual,
-                    FluidDerivatives derivatives);
+                    FluidJacobian<n>* jacobian);
 
   Part part_;
   AleFluid form_;
   FunctionSpace<n> space_;
   ElementPacks<Element> packs_;
   std::optional<ElementPacks<Element>> packs_at_;  ///< the elements at the nodes of power_at()
-  FluidJacobian<n> jacobian_;
-  double volume_ = 0;  ///< of all processes' shares
+  double volume_ = 0;                              ///< of all processes' shares
   VanishingComponents<n> mirrored_;
   PressureProjection<Element> projection_;
   std::vector<double> rows_;  ///< storage of power_at()

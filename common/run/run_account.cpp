@@ -71,7 +71,7 @@ void RunAccount<n>::add(const StepRecord& record, double length) {
 template <int n>
 void RunAccount<n>::measure_work_unit() {
   const Traffic before = parts_.processes.traffic();
-  parts_.work_unit.measure(seconds_since(parts_.start));
+  parts_.work_unit.measure(seconds_since(parts_.start), parts_.stepper->matrix_values());
   parts_.about_processes.leave_out_since(before);
 }
 

@@ -174,9 +174,9 @@ class Scene {
   }
   /// The fluid's residual at a solution, as Fluid::assemble(), with what lies behind its openings.
   AssemblyResult assemble_fluid(const Solution& at, const StepData& data, std::vector<double>& residual,
-                                FluidDerivatives derivatives = FluidDerivatives::none) const {
+                                FluidJacobian<n>* jacobian = nullptr) const {
     const FluidInput in = fluid_input(at, data.rates);
-    return fluid->assemble(in, opening_pressures(at, data), residual, derivatives);
+    return fluid->assemble(in, opening_pressures(at, data), residual, jacobian);
   }
   /// From outside at a balance, kPa, of the fluid's open boundaries in their order; missing ones are zero.
   std::vector<double> opening_pressures(const Solution& at, const StepData& data) const {

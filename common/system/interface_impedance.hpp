@@ -5,7 +5,7 @@
 namespace fsi {
 
 /// An operator on chosen nodes of one medium, beside the equations of the scene: c (u - v) joins their momentum rows in
-/// the residual of a System, and c its Jacobian's diagonal. The medium's own rows do not hold it. u is the fluid's
+/// the residual of a MediumSystem, and c its Jacobian's diagonal. The medium's own rows do not hold it. u is the fluid's
 /// velocity, or the wall's, u - v = (d - x) / period with the datum v given as a displacement x.
 struct InterfaceImpedance {
   enum class Medium { fluid, wall };

@@ -10,8 +10,8 @@
 #include "fem/nodal_frames.hpp"
 #include "fem/nodal_layout.hpp"
 #include "mesh/submesh.hpp"
-#include "system/cycled_medium.hpp"
 #include "system/field_numbering.hpp"
+#include "system/medium_preconditioner.hpp"
 
 namespace fsi {
 
@@ -92,9 +92,9 @@ class LinearSolver {
   /// matter of what update() costs beside solve(). By measurement (docs/solver-measurements.md, docs/solvers.md).
   virtual double keep_contraction() const { return 0.3; }
   /// What the solver iterates with, as of the last update(); null where it does not.
-  virtual CycledMedium* cycled() { return nullptr; }
-  /// It has one by what it is, though these matrices may have been too much for it.
-  virtual bool cycles() const { return false; }
+  virtual MediumPreconditioner* medium_preconditioner() { return nullptr; }
+  /// It iterates by what it is, though these matrices may have been too much for it.
+  virtual bool is_iterative() const { return false; }
 };
 
 /// Makes the solver of one System.

@@ -49,7 +49,7 @@ void LowRankLinearSolver<n>::update() {
     term.columns.resize(size);  // ghosts have no part in the normals
   }
   prepared_ = false;
-  cycle_.reset();
+  preconditioner_.reset();
 }
 
 template <int n>
@@ -161,23 +161,24 @@ LinearReport LowRankLinearSolver<n>::solve(const std::vector<double>& b, double 
 }
 
 template <int n>
-bool LowRankLinearSolver<n>::cycles() const {
-  return solver_->cycles() && std::none_of(terms_.begin(), terms_.end(), [](const auto& term) { return term.given; });
+bool LowRankLinearSolver<n>::is_iterative() const {
+  return solver_->is_iterative() &&
+         std::none_of(terms_.begin(), terms_.end(), [](const auto& term) { return term.given; });
 }
 
 template <int n>
-CycledMedium* LowRankLinearSolver<n>::cycled() {
-  CycledMedium* medium = solver_->cycled();
-  if (medium == nullptr || !cycles()) return nullptr;
+MediumPreconditioner* LowRankLinearSolver<n>::medium_preconditioner() {
+  MediumPreconditioner* medium = solver_->medium_preconditioner();
+  if (medium == nullptr || !is_iterative()) return nullptr;
   if (!prepared_) prepare(Effort::no_factorisation);
   if (!prepared_) return nullptr;
-  if (!cycle_) {
-    std::vector<LowRankCycle::Term> terms;
+  if (!preconditioner_) {
+    std::vector<LowRankPreconditioner::Term> terms;
     for (const Term& term : of_system_)
       terms.push_back({term.slope, &term.slopes, &term.rows, &term.columns, &term.solution});
-    cycle_ = std::make_unique<LowRankCycle>(*medium, terms, inverse_);
+    preconditioner_ = std::make_unique<LowRankPreconditioner>(*medium, terms, inverse_);
   }
-  return cycle_.get();
+  return preconditioner_.get();
 }
 
 template <int n>

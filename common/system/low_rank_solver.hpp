@@ -5,7 +5,7 @@
 
 #include "system/jacobian_product.hpp"
 #include "system/linear_solver.hpp"
-#include "system/low_rank_cycle.hpp"
+#include "system/low_rank_preconditioner.hpp"
 
 namespace fsi {
 
@@ -49,8 +49,8 @@ class LowRankLinearSolver : public LinearSolver {
   LinearStatistics statistics() const override;
   double keep_contraction() const override { return solver_->keep_contraction(); }
   /// Null where a flow is given.
-  CycledMedium* cycled() override;
-  bool cycles() const override;
+  MediumPreconditioner* medium_preconditioner() override;
+  bool is_iterative() const override;
 
  private:
   /// A term in the unknowns of the numbering.
@@ -85,7 +85,7 @@ class LowRankLinearSolver : public LinearSolver {
   std::vector<Term> of_system_;
   std::vector<double> inverse_;  ///< of 1 + S V^T Y, or V^T Y over its diagonal, row by row
   bool prepared_ = false;
-  std::unique_ptr<LowRankCycle> cycle_;
+  std::unique_ptr<LowRankPreconditioner> preconditioner_;
   std::vector<double> residual_, correction_, pressures_;
 };
 

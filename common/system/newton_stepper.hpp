@@ -75,6 +75,7 @@ class NewtonStepper : public NewtonMarch<n> {
 
   std::vector<StepperChoice> choices() const override;
   std::optional<CouplingMethod> coupling_method() const override;
+  MatrixValues matrix_values() const override { return {system_.fluid_values(), system_.wall_values()}; }
   void keep(Memory& memory) override;
   void forget() override { system_.forget_jacobian(); }
 

@@ -16,36 +16,33 @@ namespace fsi {
 
 template <int n>
 System<n>::System(std::string name, Scene<n>& scene, Numbering numbering, const LinearSolverFactory<n>& make_solver,
-                  SystemNorm norm, const InterfaceImpedance* impedance)
+                  SystemNorm norm)
     : name_(std::move(name)),
       scene_(scene),
       numbering_(std::move(numbering)),
-      derivatives_(!numbering_.has_fluid()  ? FluidDerivatives::none
-                   : !numbering_.has_mesh() ? FluidDerivatives::fluid
-                                            : FluidDerivatives::fluid_and_domain),
+      fluid_jacobian_(make_fluid_jacobian(scene, numbering_)),
+      wall_jacobian_(numbering_.has_wall() ? WallMatrix<n>(scene.wall->graph()) : WallMatrix<n>()),
       interface_(interface_pairs(scene)),
-      openings_(scene),
       mesh_tangent_(scene.nonlinear_mesh_motion && numbering_.has_mesh()
                         ? MeshMotionTangent<n>(scene.nonlinear_mesh_motion->graph())
                         : MeshMotionTangent<n>()),
-      impedance_(impedance),
+      openings_(scene),
       solver_(make_solver ? make_solver(blocks()) : std::make_unique<DirectLinearSolver<n>>(blocks())),
-      norms_(scene, numbering_, norm),
-      increment_(numbering_.columns()) {
+      increment_(numbering_.columns()),
+      norms_(scene, numbering_, norm) {
   if (numbering_.has_fluid()) solver_ = openings_.join(blocks(), std::move(solver_));
 }
 
 template <int n>
-JacobianBlocks<n> System<n>::blocks() {
+JacobianBlocks<n> System<n>::blocks() const {
   JacobianBlocks<n> blocks{numbering_};
   if (numbering_.has_wall()) {
-    blocks.wall = &scene_.wall->jacobian();
+    blocks.wall = &wall_jacobian_;
     blocks.wall_nodes = &scene_.wall->nodes();
   }
   if (numbering_.has_fluid()) {
-    auto& jacobian = scene_.fluid->jacobian(derivatives_);
-    blocks.fluid = &jacobian.fluid;
-    if (numbering_.has_mesh()) blocks.shape_derivatives = &jacobian.shape_derivatives;
+    blocks.fluid = &fluid_jacobian_.fluid;
+    if (numbering_.has_mesh()) blocks.shape_derivatives = &fluid_jacobian_.shape_derivatives;
     blocks.fluid_nodes = &scene_.fluid->nodes();
   }
   if (numbering_.has_mesh()) {
@@ -68,24 +65,26 @@ void System<n>::work_on(State& state, const StepData& data) {
   data_ = &data;
   if (numbering_.follow(data.rates.interface)) norms_.follow_factors();
   if (rates_differ(data.rates)) usable_ = false;
-  has_rows_ = keeps_rows_ = false;
+  has_rows_ = false;
 }
 
 template <int n>
 double System<n>::evaluate() {
-  AssemblyResult result;
-  if (std::exchange(keeps_rows_, false)) {
-    gather_residual();
-  } else {
+  const bool valid = [&] {
     if (numbering_.has_mesh()) scene_.renew_constant_operators();
     const auto phase = scene_.profile.phase("assembly: " + name_ + " residual");
-    result = assemble(false);
-  }
+    return !assemble(false).inverted();
+  }();
+  return norm_of_residual(valid);
+}
+
+template <int n>
+double System<n>::norm_of_residual(bool valid) {
   double sum = 0;
   for (double r : residual_) sum += r * r;
   if (const double forces = openings_.compare(*state_, *data_); processes().is_first()) sum += forces;
   // One number tells all: not a number where an element of any process is inverted.
-  return std::sqrt(processes().sum(result.inverted() ? std::numeric_limits<double>::quiet_NaN() : sum));
+  return std::sqrt(processes().sum(valid ? sum : std::numeric_limits<double>::quiet_NaN()));
 }
 
 template <int n>
@@ -134,22 +133,14 @@ void System<n>::linearise_at(const LinearisationPoint& point) {
 
 template <int n>
 double System<n>::solve(double tolerance) {
-  return solve(tolerance, residual_);
+  return solve_for(residual_, tolerance);
 }
 
 template <int n>
-double System<n>::solve_with(const std::vector<double>& forces, double tolerance) {
-  other_ = residual_;
-  add_forces(forces, other_);
-  return solve(tolerance, other_);
-}
-
-template <int n>
-double System<n>::solve(double tolerance, const std::vector<double>& b) {
+double System<n>::solve_for(const std::vector<double>& b, double tolerance) {
   stop_together(processes());
-  const auto phase = scene_.profile.phase("solve: " + name_);
+  const auto phase = solve_phase();
   openings_.set_gaps();
-  increment_is_zero_ = false;
   linear_report_ = solver_->solve(b, tolerance, increment_);
   if (!linear_report_.converged) return std::numeric_limits<double>::quiet_NaN();
   openings_.take_increments();
@@ -162,7 +153,7 @@ double System<n>::solve(double tolerance, const std::vector<double>& b) {
 template <int n>
 double System<n>::distance(double tolerance) {
   stop_together(processes());
-  const auto phase = scene_.profile.phase("solve: " + name_);
+  const auto phase = solve_phase();
   openings_.set_gaps();
   linear_report_ = solver_->solve(residual_, tolerance, answer_);
   if (!linear_report_.converged) return std::numeric_limits<double>::quiet_NaN();
@@ -172,71 +163,8 @@ double System<n>::distance(double tolerance) {
 }
 
 template <int n>
-bool System<n>::answer(const std::vector<double>& forces, double tolerance) {
-  stop_together(processes());
-  const auto phase = scene_.profile.phase("solve: " + name_);
-  other_.assign(static_cast<std::size_t>(numbering_.size), 0.0);
-  add_forces(forces, other_);
-  openings_.close_gaps();
-  linear_report_ = solver_->solve(other_, tolerance, answer_);
-  if (!linear_report_.converged) return false;
-  openings_.add_answers();
-  answer_.resize(numbering_.columns());
-  numbering_.update_ghosts(answer_);
-  increment_is_zero_ = false;
-  for (std::size_t i = 0; i < increment_.size(); ++i) increment_[i] -= answer_[i];
-  return true;
-}
-
-template <int n>
-void System<n>::begin_increment() {
-  stop_together(processes());
-  openings_.set_gaps();
-  set_zero(increment_);
-  increment_is_zero_ = true;
-}
-
-template <int n>
-void System<n>::correct_increment(const std::vector<double>& z) {
-  axpy(-1, z, increment_);
-  increment_is_zero_ = false;
-}
-
-template <int n>
-void System<n>::find_lack(const std::vector<double>& forces, std::vector<double>& lack) {
-  if (increment_is_zero_) {
-    lack = residual_;
-  } else {
-    cycled()->multiply_whole(increment_, lack);
-    axpy(1, residual_, lack);
-  }
-  add_forces(forces, lack);
-}
-
-template <int n>
-void System<n>::add_forces(const std::vector<double>& forces, std::vector<double>& equations) {
-  if (numbering_.has_fluid())
-    add_rows<Mixed>(numbering_.fluid_rows, scene_.fluid_frames, forces, equations);
-  else
-    add_rows<Mixed>(numbering_.wall_rows, scene_.wall_frames, forces, equations);
-}
-
-template <int n>
-Direction<n> System<n>::increment_at(int node) const {
-  const bool of_fluid = numbering_.has_fluid();
-  const UnknownMap& map = of_fluid ? numbering_.fluid : numbering_.wall;
-  Direction<n> increment{};
-  for (int k = 0; k < n; ++k)
-    if (const Unknown& unknown = map[Mixed::vector(node, k)]; unknown.index >= 0)
-      increment[k] = unknown.factor * increment_[unknown.index];
-  if (const auto* axes = (of_fluid ? scene_.fluid_frames : scene_.wall_frames).at(node))
-    NodalFrames<n>::to_space(*axes, increment.data());
-  return increment;
-}
-
-template <int n>
 void System<n>::move(double step) {
-  has_rows_ = keeps_rows_ = false;
+  has_rows_ = false;
   if (numbering_.has_mesh()) add_increment<Vector>(numbering_.mesh, scene_.fluid_frames, step, state_->now.mesh);
   if (numbering_.has_fluid()) add_increment<Mixed>(numbering_.fluid, scene_.fluid_frames, step, state_->now.fluid);
   if (numbering_.has_wall()) add_increment<Mixed>(numbering_.wall, scene_.wall_frames, step, state_->now.wall);
@@ -290,9 +218,15 @@ std::vector<InterfacePair> System<n>::interface_pairs(const Scene<n>& scene) {
 }
 
 template <int n>
+FluidJacobian<n> System<n>::make_fluid_jacobian(const Scene<n>& scene, const Numbering& numbering) {
+  if (!numbering.has_fluid()) return {};
+  return {scene.fluid->graph(), numbering.has_mesh() ? FluidDerivatives::fluid_and_domain : FluidDerivatives::fluid};
+}
+
+template <int n>
 AssemblyResult System<n>::assemble(bool derivatives) {
   AssemblyResult result;
-  has_rows_ = keeps_rows_ = false;
+  has_rows_ = false;
   if (numbering_.has_mesh()) {
     mesh_residual_.resize(state_->now.mesh.size());
     if (scene_.nonlinear_mesh_motion) {
@@ -305,25 +239,21 @@ AssemblyResult System<n>::assemble(bool derivatives) {
   }
   if (numbering_.has_fluid()) {
     assert(scene_.fluid);
-    result.include(scene_.assemble_fluid(state_->now, *data_, fluid_residual_,
-                                         derivatives ? derivatives_ : FluidDerivatives::none));
+    result.include(
+        scene_.assemble_fluid(state_->now, *data_, fluid_residual_, derivatives ? &fluid_jacobian_ : nullptr));
     if (derivatives) {
-      auto& jacobian = scene_.fluid->jacobian(derivatives_);
-      scene_.fluid_frames.turn_blocks(jacobian.fluid);
-      if (derivatives_ == FluidDerivatives::fluid_and_domain)
-        scene_.fluid_frames.turn_blocks(jacobian.shape_derivatives);
+      scene_.fluid_frames.turn_blocks(fluid_jacobian_.fluid);
+      if (numbering_.has_mesh()) scene_.fluid_frames.turn_blocks(fluid_jacobian_.shape_derivatives);
       openings_.linearise(state_->now, data_->rates, !numbering_.mesh.empty());
-      if (impedance_ && impedance_->medium == InterfaceImpedance::Medium::fluid) add_impedance_derivatives();
     }
   }
   if (numbering_.has_wall()) {
     assert(scene_.wall);
     result.include(scene_.wall->assemble(scene_.wall_input(state_->now, *data_), data_->wall_pressure, state_->now.wall,
-                                         wall_residual_, derivatives));
-    if (derivatives) scene_.wall_frames.turn_blocks(scene_.wall->jacobian());
-    if (derivatives && impedance_ && impedance_->medium == InterfaceImpedance::Medium::wall)
-      add_wall_impedance_derivatives();
+                                         wall_residual_, derivatives ? &wall_jacobian_ : nullptr));
+    if (derivatives) scene_.wall_frames.turn_blocks(wall_jacobian_);
   }
+  if (derivatives) add_further_derivatives(fluid_jacobian_, wall_jacobian_);
   gather_residual();
   has_rows_ = !result.inverted();
   return result;
@@ -335,7 +265,6 @@ void System<n>::gather_residual() {
   if (numbering_.has_mesh()) add_rows<Vector>(numbering_.mesh_rows, scene_.fluid_frames, mesh_residual_, residual_);
   if (numbering_.has_fluid()) {
     add_rows<Mixed>(numbering_.fluid_rows, scene_.fluid_frames, fluid_residual_, residual_);
-    if (impedance_ && impedance_->medium == InterfaceImpedance::Medium::fluid) add_impedance();
   }
   if (numbering_.has_wall()) {
     if (data_->interface_load.empty()) {
@@ -345,69 +274,8 @@ void System<n>::gather_residual() {
       axpy(1, data_->interface_load, loaded_rows_);
       add_rows<Mixed>(numbering_.wall_rows, scene_.wall_frames, loaded_rows_, residual_);
     }
-    if (impedance_ && impedance_->medium == InterfaceImpedance::Medium::wall) add_wall_impedance();
   }
-}
-
-template <int n>
-void System<n>::add_impedance() {
-  assert(impedance_->balanced || impedance_->velocity.size() == impedance_->nodes.size() * n);
-  for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
-    const int node = impedance_->nodes[i];
-    Direction<n> slip{};
-    if (!impedance_->balanced)
-      for (int k = 0; k < n; ++k) slip[k] = state_->now.fluid[Mixed::vector(node, k)] - impedance_->velocity[i * n + k];
-    if (const auto* axes = scene_.fluid_frames.at(node)) NodalFrames<n>::to_frame(*axes, slip.data());
-    for (int k = 0; k < n; ++k) {
-      const Unknown& row = numbering_.fluid_rows[Mixed::vector(node, k)];
-      if (row.index < 0) continue;
-      if (impedance_->balanced)
-        residual_[row.index] = 0;
-      else
-        residual_[row.index] += row.factor * impedance_->impedance[i] * slip[k];
-    }
-  }
-}
-
-template <int n>
-void System<n>::add_impedance_derivatives() {
-  auto& fluid = scene_.fluid->jacobian(derivatives_).fluid;
-  for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
-    const int node = impedance_->nodes[i];
-    for (int k = 0; k < n; ++k) {
-      if (numbering_.fluid_rows[Mixed::vector(node, k)].index < 0) continue;
-      fluid.block(fluid.graph->find(node, node))[k * Mixed::entries + k] += impedance_->impedance[i];
-    }
-  }
-}
-
-template <int n>
-void System<n>::add_wall_impedance() {
-  assert(!impedance_->balanced && impedance_->displacement.size() == impedance_->nodes.size() * n);
-  const double rate = data_->rates.interface.rate();
-  for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
-    const int node = impedance_->nodes[i];
-    Direction<n> beyond{};
-    for (int k = 0; k < n; ++k)
-      beyond[k] = state_->now.wall[Mixed::vector(node, k)] - impedance_->displacement[i * n + k];
-    if (const auto* axes = scene_.wall_frames.at(node)) NodalFrames<n>::to_frame(*axes, beyond.data());
-    for (int k = 0; k < n; ++k)
-      if (const Unknown& row = numbering_.wall_rows[Mixed::vector(node, k)]; row.index >= 0)
-        residual_[row.index] += row.factor * (impedance_->impedance[i] * rate) * beyond[k];
-  }
-}
-
-template <int n>
-void System<n>::add_wall_impedance_derivatives() {
-  const double rate = data_->rates.interface.rate();
-  auto& wall = scene_.wall->jacobian();
-  for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
-    const int node = impedance_->nodes[i];
-    for (int k = 0; k < n; ++k) {
-      if (numbering_.wall_rows[Mixed::vector(node, k)].index < 0) continue;
-      wall.block(wall.graph->find(node, node))[k * Mixed::entries + k] += impedance_->impedance[i] * rate;
-    }
-  }
+  add_further_rows(residual_);
 }
 
 template <int n>

@@ -8,7 +8,6 @@
 #include "solvers/newton.hpp"
 #include "system/direct_linear_solver.hpp"
 #include "system/field_norms.hpp"
-#include "system/interface_impedance.hpp"
 #include "system/linear_solver.hpp"
 #include "system/numbering.hpp"
 #include "system/opening_terms.hpp"
@@ -27,7 +26,8 @@ struct LinearisationPoint {
 };
 
 /// The discrete equations of a scene, or of one of its sub-problems, under a numbering: residual, Jacobian and linear
-/// solve, as Newton's method asks for them. Works on a State that it does not own. Where the scene is shared out, each
+/// solve, as Newton's method asks for them. Owns the matrices of its Jacobian: several systems on one scene each have
+/// their own, but for the constant operator of the mesh motion. Works on a State that it does not own. Where the scene is shared out, each
 /// process has the equations of its nodes, all ask together, and all get the same norms. linearise() and solve() throw
 /// Stopped where the program was asked to end.
 template <int n>
@@ -38,10 +38,8 @@ class System : public NewtonProblem {
 
   /// \param name         for the profile: "coupled", "fluid", "wall"
   /// \param make_solver  of the linearised equations; none: the direct one
-  /// \param impedance    adds to the fluid's equations, or the wall's, and must outlive this; null: nothing. Its c may
-  ///                     change with the rates of a step
   System(std::string name, Scene<n>& scene, Numbering numbering, const LinearSolverFactory<n>& make_solver = {},
-         SystemNorm norm = SystemNorm::volumes, const InterfaceImpedance* impedance = nullptr);
+         SystemNorm norm = SystemNorm::volumes);
   System(const System&) = delete;  // the solver refers to the numbering
   System& operator=(const System&) = delete;
 
@@ -49,7 +47,12 @@ class System : public NewtonProblem {
   const std::vector<double>& residual() const { return residual_; }
   const LinearSolver& solver() const { return *solver_; }
   /// The Jacobian, for as long as the system lives; its values are those of the last linearise().
-  JacobianBlocks<n> blocks();
+  JacobianBlocks<n> blocks() const;
+  /// Values of its matrices of the media; null where a medium has no unknowns.
+  const std::vector<double>* fluid_values() const {
+    return numbering_.has_fluid() ? &fluid_jacobian_.fluid.values : nullptr;
+  }
+  const std::vector<double>* wall_values() const { return numbering_.has_wall() ? &wall_jacobian_.values : nullptr; }
   const LinearisationPoint& linearisation_point() const { return point_; }
   /// Rows of the fluid's last residual before boundary conditions: on the interface the force of the fluid on the wall.
   const std::vector<double>& fluid_residual() const { return fluid_residual_; }
@@ -62,10 +65,6 @@ class System : public NewtonProblem {
   void work_on(State& state, const StepData& data);
 
   double evaluate() override;
-  /// The iterate is that of the last evaluate(), and no more than the interface's load or datum is another: the next
-  /// evaluate() takes the media's rows from there.
-  void keep_rows() { keeps_rows_ = has_rows_; }
-
   void linearise() override;
   bool linearised() const override { return usable_ && solver_->ready(); }
   bool outdated() const override { return numbering_.has_fluid() && scene_.openings.joined().outdated(); }
@@ -78,27 +77,8 @@ class System : public NewtonProblem {
 
   double solve(double tolerance) override;
   double distance(double tolerance) override;
-  /// Of a system of one medium: as solve() with further forces f beside the residual, in nodal values of the medium along
-  /// the axes of space.
-  double solve_with(const std::vector<double>& forces, double tolerance);
-  /// Of a system of one medium, after these: increment -= J^-1 f, what its Jacobian answers to forces f alone, up
-  /// to |f - J x| <= tolerance |f|.
-  /// \returns false when the linear solver failed
-  bool answer(const std::vector<double>& forces, double tolerance);
-  /// Of a system of one medium that iterates: what its solver does, for an iteration over several systems. Null where it
-  /// factorises, and where openings join the Jacobian.
-  CycledMedium* cycled() { return solver_->cycled(); }
-  bool cycles() const { return solver_->cycles(); }
-  /// For such an iteration: the increment becomes zero,
-  void begin_increment();
-  /// is corrected by -z,
-  void correct_increment(const std::vector<double>& z);
-  /// and lacks R + f + J increment, f being forces as of solve_with().
-  void find_lack(const std::vector<double>& forces, std::vector<double>& lack);
   /// Norm of the increment, as solve() returns it.
   double increment_norm() const { return norms_.of_increment(increment_); }
-  /// Of a system of one medium: the last increment of the vector at a node, velocity or the wall's displacement.
-  Direction<n> increment_at(int node) const;
 
   double keep_contraction() const override { return solver_->keep_contraction(); }
   int linear_iterations() const override { return linear_report_.iterations; }
@@ -114,33 +94,40 @@ class System : public NewtonProblem {
   /// small as the strain (materials/strain.hpp), so that none of them is of order one.
   double rounding() override;
 
- private:
+ protected:
   const Communicator& processes() const { return *numbering_.processes; }
-  static std::vector<InterfacePair> interface_pairs(const Scene<n>& scene);
+  Profile::Scope solve_phase() const { return scene_.profile.phase("solve: " + name_); }
 
-  AssemblyResult assemble(bool derivatives);
-  /// The residual of the media's rows as they are, with the interface's load and impedance.
+  /// What else stands in the equations, beside those of the scene: added to the residual, and to the matrices of the
+  /// Jacobian, whenever they are made.
+  virtual void add_further_rows(std::vector<double>& /*residual*/) const {}
+  virtual void add_further_derivatives(FluidJacobian<n>& /*fluid*/, WallMatrix<n>& /*wall*/) const {}
+
+  /// The media's rows are of the state as it is.
+  bool has_rows() const { return has_rows_; }
+  /// The residual of the media's rows as they are, with the interface's load and further rows.
   void gather_residual();
-
-  void add_impedance();
-  void add_wall_impedance();
-  void add_impedance_derivatives();
-  void add_wall_impedance_derivatives();
-
-  /// field += step * (the increment of its unknowns)
-  template <class Layout>
-  void add_increment(const UnknownMap& map, const NodalFrames<n>& frames, double step,
-                     std::vector<double>& field) const;
+  /// \param valid  at this process; not a number where it is not at any of them
+  double norm_of_residual(bool valid);
 
   /// Equations += the rows of a part, which are along the axes of space.
   template <class Layout>
   void add_rows(const UnknownMap& map, const NodalFrames<n>& frames, const std::vector<double>& rows,
                 std::vector<double>& equations);
-  /// The same of a system of one medium.
-  void add_forces(const std::vector<double>& forces, std::vector<double>& equations);
 
-  /// Increment = -J^-1 b.
-  double solve(double tolerance, const std::vector<double>& b);
+  /// Increment = -J^-1 b. \returns its norm
+  double solve_for(const std::vector<double>& b, double tolerance);
+
+ private:
+  static std::vector<InterfacePair> interface_pairs(const Scene<n>& scene);
+  static FluidJacobian<n> make_fluid_jacobian(const Scene<n>& scene, const Numbering& numbering);
+
+  AssemblyResult assemble(bool derivatives);
+
+  /// field += step * (the increment of its unknowns)
+  template <class Layout>
+  void add_increment(const UnknownMap& map, const NodalFrames<n>& frames, double step,
+                     std::vector<double>& field) const;
 
   /// Whether derivatives depend on the pressures at openings or on what these keep: where one moves, or a network joins some.
   bool openings_differ() const { return !numbering_.fluid_rows.empty() && (openings_.move() || openings_.vary()); }
@@ -149,27 +136,34 @@ class System : public NewtonProblem {
   bool rates_differ(const StepRates& rates) const;
 
   std::string name_;
+
+ protected:
   Scene<n>& scene_;
   Numbering numbering_;
-  FluidDerivatives derivatives_;
+
+ private:
+  FluidJacobian<n> fluid_jacobian_;
+  WallMatrix<n> wall_jacobian_;
   std::vector<InterfacePair> interface_;
-  OpeningTerms<n> openings_;
   MeshMotionTangent<n> mesh_tangent_;  ///< of a nonlinear mesh motion; empty otherwise
-  const InterfaceImpedance* impedance_;
-  std::unique_ptr<LinearSolver> solver_;
-  FieldNorms<n> norms_;
+
+ protected:
+  OpeningTerms<n> openings_;
+  std::unique_ptr<LinearSolver> solver_;  ///< refers to what stands above
   LinearReport linear_report_;
   State* state_ = nullptr;
   const StepData* data_ = nullptr;
+  std::vector<double> residual_, increment_;
+  std::vector<double> answer_;  ///< of a further solve
+
+ private:
+  FieldNorms<n> norms_;
   LinearisationPoint point_;
   bool usable_ = false;  ///< the solver's Jacobian belongs to the step's rates
-  bool increment_is_zero_ = false;
-  bool has_rows_ = false;    ///< those of the media are of the state as it is
-  bool keeps_rows_ = false;  ///< and serve once more
-  std::vector<double> residual_, increment_, mesh_residual_, fluid_residual_, wall_residual_;
-  std::vector<double> rows_;            ///< of a part in its frames
-  std::vector<double> loaded_rows_;     ///< the wall's, with the interface's load
-  std::vector<double> other_, answer_;  ///< storage of answer()
+  bool has_rows_ = false;
+  std::vector<double> mesh_residual_, fluid_residual_, wall_residual_;
+  std::vector<double> rows_;         ///< of a part in its frames
+  std::vector<double> loaded_rows_;  ///< the wall's, with the interface's load
 };
 
 }  // namespace fsi

@@ -42,7 +42,7 @@ void update_ghosts(const PartNodes& nodes, std::vector<double>& field) {
 }  // namespace
 
 template <int n>
-CoupledProduct<n>::CoupledProduct(Scene<n>& scene) : scene_(scene) {
+CoupledProduct<n>::CoupledProduct(const Scene<n>& scene) : scene_(scene) {
   if (scene.fluid) fluid_.assign(scene.fluid->space().mixed_size(), 1.0);
   if (scene.coupled()) mesh_.assign(scene.fluid->space().vector_size(), 1.0);
   if (scene.wall) wall_.assign(scene.wall->space().mixed_size(), 1.0);
@@ -52,11 +52,11 @@ CoupledProduct<n>::CoupledProduct(Scene<n>& scene) : scene_(scene) {
 }
 
 template <int n>
-void CoupledProduct<n>::multiply() {
+void CoupledProduct<n>::multiply(const MatrixValues& of_media) {
   constexpr int mixed = MixedLayout<n>::entries;
   if (scene_.fluid) {
     const NodeGraph& graph = *scene_.fluid->graph();
-    const auto& values = scene_.fluid->jacobian(FluidDerivatives::fluid).fluid.values;
+    const std::vector<double>& values = *of_media.fluid;
     update_ghosts<MixedLayout<n>>(scene_.fluid->nodes(), fluid_);
     multiply_by<mixed, mixed>(graph, values, fluid_, fluid_rows_, false);
     if (scene_.coupled()) {
@@ -74,7 +74,7 @@ void CoupledProduct<n>::multiply() {
   }
   if (scene_.wall) {
     update_ghosts<MixedLayout<n>>(scene_.wall->nodes(), wall_);
-    multiply_by<mixed, mixed>(*scene_.wall->graph(), scene_.wall->jacobian().values, wall_, wall_rows_, false);
+    multiply_by<mixed, mixed>(*scene_.wall->graph(), *of_media.wall, wall_, wall_rows_, false);
   }
 }
 
@@ -94,7 +94,8 @@ std::int64_t CoupledProduct<n>::entries() const {
 }
 
 template <int n>
-void WorkUnitMeter<n>::measure(double elapsed) {
+void WorkUnitMeter<n>::measure(double elapsed, const MatrixValues& values) {
+  if ((scene_.fluid && !values.fluid) || (scene_.wall && !values.wall)) return;
   if (unit_.products >= enough) return;
   const Communicator& processes = scene_.processes();
   // The first one tells what others would take. All processes have to decide alike.
@@ -105,7 +106,7 @@ void WorkUnitMeter<n>::measure(double elapsed) {
   if (unit_.products == 0) unit_.entries = product.entries();
   processes.wait();
   const auto start = Clock::now();
-  product.multiply();
+  product.multiply(values);
   const double seconds = processes.largest(seconds_since(start));
   unit_.seconds = unit_.products == 0 ? seconds : std::min(unit_.seconds, seconds);
   unit_.spent += processes.largest(seconds_since(begin));

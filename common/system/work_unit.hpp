@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "time/stepper.hpp"
 
 namespace fsi {
 
@@ -30,11 +31,12 @@ struct WorkUnit {
 template <int n>
 class CoupledProduct {
  public:
-  /// \param scene  must outlive this. The storage of its Jacobians appears where it is missing
-  explicit CoupledProduct(Scene<n>& scene);
+  /// \param scene  must outlive this
+  explicit CoupledProduct(const Scene<n>& scene);
 
   /// For all processes together: ghosts get their owners' values, then each has its rows. x is one everywhere.
-  void multiply();
+  /// \param values  of F and W, of the media that the scene has
+  void multiply(const MatrixValues& values);
 
   /// Of the last product, in the layouts of the media. Only where the scene has one medium do they mean anything.
   const std::vector<double>& fluid_rows() const { return fluid_rows_; }
@@ -45,7 +47,7 @@ class CoupledProduct {
   std::int64_t entries() const;
 
  private:
-  Scene<n>& scene_;
+  const Scene<n>& scene_;
   std::vector<double> fluid_, mesh_, wall_, fluid_rows_, mesh_rows_, wall_rows_;
 };
 
@@ -57,16 +59,17 @@ class WorkUnitMeter {
   static constexpr double largest_share = 0.005;  ///< of the run so far, but for the first product
 
   /// \param scene  must outlive this
-  explicit WorkUnitMeter(Scene<n>& scene) : scene_(scene) {}
+  explicit WorkUnitMeter(const Scene<n>& scene) : scene_(scene) {}
 
   /// Times another product if there are too few yet and the run has taken long enough. For all processes together.
   /// \param elapsed  s, of the run so far
-  void measure(double elapsed);
+  /// \param values   of the matrices that the run solves with; nothing is measured without those of each medium
+  void measure(double elapsed, const MatrixValues& values);
 
   const WorkUnit& unit() const { return unit_; }
 
  private:
-  Scene<n>& scene_;
+  const Scene<n>& scene_;
   WorkUnit unit_;
 };
 

@@ -66,6 +66,12 @@ struct CouplingMethod {
   std::string does;  ///< a clause: what it does in a pass, and with what
 };
 
+/// Values of the block matrices of fluid and wall that a method solves with; null: it has none. They serve to measure the
+/// seconds of a product with them (the work unit).
+struct MatrixValues {
+  const std::vector<double>*fluid = nullptr, *wall = nullptr;
+};
+
 /// One way to advance a scene by a time step. The two drivers differ in this.
 class Stepper {
  public:
@@ -95,6 +101,7 @@ class Stepper {
   virtual std::vector<StepperChoice> choices() const { return {}; }
   /// How fluid and wall are coupled; empty where there is nothing to couple.
   virtual std::optional<CouplingMethod> coupling_method() const { return std::nullopt; }
+  virtual MatrixValues matrix_values() const { return {}; }
   /// What it needs of the steps before besides the state.
   virtual void keep(Memory& memory) = 0;
 

@@ -51,10 +51,11 @@ class Wall {
   const std::shared_ptr<const NodeGraph>& graph() const { return space().graph(); }
   int node_count() const { return nodes().node_count(); }
 
-  /// Overwrites the residual, in the mixed layout, and the Jacobian if asked.
+  /// Overwrites the residual, in the mixed layout, and the Jacobian if there is one.
   /// \param pressure  kPa on the pressurised facets
+  /// \param jacobian  on the graph(), owned by the caller; null: no derivatives
   virtual AssemblyResult assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
-                                  std::vector<double>& residual, bool derivatives = false) = 0;
+                                  std::vector<double>& residual, WallMatrix<n>* jacobian = nullptr) = 0;
 
   /// \param wall      (d, .) of a level
   /// \param velocity  of the level, vector layout; empty in statics
@@ -70,9 +71,6 @@ class Wall {
   /// process's nodes. So are energy() and work(): of the elements and nodes that sums count here.
   virtual double pressure_work(double pressure, const std::vector<double>& old,
                                const std::vector<double>& now) const = 0;
-
-  /// The Jacobian last assembled; storage appears with the first request.
-  virtual WallMatrix<n>& jacobian() = 0;
 
   /// While it does, assemble() makes the equations of the unloaded shape (wall/unloaded_shape.hpp): d is the displacement
   /// from there to the mesh, under loads on the mesh as it is.

@@ -141,15 +141,14 @@ void WallProblem<Element>::set_mean(std::size_t layer, const Material& material,
 
 template <class Element>
 AssemblyResult WallProblem<Element>::assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
-                                              std::vector<double>& residual, bool derivatives) {
+                                              std::vector<double>& residual, WallMatrix<n>* jacobian) {
   residual.assign(space_.mixed_size(), 0.0);
-  if (finds_unloaded_shape_) return assemble_unloaded_shape(in, pressure, residual, derivatives);
-  WallMatrix<n>* matrix = derivatives ? &jacobian() : nullptr;
-  const auto result = assemble_wall(constants_, layers_, prestressed(in), residual, matrix);
-  if (pressure != 0) add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, solution, residual, matrix);
-  if (this->supports()) this->supports()->add(in, residual, matrix);
-  if (is_viscous()) ViscousLayers<Element>::add(layers_, prestressed(in), residual, matrix);
-  if (places_.entries > 0) MaxwellLayers<Element>::add(layers_, places_, prestressed(in), residual, matrix);
+  if (finds_unloaded_shape_) return assemble_unloaded_shape(in, pressure, residual, jacobian);
+  const auto result = assemble_wall(constants_, layers_, prestressed(in), residual, jacobian);
+  if (pressure != 0) add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, solution, residual, jacobian);
+  if (this->supports()) this->supports()->add(in, residual, jacobian);
+  if (is_viscous()) ViscousLayers<Element>::add(layers_, prestressed(in), residual, jacobian);
+  if (places_.entries > 0) MaxwellLayers<Element>::add(layers_, places_, prestressed(in), residual, jacobian);
   return result;
 }
 
@@ -203,10 +202,9 @@ WallInput WallProblem<Element>::prestressed(WallInput in) const {
 
 template <class Element>
 AssemblyResult WallProblem<Element>::assemble_unloaded_shape(WallInput in, double pressure,
-                                                             std::vector<double>& residual, bool derivatives) {
+                                                             std::vector<double>& residual, WallMatrix<n>* jacobian) {
   WallMatrix<n> not_asked_for;
-  if (!derivatives) not_asked_for = WallMatrix<n>(space_.graph());
-  WallMatrix<n>* matrix = derivatives ? &jacobian() : &not_asked_for;
+  if (!jacobian) not_asked_for = WallMatrix<n>(space_.graph());
   in.finds_unloaded_shape = true;
   std::vector<double> still;
   if (constants_.wave_speed > 0) {  // the stabilisation is then that of a wall with inertia
@@ -214,7 +212,7 @@ AssemblyResult WallProblem<Element>::assemble_unloaded_shape(WallInput in, doubl
     in.acceleration_history = still.data();
     in.acceleration_factor = 0;
   }
-  const auto result = assemble_wall(constants_, layers_, in, residual, matrix);
+  const auto result = assemble_wall(constants_, layers_, in, residual, jacobian ? jacobian : &not_asked_for);
   // Loads act on the mesh: with displacements of zero, and no derivative.
   const std::vector<double> mesh(residual.size(), 0.0);
   if (pressure != 0)
@@ -286,12 +284,6 @@ double WallProblem<Element>::pressure_work(double pressure, const std::vector<do
   for (std::size_t i = 0; i < load.size(); ++i)
     if (part_.owns(static_cast<int>(i / MixedLayout<n>::entries))) work -= load[i] * (now[i] - old[i]);
   return work;
-}
-
-template <class Element>
-auto WallProblem<Element>::jacobian() -> WallMatrix<n>& {
-  if (jacobian_.values.empty()) jacobian_ = WallMatrix<n>(space_.graph());
-  return jacobian_;
 }
 
 template <class Element>

@@ -56,13 +56,12 @@ class WallProblem : public Wall<Element::components> {
   void settle_branches(const WallInput& in, std::vector<double>& branches) const override;
 
   AssemblyResult assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
-                          std::vector<double>& residual, bool derivatives = false) override;
+                          std::vector<double>& residual, WallMatrix<n>* jacobian = nullptr) override;
   WallEnergy energy(const std::vector<double>& wall, const std::vector<double>& velocity,
                     const std::vector<double>& balance, const std::vector<double>& branches) const override;
   WallWork work(const WallStep& step) const override;
   std::vector<LayerDeformation> deformation(const std::vector<double>& wall) const override;
   double pressure_work(double pressure, const std::vector<double>& old, const std::vector<double>& now) const override;
-  WallMatrix<n>& jacobian() override;
   void find_unloaded_shape(bool find) override { finds_unloaded_shape_ = find; }
   void set_prestress(std::vector<double> displacement) override;
   const std::vector<double>& prestress() const override { return prestress_; }
@@ -75,7 +74,7 @@ class WallProblem : public Wall<Element::components> {
   void set_constants(std::size_t layer, const VaryingLaw& law, const LawAt& at);
   WallInput prestressed(WallInput in) const;
   AssemblyResult assemble_unloaded_shape(WallInput in, double pressure, std::vector<double>& residual,
-                                         bool derivatives);
+                                         WallMatrix<n>* jacobian);
 
   Part part_;
   WallConstants constants_;
@@ -85,7 +84,6 @@ class WallProblem : public Wall<Element::components> {
   BranchPlaces places_;
   std::vector<LayerData> layer_data_;
   std::vector<std::vector<int>> layer_cells_;  ///< of the part
-  WallMatrix<n> jacobian_;
   bool finds_unloaded_shape_ = false;
   std::vector<double> prestress_;  ///< displacement from the unloaded shape, vector layout, mm; empty: none
 };

@@ -206,7 +206,7 @@ void BlockNewtonProblem<n>::stiffen(double stiffness) {
 
 template <int n>
 bool BlockNewtonProblem<n>::solve_jointly_with_stiffer_datum(double tolerance) {
-  if (!fluid_.cycles() || !wall_.cycles()) return false;
+  if (!fluid_.is_iterative() || !wall_.is_iterative()) return false;
   const double former = stiffness_;
   for (int stiffenings = 0; stiffenings < most_joint_stiffenings; ++stiffenings) {
     stiffen(stiffening * stiffness_);
@@ -218,7 +218,7 @@ bool BlockNewtonProblem<n>::solve_jointly_with_stiffer_datum(double tolerance) {
 
 template <int n>
 bool BlockNewtonProblem<n>::solve_jointly(double tolerance) {
-  const Media media{fluid_.cycled(), wall_.cycled()};
+  const Media media{fluid_.preconditioner(), wall_.preconditioner()};
   if (media.fluid == nullptr || media.wall == nullptr) return false;
   const auto phase = scene_.profile.phase("solve: fluid and wall");
   if (!joint_is_current_) joint_.update(*media.fluid, *media.wall, robin_.impedance);
@@ -231,8 +231,9 @@ bool BlockNewtonProblem<n>::solve_jointly(double tolerance) {
   double accuracy = 0, last_demanded = 0;
   double left_out = 0.05;  // of a residual, what a correction leaves for want of shape derivatives
   for (int passes = 0; passes < most_passes_;) {
-    find_lack();
-    const double size = std::hypot(norm(lack_.fluid), norm(lack_.wall), as_force(lack_.gap));
+    find_linear_residual();
+    const double size =
+        std::hypot(norm(linear_residual_.fluid), norm(linear_residual_.wall), as_force(linear_residual_.gap));
     if (passes == 0 && size == 0) return true;
     if (passes == 0) first = size;
     const double contraction = size / first / relative;
@@ -243,7 +244,8 @@ bool BlockNewtonProblem<n>::solve_jointly(double tolerance) {
     if (passes > 0) {
       const double gap = std::max(tolerance * displacement_increment(), least_gap);
       const double force = std::max(tolerance * space_.norm(loads_), least_force);
-      demanded = std::min({demanded, ratio(gap, space_.norm(lack_.gap)), ratio(force, as_force(lack_.gap))});
+      demanded = std::min(
+          {demanded, ratio(gap, space_.norm(linear_residual_.gap)), ratio(force, as_force(linear_residual_.gap))});
       if (demanded >= 1) return true;
       // The gap may fall where it is none of the residual to speak of.
       if (contraction > stalled && last_demanded > stalled * demanded) return false;
@@ -259,7 +261,7 @@ bool BlockNewtonProblem<n>::solve_jointly(double tolerance) {
 }
 
 template <int n>
-void BlockNewtonProblem<n>::find_lack() {
+void BlockNewtonProblem<n>::find_linear_residual() {
   loads_.assign(x_.size(), 0.0);
   fluid_forces_.assign(state_->now.fluid.size(), 0.0);
   for (std::size_t i = 0; i < scene_.interface.size(); ++i)
@@ -267,45 +269,47 @@ void BlockNewtonProblem<n>::find_lack() {
       fluid_forces_[MixedLayout<n>::vector(scene_.interface[i].fluid, k)] =
           -robin_.impedance[i] * data_->rates.interface.velocity_change(x_[i * n + k]);
   load_wall();
-  lack_.gap = gap_left();
+  linear_residual_.gap = gap_left();
   {
     const Stopwatch watch(cost.fluid_seconds);
-    fluid_.find_lack(fluid_forces_, lack_.fluid);
+    fluid_.linear_residual(fluid_forces_, linear_residual_.fluid);
   }
   const Stopwatch watch(cost.wall_seconds);
-  wall_.find_lack(wall_forces_, lack_.wall);
+  wall_.linear_residual(wall_forces_, linear_residual_.wall);
 }
 
 template <int n>
 int BlockNewtonProblem<n>::correct_jointly(const Media& media, double accuracy, int most_iterations) {
-  media.fluid->take(lack_.fluid, accuracy, right_.fluid);
-  media.wall->take(lack_.wall, accuracy, right_.wall);
-  right_.gap = lack_.gap;
+  const double fluid = media.fluid->restrict_residual(linear_residual_.fluid, accuracy);
+  const double wall = media.wall->restrict_residual(linear_residual_.wall, accuracy);
+  std::vector<double> gap(x_.size());  // as a force
   for (std::size_t i = 0; i < x_.size(); ++i)
-    right_.gap[i] = robin_.impedance[i / n] * data_->rates.interface.velocity_change(lack_.gap[i]);
+    gap[i] = robin_.impedance[i / n] * data_->rates.interface.velocity_change(linear_residual_.gap[i]);
   // Scaled to one, so that small residuals do not leave the range of single precision.
-  const double scale = std::hypot(norm(right_.fluid), norm(right_.wall), norm(right_.gap));
+  const double scale = std::hypot(fluid, wall, norm(gap));
   if (scale == 0) return 0;
-  media.fluid->shorten(right_.fluid, 1 / scale, single_right_.fluid);
-  media.wall->shorten(right_.wall, 1 / scale, single_right_.wall);
-  single_right_.datum.resize(x_.size());
-  for (std::size_t i = 0; i < x_.size(); ++i) single_right_.datum[i] = static_cast<float>(right_.gap[i] / scale);
+  right_.resize(joint_.layout().size());
+  const BlockView<float> right = joint_.layout().view(right_);
+  media.fluid->write_restricted(1 / scale, right.fluid);
+  media.wall->write_restricted(1 / scale, right.wall);
+  for (std::size_t i = 0; i < x_.size(); ++i) right.datum[i] = static_cast<float>(gap[i] / scale);
   const int iterations =
-      joint_.solve(single_right_, accuracy, most_iterations, single_answer_, {cost.fluid_seconds, cost.wall_seconds});
+      joint_.solve(right_, accuracy, most_iterations, joint_solution_, {cost.fluid_seconds, cost.wall_seconds});
+  const BlockView<float> solution = joint_.layout().view(joint_solution_);
   cost.passes += iterations;
   cost.fluid_linear += iterations;
   cost.wall_linear += iterations;
   linear_iterations_ += 2 * iterations;
   for (std::size_t i = 0; i < x_.size(); ++i)
-    x_[i] -= data_->rates.interface.displacement(scale * single_answer_.datum[i], 0.0);
+    x_[i] -= data_->rates.interface.displacement(scale * solution.datum[i], 0.0);
   {
     const Stopwatch watch(cost.fluid_seconds);
-    media.fluid->complete(single_answer_.fluid, scale, accuracy, right_.fluid);
-    fluid_.correct_increment(right_.fluid);
+    media.fluid->expand(solution.fluid, scale, accuracy, correction_);
+    fluid_.correct_increment(correction_);
   }
   const Stopwatch watch(cost.wall_seconds);
-  media.wall->complete(single_answer_.wall, scale, accuracy, right_.wall);
-  wall_.correct_increment(right_.wall);
+  media.wall->expand(solution.wall, scale, accuracy, correction_);
+  wall_.correct_increment(correction_);
   return iterations;
 }
 
@@ -362,11 +366,11 @@ bool BlockNewtonProblem<n>::next_pass(const std::vector<double>& dx, double tole
       for (int k = 0; k < n; ++k)
         fluid_forces_[MixedLayout<n>::vector(scene_.interface[i].fluid, k)] =
             -robin_.impedance[i] * data_->rates.interface.velocity_change(dx[i * n + k]);
-    if (!note(fluid_, fluid_.answer(fluid_forces_, tolerance), cost.fluid_linear)) return false;
+    if (!note(fluid_, fluid_.add_response(fluid_forces_, tolerance), cost.fluid_linear)) return false;
   }
   const Stopwatch watch(cost.wall_seconds);
   load_wall();
-  return note(wall_, wall_.answer(wall_forces_, tolerance), cost.wall_linear);
+  return note(wall_, wall_.add_response(wall_forces_, tolerance), cost.wall_linear);
 }
 
 template <int n>

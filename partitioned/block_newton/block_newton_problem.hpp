@@ -11,7 +11,7 @@
 #include "partitioned/medium_solvers.hpp"
 #include "scene/scene.hpp"
 #include "solvers/newton.hpp"
-#include "system/system.hpp"
+#include "system/medium_system.hpp"
 
 namespace fsi {
 
@@ -71,6 +71,8 @@ class BlockNewtonProblem : public NewtonProblem {
   double gap_pressure() const;
   /// All that lacks over the force between fluid and wall.
   double relative_residual() const;
+  const System<n>& fluid() const { return fluid_; }
+  const System<n>& wall() const { return wall_; }
   /// LinearSolver::decides() of the media, which decide alike.
   std::string linear_decision() const { return wall_.solver().decides(); }
   /// Pairs and rank that corrections of the datum are made of.
@@ -84,12 +86,12 @@ class BlockNewtonProblem : public NewtonProblem {
   static constexpr double stiffening = 10;
   static constexpr int most_stiffenings = 4, most_joint_stiffenings = 2;
 
-  /// What the linear system of both media lacks: residuals of the systems, and the gap as a displacement or a force.
-  struct Lack {
+  /// Of the linear system of both media: residuals of the systems, and the gap as a displacement.
+  struct LinearResidual {
     std::vector<double> fluid, wall, gap;
   };
   struct Media {
-    CycledMedium *fluid, *wall;
+    MediumPreconditioner *fluid, *wall;
   };
 
   BlockNewtonProblem(Scene<n>& scene, const PartitionedData& options, double stiffness,
@@ -115,8 +117,8 @@ class BlockNewtonProblem : public NewtonProblem {
   /// else C is the former one
   bool solve_jointly_with_stiffer_datum(double tolerance);
   void stiffen(double stiffness);
-  /// lack_ of the increments and of the datum as they are.
-  void find_lack();
+  /// linear_residual_ of the increments and of the datum as they are.
+  void find_linear_residual();
   /// Corrects them by an iteration over both media. \returns its passes
   int correct_jointly(const Media& media, double accuracy, int most_iterations);
   /// The first pass of a linear system: the datum as it is.
@@ -135,7 +137,7 @@ class BlockNewtonProblem : public NewtonProblem {
   double stiffness_;
   int most_passes_;
   InterfaceImpedance robin_;
-  System<n> fluid_, wall_;
+  MediumSystem<n> fluid_, wall_;
   InterfaceSpace space_;
   AffineMap map_;  ///< from x_ to the gap
   JointIteration<n> joint_;
@@ -148,8 +150,9 @@ class BlockNewtonProblem : public NewtonProblem {
   std::vector<double> loads_;                       ///< -C (du - dv), likewise, kPa mm^2
   std::vector<double> fluid_forces_, wall_forces_;  ///< nodal values of the media, zero away from the interface
   double residual_ = 0;                             ///< norm of the last one
-  Lack lack_, right_;
-  typename JointIteration<n>::Parts single_right_, single_answer_;
+  LinearResidual linear_residual_;
+  std::vector<double> correction_;             ///< of a medium
+  std::vector<float> right_, joint_solution_;  ///< block vectors of joint_
   int linear_iterations_ = 0;
   std::string failure_;
 };

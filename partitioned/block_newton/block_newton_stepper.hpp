@@ -20,6 +20,9 @@ class BlockNewtonStepper : public NewtonMarch<n> {
   std::optional<CouplingMethod> coupling_method() const override;
   bool reports_coupling() const override { return true; }
   std::vector<StepperChoice> choices() const override { return choices_; }
+  MatrixValues matrix_values() const override {
+    return {problem_.fluid().fluid_values(), problem_.wall().wall_values()};
+  }
   StepReport advance(State& state) override;
   void keep(Memory& memory) override { problem_.keep(memory); }
 

@@ -20,9 +20,11 @@ JointIteration<n>::JointIteration(const Scene<n>& scene, const Numbering& fluid,
     : scene_(scene), fluid_numbering_(fluid), wall_numbering_(wall) {}
 
 template <int n>
-void JointIteration<n>::update(CycledMedium& fluid, CycledMedium& wall, const std::vector<double>& impedance) {
+void JointIteration<n>::update(MediumPreconditioner& fluid, MediumPreconditioner& wall,
+                               const std::vector<double>& impedance) {
   fluid_ = &fluid;
   wall_ = &wall;
+  layout_ = {fluid.size(), wall.size(), scene_.interface.size() * n};
   links_.clear();
   for (std::size_t i = 0; i < scene_.interface.size(); ++i) {
     const auto& node = scene_.interface[i];
@@ -42,7 +44,7 @@ void JointIteration<n>::update(CycledMedium& fluid, CycledMedium& wall, const st
 }
 
 template <int n>
-typename JointIteration<n>::Vector JointIteration<n>::vector_at(const std::vector<float>& x, int place,
+typename JointIteration<n>::Vector JointIteration<n>::vector_at(VectorView<const float> x, int place,
                                                                 const NodalAxes<n>* axes) {
   Vector v{};
   if (place < 0) return v;
@@ -59,7 +61,7 @@ typename JointIteration<n>::Vector JointIteration<n>::vector_at(const std::vecto
 
 template <int n>
 void JointIteration<n>::add_to(const Vector& x, int place, const NodalAxes<n>* axes, const std::array<bool, n>& free,
-                               std::vector<float>& to) {
+                               VectorView<float> to) {
   if (place < 0) return;
   Direction<n> turned{};
   std::copy(x.begin(), x.end(), turned.begin());
@@ -69,24 +71,7 @@ void JointIteration<n>::add_to(const Vector& x, int place, const NodalAxes<n>* a
 }
 
 template <int n>
-void JointIteration<n>::join(const Parts& parts, std::vector<float>& x) const {
-  x.resize(parts.fluid.size() + parts.wall.size() + parts.datum.size());
-  auto to = std::copy(parts.fluid.begin(), parts.fluid.end(), x.begin());
-  to = std::copy(parts.wall.begin(), parts.wall.end(), to);
-  std::copy(parts.datum.begin(), parts.datum.end(), to);
-}
-
-template <int n>
-void JointIteration<n>::split(const std::vector<float>& x, Parts& parts) const {
-  const auto fluid_end = x.begin() + static_cast<std::ptrdiff_t>(fluid_->size());
-  const auto wall_end = fluid_end + static_cast<std::ptrdiff_t>(wall_->size());
-  parts.fluid.assign(x.begin(), fluid_end);
-  parts.wall.assign(fluid_end, wall_end);
-  parts.datum.assign(wall_end, x.end());
-}
-
-template <int n>
-void JointIteration<n>::load_wall(const Parts& z, float sign, std::vector<float>& wall) const {
+void JointIteration<n>::load_wall(const Blocks& z, float sign, VectorView<float> wall) const {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
     Vector load = vector_at(z.fluid, link.fluid, link.fluid_axes);
@@ -96,8 +81,7 @@ void JointIteration<n>::load_wall(const Parts& z, float sign, std::vector<float>
 }
 
 template <int n>
-void JointIteration<n>::add_interface_terms(const Parts& z, Parts& products) const {
-  products.datum.resize(z.datum.size());
+void JointIteration<n>::add_interface_terms(const Blocks& z, const Blocks& products) const {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
     const Vector fluid = vector_at(z.fluid, link.fluid, link.fluid_axes);
@@ -115,40 +99,39 @@ void JointIteration<n>::add_interface_terms(const Parts& z, Parts& products) con
 template <int n>
 void JointIteration<n>::pass(const std::vector<float>& r, std::vector<float>& z, std::vector<float>& y,
                              const Seconds& seconds) {
-  split(r, in_);
-  out_.datum.resize(in_.datum.size());
+  in_ = r;
+  z.resize(layout_.size());
+  y.resize(layout_.size());
+  const Blocks in = layout_.view(in_), out = layout_.view(z), products = layout_.view(y);
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
     Vector force;
     for (int k = 0; k < n; ++k) {
-      force[k] = -in_.datum[i * n + k] / weight_of_gap;
-      out_.datum[i * n + k] = link.impedance > 0 ? force[k] / link.impedance : 0;
+      force[k] = -in.datum[i * n + k] / weight_of_gap;
+      out.datum[i * n + k] = link.impedance > 0 ? force[k] / link.impedance : 0;
     }
-    add_to(force, link.fluid, link.fluid_axes, link.fluid_free, in_.fluid);
+    add_to(force, link.fluid, link.fluid_axes, link.fluid_free, in.fluid);
   }
   {
     const Stopwatch watch(seconds.fluid);
-    fluid_->cycle(in_.fluid, out_.fluid, products_.fluid);
+    fluid_->apply(in.fluid, out.fluid, products.fluid);
   }
-  load_wall(out_, 1, in_.wall);
+  load_wall(out, 1, in.wall);
   {
     const Stopwatch watch(seconds.wall);
-    wall_->cycle(in_.wall, out_.wall, products_.wall);
+    wall_->apply(in.wall, out.wall, products.wall);
   }
-  join(out_, z);
-  add_interface_terms(out_, products_);
-  join(products_, y);
+  add_interface_terms(out, products);
 }
 
 template <int n>
-int JointIteration<n>::solve(Parts& right, double tolerance, int most_iterations, Parts& solution,
-                             const Seconds& seconds) {
-  for (float& value : right.datum) value *= weight_of_gap;
-  join(right, right_);
-  const auto report = gmres_.solve([&](const auto& residual, auto& z, auto& y) { pass(residual, z, y, seconds); },
-                                   right_, solution_, tolerance, most_iterations);
-  split(solution_, solution);
-  return report.iterations;
+int JointIteration<n>::solve(std::vector<float>& right, double tolerance, int most_iterations,
+                             std::vector<float>& solution, const Seconds& seconds) {
+  for (float& value : layout_.view(right).datum) value *= weight_of_gap;
+  return gmres_
+      .solve([&](const auto& residual, auto& z, auto& y) { pass(residual, z, y, seconds); }, right, solution, tolerance,
+             most_iterations)
+      .iterations;
 }
 
 #define FSI_INSTANTIATE(n) template class JointIteration<n>;

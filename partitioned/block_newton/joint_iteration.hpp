@@ -4,10 +4,11 @@
 #include <vector>
 
 #include "fem/nodal_frames.hpp"
+#include "partitioned/block_newton/block_vector.hpp"
 #include "scene/scene.hpp"
 #include "solvers/krylov/single_gmres.hpp"
-#include "system/cycled_medium.hpp"
 #include "system/field_numbering.hpp"
+#include "system/medium_preconditioner.hpp"
 
 namespace fsi {
 
@@ -21,11 +22,6 @@ namespace fsi {
 template <int n>
 class JointIteration {
  public:
-  /// One number or vector for each medium, and the datum's: n numbers per node of the scene's interface, along the axes of
-  /// space.
-  struct Parts {
-    std::vector<float> fluid, wall, datum;
-  };
   /// Seconds of either medium.
   struct Seconds {
     double &fluid, &wall;
@@ -35,12 +31,16 @@ class JointIteration {
 
   /// The Jacobians hold new values, or the Robin condition has another impedance.
   /// \param impedance  C, per node of the scene's interface; zero where there is no condition
-  void update(CycledMedium& fluid, CycledMedium& wall, const std::vector<double>& impedance);
+  void update(MediumPreconditioner& fluid, MediumPreconditioner& wall, const std::vector<double>& impedance);
+
+  /// Of the vectors of solve(), as of the last update().
+  const BlockLayout& layout() const { return layout_; }
 
   /// Of residuals r, Euclidean norms of all: z and x, up to a residual of `tolerance` |r|.
   /// \param right  overwritten
   /// \returns iterations
-  int solve(Parts& right, double tolerance, int most_iterations, Parts& solution, const Seconds& seconds);
+  int solve(std::vector<float>& right, double tolerance, int most_iterations, std::vector<float>& solution,
+            const Seconds& seconds);
 
  private:
   /// A node of the interface in the vectors of both media.
@@ -51,26 +51,25 @@ class JointIteration {
     std::array<bool, n> fluid_free, wall_free;  ///< whether a component has an equation
   };
   using Vector = std::array<float, n>;
-  static Vector vector_at(const std::vector<float>& x, int place, const NodalAxes<n>* axes);
+  using Blocks = BlockView<float>;
+  static Vector vector_at(VectorView<const float> x, int place, const NodalAxes<n>* axes);
   static void add_to(const Vector& x, int place, const NodalAxes<n>* axes, const std::array<bool, n>& free,
-                     std::vector<float>& to);
+                     VectorView<float> to);
 
-  void join(const Parts& parts, std::vector<float>& x) const;
-  void split(const std::vector<float>& x, Parts& parts) const;
   /// wall += C (z_f - x)
-  void load_wall(const Parts& z, float sign, std::vector<float>& wall) const;
+  void load_wall(const Blocks& z, float sign, VectorView<float> wall) const;
   /// z = the pass's answer to r, y = the matrix times z.
   void pass(const std::vector<float>& r, std::vector<float>& z, std::vector<float>& y, const Seconds& seconds);
   /// Adds what the interface's terms make of z to the products of the media's own Jacobians; the datum's are set.
-  void add_interface_terms(const Parts& z, Parts& products) const;
+  void add_interface_terms(const Blocks& z, const Blocks& products) const;
 
   const Scene<n>& scene_;
   const Numbering &fluid_numbering_, &wall_numbering_;
-  CycledMedium *fluid_ = nullptr, *wall_ = nullptr;
+  MediumPreconditioner *fluid_ = nullptr, *wall_ = nullptr;
+  BlockLayout layout_;
   std::vector<Link> links_;
   SingleGmres gmres_;
-  Parts in_, out_, products_;
-  std::vector<float> right_, solution_;
+  std::vector<float> in_;  ///< r of a pass, with the forces of the interface
 };
 
 }  // namespace fsi

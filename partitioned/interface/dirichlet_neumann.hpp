@@ -19,6 +19,8 @@ class DirichletNeumann : public InterfaceProblem<n> {
   DirichletNeumann(Scene<n>& scene, const PartitionedData& options)
       : Base(scene, options), fluid_("fluid", scene, number_fluid(scene), Base::solver_factory(options)) {}
 
+  const System<n>& fluid() const override { return fluid_; }
+
   void start(State& state, StepData& data) override {
     Base::start(state, data);
     fluid_.work_on(state, data);
@@ -61,7 +63,7 @@ class DirichletNeumann : public InterfaceProblem<n> {
   }
 
  private:
-  System<n> fluid_;
+  MediumSystem<n> fluid_;
   std::vector<double> d_;
 };
 

@@ -14,7 +14,7 @@
 #include "partitioned/interface/mesh_motion_solver.hpp"
 #include "partitioned/interface/sub_problem.hpp"
 #include "scene/scene.hpp"
-#include "system/system.hpp"
+#include "system/medium_system.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {
@@ -39,7 +39,7 @@ struct PassAccuracy {
 template <int n>
 class InterfaceProblem {
  public:
-  /// \param wall_impedance  joins the wall's equations (System), and is made later; null: nothing
+  /// \param wall_impedance  joins the wall's equations (MediumSystem), and is made later; null: nothing
   InterfaceProblem(Scene<n>& scene, const PartitionedData& options, const InterfaceImpedance* wall_impedance = nullptr)
       : InterfaceProblem(scene, solver_factory(options), wall_impedance) {}
   /// \param wall_solver  of the wall's linearised equations
@@ -69,6 +69,9 @@ class InterfaceProblem {
   }
   /// Of schemes that do not iterate: whether the next step is iterated all the same, x being what its passes are a function of.
   virtual void iterate(bool /*on*/) {}
+  /// The equations of either medium by itself.
+  virtual const System<n>& fluid() const = 0;
+  const System<n>& wall() const { return wall_; }
   /// x of the first guess, extrapolated by `order`.
   virtual std::vector<double> first_guess(int order) = 0;
   /// r(x), the sub-problems solved as `accuracy` says; leaves their fields in the state. \throws PassFailure
@@ -249,7 +252,7 @@ class InterfaceProblem {
   Scene<n>& scene_;
   Membrane membrane_;                                 ///< the wall on the interface
   std::unique_ptr<MeshMotionSolver<n>> mesh_motion_;  ///< made when first asked for
-  System<n> wall_;
+  MediumSystem<n> wall_;
   State* state_ = nullptr;
   StepData* data_ = nullptr;
 

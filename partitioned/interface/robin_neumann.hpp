@@ -45,6 +45,8 @@ class RobinNeumann : public InterfaceProblem<n> {
   }
 
  public:
+  const System<n>& fluid() const override { return fluid_; }
+
   void start(State& state, StepData& data) override {
     Base::start(state, data);
     if (data.rates.stage == 0) stage_loads_.clear();  // of a step that failed
@@ -158,7 +160,7 @@ class RobinNeumann : public InterfaceProblem<n> {
   }
 
   InterfaceImpedance robin_;  ///< R_f + c (u - v), v being g / c
-  System<n> fluid_;
+  MediumSystem<n> fluid_;
 
  private:
   /// Where elements are small the membrane's impedance may let the interface go so far in a step that they fold. Four

@@ -53,6 +53,8 @@ class RobinRobin : private RobinSides, public InterfaceProblem<n> {
 
   const RobinCoefficient& coefficient() const { return coefficient_; }
 
+  const System<n>& fluid() const override { return fluid_; }
+
   void start(State& state, StepData& data) override {
     Base::start(state, data);
     fluid_.work_on(state, data);
@@ -232,7 +234,7 @@ class RobinRobin : private RobinSides, public InterfaceProblem<n> {
 
   RobinCoefficient coefficient_;
   double alpha_;  ///< kPa/(mm/ms)
-  System<n> fluid_;
+  MediumSystem<n> fluid_;
   std::vector<double> next_traction_;            ///< of the step in progress
   std::vector<double> load_;                     ///< of the wall in its last solution, kPa mm^2
   std::vector<double> whole_rows_;               ///< the fluid's, ghosts too

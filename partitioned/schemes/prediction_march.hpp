@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "partitioned/own_jacobians.hpp"
 #include "partitioned/schemes/robin_robin_stepper.hpp"
 #include "restart/state_checkpoint.hpp"
 
@@ -19,7 +18,6 @@ class PredictionMarch {
   /// \param scheme  the one that is predicted for, must outlive this
   PredictionMarch(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme)
       : scene_(scene),
-        jacobians_(scene),
         stepper_(scene, loads, setup, scheme, std::make_unique<RobinRobin<n>>(scene, setup.partitioned)) {}
 
   /// Solves the step that follows, which becomes the latest with finish_step() only.
@@ -29,7 +27,6 @@ class PredictionMarch {
     next_ = *state_;
     next_.step = corrected.step;
     next_.time = corrected.time;
-    const typename OwnJacobians<n>::Use use(jacobians_);
     stepper_.solve_step(next_);
     return stepper_.report();
   }
@@ -49,13 +46,11 @@ class PredictionMarch {
     if (!state_) return;
     fsi::keep(*state_, own);
     state_->now = state_->before[0];
-    const typename OwnJacobians<n>::Use use(jacobians_);
     stepper_.keep(own);
   }
 
  private:
   Scene<n>& scene_;
-  OwnJacobians<n> jacobians_;
   RobinRobinStepper<n> stepper_;
   std::optional<State> state_;  ///< at the end of the last step; empty before the first
   State next_;                  ///< of the step in progress

@@ -114,7 +114,9 @@ class FluidStep : public SubProblem {
 
  private:
   FluidStep(FluidProblem<Element>& fluid, std::pair<UnknownMap, std::int64_t> numbered)
-      : SubProblem(std::move(numbered.first), numbered.second), fluid_(fluid) {
+      : SubProblem(std::move(numbered.first), numbered.second),
+        fluid_(fluid),
+        jacobian_(fluid.graph(), FluidDerivatives::fluid) {
     const auto nodes = static_cast<std::size_t>(fluid.node_count());
     solution.assign(nodes * (Element::components + 1), 0.0);
     fluid_old = solution;
@@ -123,13 +125,14 @@ class FluidStep : public SubProblem {
   }
   AssemblyResult assemble(const std::vector<double>& at, std::vector<double>& residual, bool derivatives) override {
     return fluid_.assemble(euler_input(&mesh, &mesh_old, at, fluid_old, fluid_.form().step), pressures, residual,
-                           derivatives ? FluidDerivatives::fluid : FluidDerivatives::none);
+                           derivatives ? &jacobian_ : nullptr);
   }
   void gather(GatheredMatrix::Builder& builder, const UnknownMap& map) override {
-    gather_blocks(builder, fluid_.jacobian(FluidDerivatives::fluid).fluid, map, map);
+    gather_blocks(builder, jacobian_.fluid, map, map);
   }
 
   FluidProblem<Element>& fluid_;
+  FluidJacobian<Element::components> jacobian_;
 };
 
 /// The wall in statics.
@@ -144,17 +147,18 @@ class WallEquilibrium : public SubProblem {
 
  private:
   WallEquilibrium(WallProblem<Element>& wall, std::pair<UnknownMap, std::int64_t> numbered)
-      : SubProblem(std::move(numbered.first), numbered.second), wall_(wall) {
+      : SubProblem(std::move(numbered.first), numbered.second), wall_(wall), jacobian_(wall.graph()) {
     solution.assign(static_cast<std::size_t>(wall.node_count()) * (Element::components + 1), 0.0);
   }
   AssemblyResult assemble(const std::vector<double>& at, std::vector<double>& residual, bool derivatives) override {
-    return wall_.assemble({at.data(), nullptr, 0.0}, pressure, at, residual, derivatives);
+    return wall_.assemble({at.data(), nullptr, 0.0}, pressure, at, residual, derivatives ? &jacobian_ : nullptr);
   }
   void gather(GatheredMatrix::Builder& builder, const UnknownMap& map) override {
-    gather_blocks(builder, wall_.jacobian(), map, map);
+    gather_blocks(builder, jacobian_, map, map);
   }
 
   WallProblem<Element>& wall_;
+  WallMatrix<Element::components> jacobian_;
 };
 
 /// Harmonic mesh motion, values prescribed on the boundary.

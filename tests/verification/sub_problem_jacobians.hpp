@@ -53,9 +53,8 @@ void check_fluid_blocks(FluidProblem<Element>& fluid, const FluidState<Element>&
   constexpr int n = Element::components;
   const auto& x = fluid.part().nodes;
   std::vector<double> at_state;
-  const auto assembled = fluid.assemble(state.input(), {}, at_state, FluidDerivatives::fluid_and_domain);
-  ASSERT_FALSE(assembled.inverted());
-  const auto jacobian = fluid.jacobian(FluidDerivatives::fluid_and_domain);
+  FluidJacobian<n> jacobian(fluid.graph(), FluidDerivatives::fluid_and_domain);
+  ASSERT_FALSE(fluid.assemble(state.input(), {}, at_state, &jacobian).inverted());
 
   std::vector<double> without_derivatives;
   fluid.assemble(state.input(), {}, without_derivatives);
@@ -103,14 +102,14 @@ void check_wall_blocks(WallProblem<Element>& wall, std::vector<double> solution,
                        const std::vector<unsigned>& seeds) {
   constexpr int n = Element::components;
   const auto& x = wall.part().nodes;
-  const auto residual_at = [&](const std::vector<double>& at, bool derivatives = false) {
+  const auto residual_at = [&](const std::vector<double>& at, WallMatrix<n>* jacobian = nullptr) {
     std::vector<double> r;
-    const auto result = wall.assemble({at.data(), history.data(), acceleration_factor}, pressure, at, r, derivatives);
+    const auto result = wall.assemble({at.data(), history.data(), acceleration_factor}, pressure, at, r, jacobian);
     EXPECT_FALSE(result.inverted()) << name;
     return r;
   };
-  const auto at_state = residual_at(solution, true);
-  const auto jacobian = wall.jacobian();
+  WallMatrix<n> jacobian(wall.graph());
+  const auto at_state = residual_at(solution, &jacobian);
   EXPECT_LT(norm(difference(at_state, residual_at(solution))), 1e-14 * norm(at_state)) << "two loops, one residual";
 
   // In the plane J is quadratic, tr E is everywhere, tr eps even linear as all of its law.

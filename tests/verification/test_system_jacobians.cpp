@@ -13,7 +13,7 @@
 #include "support/differences.hpp"
 #include "support/scenes.hpp"
 #include "system/jacobian_product.hpp"
-#include "system/system.hpp"
+#include "system/medium_system.hpp"
 #include "wall/wall_problem.hpp"
 
 namespace fsi::test::system_jacobians_tests {
@@ -184,9 +184,7 @@ constexpr double first_step = 0.05;  // larger ones leave the range of second or
 
 /// The assembled matrix against differences of the assembled residual, whole and group of equations by group: a block
 /// of small entries cannot hide behind one of large ones.
-void check_system(const Scenario& scenario, Numbering numbering, const std::string& name,
-                  const InterfaceImpedance* impedance = nullptr) {
-  System<3> system(name, *scenario.scene, std::move(numbering), {}, SystemNorm::volumes, impedance);
+void check_system(const Scenario& scenario, System<3>& system, const std::string& name) {
   State state = scenario.state;
   system.work_on(state, scenario.data);
   system.linearise();
@@ -216,6 +214,10 @@ void check_system(const Scenario& scenario, Numbering numbering, const std::stri
       linear ? expect_exact(table) : expect_second_order(table);
     }
   }
+}
+void check_system(const Scenario& scenario, Numbering numbering, const std::string& name) {
+  System<3> system(name, *scenario.scene, std::move(numbering));
+  check_system(scenario, system, name);
 }
 
 constexpr double stretched = 0.7, slack = 1.4;
@@ -274,7 +276,9 @@ TEST(TurnedJacobian, OfAllSystemsWithNodesThatHaveFrames) {
     impedance.impedance.push_back(1 + 0.5 * random());
     for (int k = 0; k < 3; ++k) impedance.velocity.push_back(random());
   }
-  check_system(scenario, number_fluid_and_domain(*scenario.scene), "turned nodes, fluid and domain", &impedance);
+  MediumSystem<3> system("fluid", *scenario.scene, number_fluid_and_domain(*scenario.scene), {}, SystemNorm::volumes,
+                         &impedance);
+  check_system(scenario, system, "turned nodes, fluid and domain");
 }
 
 constexpr MeshMotionOptions elastic{MeshMotionMethod::nonlinear_elastic, 1, 1, 0.3};
@@ -371,10 +375,13 @@ SparseMatrix spoiled_matrix(const Scenario& scenario, Spoil spoil) {
   State state = scenario.state;
   system.work_on(state, scenario.data);
   system.linearise();
-  auto& fluid = scenario.scene->fluid->jacobian(FluidDerivatives::fluid_and_domain);
+  const auto blocks = system.blocks();
+  FluidJacobian<3> fluid;
+  fluid.fluid = *blocks.fluid;
+  fluid.shape_derivatives = *blocks.shape_derivatives;
   spoil(numbering, fluid);
   GatheredMatrix::Builder builder(numbering.size);
-  gather_blocks(builder, scenario.scene->wall->jacobian(), numbering.wall_rows, numbering.wall);
+  gather_blocks(builder, *blocks.wall, numbering.wall_rows, numbering.wall);
   gather_blocks(builder, fluid.fluid, numbering.fluid_rows, numbering.fluid);
   gather_blocks(builder, fluid.shape_derivatives, numbering.fluid_rows, numbering.mesh);
   gather_diagonal_blocks(builder, scenario.scene->mesh_motion, numbering.mesh_rows, numbering.mesh);

@@ -114,7 +114,7 @@ TEST(FastSolver, ThePreconditionerKnowsTheProductWithItsAnswer) {
     std::vector<double> right(layout.size());
     Random random(5);
     for (double& value : right) value = random();
-    std::vector<float> r, z(matrix.size()), alone(z), product(z), expected(z);
+    std::vector<float> r(matrix.size()), z(r), alone(r), product(z), expected(z);
     matrix.take(right, 1, r);
     preconditioner.apply(r, alone);
     preconditioner.apply(r, z, product);

@@ -36,9 +36,8 @@ double relative_error(Numbering numbering, Scene<3>& scene) {
       fixed_mesh;
   for (std::size_t i = 0; i < layout.velocity_size(); ++i)
     if (wet[i / 3]) v[i] = std::cos(static_cast<double>(i));
-  std::vector<float> single, product;
+  std::vector<float> single(matrix.size()), product(single);
   matrix.take(v, 1, single);
-  product.resize(matrix.size());
   matrix.multiply(single, product);
   matrix.give(product, 1, mine);
 

@@ -31,15 +31,17 @@ Assembled assemble_with(int thread_count) {
   EXPECT_EQ(fluid.packs().thread_count(), thread_count);
   const auto d = random_field(x, 3, 0.1, 0.02, 1), d_old = random_field(x, 3, 0.1, 0.02, 2);
   const auto u = random_field(x, 4, 3, 0.5, 3), u_old = random_field(x, 4, 3, 0.5, 4);
-  fluid.assemble(euler_input(&d, &d_old, u, u_old, 0.5), {}, all.fluid, FluidDerivatives::fluid_and_domain);
-  all.fluid_flow = fluid.jacobian(FluidDerivatives::fluid_and_domain).fluid.values;
-  all.fluid_mesh = fluid.jacobian(FluidDerivatives::fluid_and_domain).shape_derivatives.values;
+  FluidJacobian<3> jacobian(fluid.graph(), FluidDerivatives::fluid_and_domain);
+  fluid.assemble(euler_input(&d, &d_old, u, u_old, 0.5), {}, all.fluid, &jacobian);
+  all.fluid_flow = jacobian.fluid.values;
+  all.fluid_mesh = jacobian.shape_derivatives.values;
 
   const CylinderAxis axis{{{-0.7, -0.4, 0}}, {{0, 0, 1}}};
   WallProblem<Tet> wall(whole(mesh), {1.2, 50, 0.5}, {{0, Artery{3, 2.4, 0.8, 1, 29}}}, axis);
   const auto s = random_field(x, 4, 0.1, 0.02, 5), history = random_field(x, 3, 1, 0.1, 6);
-  wall.assemble({s.data(), history.data(), 16.0}, 0, s, all.wall, true);
-  all.wall_matrix = wall.jacobian().values;
+  WallMatrix<3> wall_jacobian(wall.graph());
+  wall.assemble({s.data(), history.data(), 16.0}, 0, s, all.wall, &wall_jacobian);
+  all.wall_matrix = wall_jacobian.values;
 
   MeshMotionMatrix<3> matrix(fluid.graph());
   assemble_mesh_motion(fluid.packs(), matrix);

@@ -65,6 +65,22 @@ void expect_same(const Case& iterating, const Case& factorising) {
   }
 }
 
+TEST(BlockLayout, ViewsAreThePartsOfTheWholeInPlace) {
+  const BlockLayout layout{2, 3, 1};
+  std::vector<float> whole{1, 2, 3, 4, 5, 6};
+  ASSERT_EQ(layout.size(), whole.size());
+  const BlockView<float> parts = layout.view(whole);
+  EXPECT_EQ(std::vector<float>(parts.fluid.begin(), parts.fluid.end()), (std::vector<float>{1, 2}));
+  EXPECT_EQ(std::vector<float>(parts.wall.begin(), parts.wall.end()), (std::vector<float>{3, 4, 5}));
+  EXPECT_EQ(std::vector<float>(parts.datum.begin(), parts.datum.end()), (std::vector<float>{6}));
+  parts.fluid[1] = -2;
+  parts.wall[0] = -3;
+  parts.datum[0] = -6;
+  EXPECT_EQ(whole, (std::vector<float>{1, -2, -3, 4, 5, -6}));
+  const std::vector<float>& constant = whole;
+  EXPECT_EQ(layout.view(constant).wall[0], -3);
+}
+
 TEST(JointIteration, AgreesWithFactorisedMedia) {
   expect_same(block_newton_case(0), block_newton_case(1'000'000));
 }
@@ -137,23 +153,21 @@ TEST(JointIteration, CyclesKnowTheJacobian) {
   StepData data;
   data.rates = scene->integrator->rates(state, 0.125);
   data.opening_pressures = {0.1, 0.2};
-  System<3> system("fluid", *scene, number_fluid(*scene, true), general_solver_factory<3>("fast", iterative));
+  MediumSystem<3> system("fluid", *scene, number_fluid(*scene, true), general_solver_factory<3>("fast", iterative));
   system.work_on(state, data);
   system.evaluate();
-  EXPECT_EQ(system.cycled(), nullptr) << "before there is a Jacobian";
+  EXPECT_EQ(system.preconditioner(), nullptr) << "before there is a Jacobian";
   system.linearise();
-  CycledMedium* medium = system.cycled();
+  MediumPreconditioner* medium = system.preconditioner();
   ASSERT_NE(medium, nullptr);
   Random random(3);
-  std::vector<float> single(medium->size()), product(medium->size()), expected, answer;
+  std::vector<float> single(medium->size()), product(single), expected(single), answer(single);
   for (float& value : single) value = static_cast<float>(random());
-  std::vector<double> x, whole, ordered;
-  medium->complete(single, 1, 1e-6, x);
-  medium->order(x, ordered);  // without padding and held components
-  medium->shorten(ordered, 1, single);
+  std::vector<double> x, whole;
+  medium->expand(single, 1, 1e-6, x);
+  medium->gather(x, single);  // without padding and held components
   medium->multiply_whole(x, whole);
-  medium->order(whole, ordered);
-  medium->shorten(ordered, 1, expected);
+  medium->gather(whole, expected);
   medium->multiply(single, product);
   float size = 0, apart = 0;
   for (std::size_t i = 0; i < product.size(); ++i) {
@@ -162,8 +176,8 @@ TEST(JointIteration, CyclesKnowTheJacobian) {
   }
   EXPECT_LT(apart, 1e-5f * size);
   // A cycle answers to the product by about the vector itself, and knows the product with its answer.
-  std::vector<float> of_answer;
-  medium->cycle(product, answer, of_answer);
+  std::vector<float> of_answer(medium->size());
+  medium->apply(product, answer, of_answer);
   expected.assign(answer.size(), 0.0F);
   medium->multiply(answer, expected);
   apart = 0;

@@ -280,8 +280,10 @@ TYPED_TEST(SharedScene, HasTheWholeMatrixOfTheWorkUnit) {
   Both<TypeParam> both(case_of("neo-hookean", LayerPressure::separate));
   EXPECT_EQ(CoupledProduct<TypeParam::components>(*both.here).entries(),
             CoupledProduct<TypeParam::components>(*both.whole).entries());
+  const System<TypeParam::components> system("coupled", *both.here, number_scene(*both.here));
+  const MatrixValues values{system.fluid_values(), system.wall_values()};
   WorkUnitMeter<TypeParam::components> meter(*both.here);
-  for (int step = 0; step < 9; ++step) meter.measure(step == 0 ? 1.0 + world().rank() : 1e9);
+  for (int step = 0; step < 9; ++step) meter.measure(step == 0 ? 1.0 + world().rank() : 1e9, values);
   EXPECT_EQ(meter.unit().products, WorkUnitMeter<TypeParam::components>::enough);
   EXPECT_EQ(meter.unit().seconds, world().largest(meter.unit().seconds));
 }

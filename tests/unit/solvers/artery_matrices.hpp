@@ -40,11 +40,11 @@ struct ArteryMatrices {
     Loads loads(setup);
     const StepData data = loads.next(state, *scene->integrator);
     std::vector<double> rows;
-    scene->fluid->assemble(scene->fluid_input(state, data.rates), data.opening_pressures, rows,
-                           FluidDerivatives::fluid);
-    scene->wall->assemble(scene->wall_input(state, data.rates), 0, state.now.wall, rows, true);
-    fluid = scene->fluid->jacobian(FluidDerivatives::fluid).fluid;
-    wall = scene->wall->jacobian();
+    FluidJacobian<3> of_fluid(scene->fluid->graph(), FluidDerivatives::fluid);
+    scene->fluid->assemble(scene->fluid_input(state, data.rates), data.opening_pressures, rows, &of_fluid);
+    fluid = std::move(of_fluid.fluid);
+    wall = WallMatrix<3>(scene->wall->graph());
+    scene->wall->assemble(scene->wall_input(state, data.rates), 0, state.now.wall, rows, &wall);
     mesh = BlockMatrix<1, 1>(scene->mesh_motion.graph);
     for (int at = 0; at < mesh.graph->blocks(); ++at) mesh.values[at] = scene->mesh_motion.block(at)[0];
 

@@ -9,8 +9,8 @@
 #include "support/random.hpp"
 #include "support/scenes.hpp"
 #include "system/jacobian_product.hpp"
+#include "system/medium_system.hpp"
 #include "system/numbering.hpp"
-#include "system/system.hpp"
 
 namespace fsi::test {
 
@@ -38,9 +38,9 @@ struct FreeFluid {
     }
     impedance.impedance.front() = 0;
   }
-  std::unique_ptr<System<3>> system(const InterfaceImpedance* with) {
-    auto made = std::make_unique<System<3>>("fluid", *scene, number_fluid(*scene, true), LinearSolverFactory<3>{},
-                                            SystemNorm::entries, with);
+  std::unique_ptr<MediumSystem<3>> system(const InterfaceImpedance* with) {
+    auto made = std::make_unique<MediumSystem<3>>("fluid", *scene, number_fluid(*scene, true), LinearSolverFactory<3>{},
+                                                  SystemNorm::entries, with);
     made->work_on(state, data);
     return made;
   }

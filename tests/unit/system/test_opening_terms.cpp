@@ -15,8 +15,8 @@
 #include "support/random.hpp"
 #include "support/scenes.hpp"
 #include "system/jacobian_product.hpp"
+#include "system/medium_system.hpp"
 #include "system/numbering.hpp"
-#include "system/system.hpp"
 
 namespace fsi::test {
 
@@ -200,7 +200,7 @@ TEST(OpeningTerms, FindThePressureOfAGivenFlow) {
       LowRankLinearSolver<3> solver(system->blocks(), general_solver_factory<3>(name, iterative)(system->blocks()),
                                     terms);
       solver.update();
-      EXPECT_EQ(solver.cycled(), nullptr) << "no cycle knows a pressure that is an unknown";
+      EXPECT_EQ(solver.medium_preconditioner(), nullptr) << "no cycle knows a pressure that is an unknown";
       std::vector<double> x, rows;
       ASSERT_TRUE(solver.solve(b, 1e-10, x).converged) << name;
       std::vector<double> flow(numbering.fluid.size(), 0.0), forces = flow;
@@ -222,7 +222,7 @@ TEST(OpeningTerms, AreNotFactorisedForWhoAsksForCycles) {
   FastOptions few;
   few.direct_below = 0;
   few.max_iterations = few.restart = 1;
-  System<3> system("tested", *open.scene, number_fluid(*open.scene), general_solver_factory<3>("fast", few));
+  MediumSystem<3> system("tested", *open.scene, number_fluid(*open.scene), general_solver_factory<3>("fast", few));
   system.work_on(open.state, open.data);
   system.evaluate();
   system.linearise();
@@ -231,12 +231,12 @@ TEST(OpeningTerms, AreNotFactorisedForWhoAsksForCycles) {
     const auto found = counters.find("linear solves rescued by factorisation");
     return found == counters.end() ? 0 : found->second;
   };
-  EXPECT_EQ(system.cycled(), nullptr);
-  EXPECT_TRUE(system.cycles());
+  EXPECT_EQ(system.preconditioner(), nullptr);
+  EXPECT_TRUE(system.is_iterative());
   EXPECT_EQ(rescues(), 0);
   system.solve(1e-6);
   EXPECT_EQ(rescues(), 1);
-  EXPECT_EQ(system.cycled(), nullptr) << "it is factorised";
+  EXPECT_EQ(system.preconditioner(), nullptr) << "it is factorised";
 }
 
 TEST(OpeningTerms, AreNotBuiltWithoutThem) {

@@ -55,11 +55,17 @@ std::vector<double> counted(const NodeGraph& graph, int rows, int columns) {
   return sums;
 }
 
-void set_to_one(Scene<3>& scene) {
-  const auto ones = [](std::vector<double>& values) { std::fill(values.begin(), values.end(), 1.0); };
-  if (scene.fluid) ones(scene.fluid->jacobian(FluidDerivatives::fluid).fluid.values);
-  if (scene.wall) ones(scene.wall->jacobian().values);
-}
+/// Matrices of the media of which all numbers are one.
+struct Ones {
+  explicit Ones(const Scene<3>& scene) {
+    constexpr std::size_t of_block = mixed * mixed;
+    if (scene.fluid) fluid.assign(of_block * static_cast<std::size_t>(scene.fluid->graph()->blocks()), 1.0);
+    if (scene.wall) wall.assign(of_block * static_cast<std::size_t>(scene.wall->graph()->blocks()), 1.0);
+  }
+  MatrixValues values() const { return {fluid.empty() ? nullptr : &fluid, wall.empty() ? nullptr : &wall}; }
+
+  std::vector<double> fluid, wall;
+};
 
 TEST(WorkUnit, IsOfTheMatrixOfTheMonolithicDriver) {
   for (const bool elastic_mesh : {false, true}) {
@@ -73,9 +79,9 @@ TEST(WorkUnit, IsOfTheOneMediumThatThereIs) {
   for (const bool fluid : {true, false}) {
     const auto scene = box(fluid, !fluid);
     EXPECT_EQ(CoupledProduct<3>(*scene).entries(), stored(*scene));
-    set_to_one(*scene);
+    const Ones ones(*scene);
     CoupledProduct<3> product(*scene);
-    product.multiply();
+    product.multiply(ones.values());
     EXPECT_EQ(product.fluid_rows(), fluid ? counted(*scene->fluid->graph(), mixed, mixed) : std::vector<double>());
     EXPECT_EQ(product.wall_rows(), fluid ? std::vector<double>() : counted(*scene->wall->graph(), mixed, mixed));
     EXPECT_TRUE(product.mesh_rows().empty());
@@ -85,10 +91,10 @@ TEST(WorkUnit, IsOfTheOneMediumThatThereIs) {
 TEST(WorkUnit, ReadsEachNumberOnce) {
   for (const bool elastic_mesh : {false, true}) {
     const auto scene = box(true, true, elastic_mesh);
-    set_to_one(*scene);
+    const Ones ones(*scene);
     CoupledProduct<3> product(*scene);
     for (int again = 0; again < 2; ++again) {  // rows are those of one product, however many there were
-      product.multiply();
+      product.multiply(ones.values());
       EXPECT_EQ(product.fluid_rows(), counted(*scene->fluid->graph(), mixed, mixed + n));
       EXPECT_EQ(product.mesh_rows(), counted(*scene->fluid->graph(), n, elastic_mesh ? n : 1));
       EXPECT_EQ(product.wall_rows(), counted(*scene->wall->graph(), mixed, mixed));
@@ -109,7 +115,8 @@ TEST(WorkUnit, LeavesTheJacobiansAlone) {
   const auto fluid = blocks.fluid->values, shape = blocks.shape_derivatives->values, wall = blocks.wall->values,
              mesh = blocks.mesh_laplacian->values;
   WorkUnitMeter<3> meter(*scene);
-  meter.measure(1e9);
+  meter.measure(1e9, {system.fluid_values(), system.wall_values()});
+  EXPECT_EQ(meter.unit().products, 1);
   EXPECT_EQ(blocks.fluid->values, fluid);
   EXPECT_EQ(blocks.shape_derivatives->values, shape);
   EXPECT_EQ(blocks.wall->values, wall);
@@ -118,16 +125,18 @@ TEST(WorkUnit, LeavesTheJacobiansAlone) {
 
 TEST(WorkUnit, TakesAFewProductsWhereTheRunIsLongEnough) {
   const auto scene = box(true, true);
+  const Ones ones(*scene);
   WorkUnitMeter<3> meter(*scene);
-  EXPECT_EQ(meter.unit().products, 0);
+  meter.measure(0, {});
+  EXPECT_EQ(meter.unit().products, 0) << "there is no matrix";
   for (int step = 0; step < 3; ++step) {
-    meter.measure(0);
+    meter.measure(0, ones.values());
     EXPECT_EQ(meter.unit().products, 1) << "a run of no length has no room for a second one";
   }
   EXPECT_GT(meter.unit().seconds, 0);
   EXPECT_GE(meter.unit().spent, meter.unit().seconds);
   EXPECT_EQ(meter.unit().entries, CoupledProduct<3>(*scene).entries());
-  for (int step = 0; step < 20; ++step) meter.measure(1e9);
+  for (int step = 0; step < 20; ++step) meter.measure(1e9, ones.values());
   EXPECT_EQ(meter.unit().products, WorkUnitMeter<3>::enough);
   EXPECT_GE(meter.unit().spent, WorkUnitMeter<3>::enough * meter.unit().seconds);
 }

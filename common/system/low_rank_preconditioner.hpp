@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "system/cycled_medium.hpp"
+#include "system/medium_preconditioner.hpp"
 
 namespace fsi {
 
@@ -19,7 +19,7 @@ inline double pressure_by_flows(double slope, const std::vector<double>& slopes,
 
 /// The cycles of A for A + W S V^T, as LowRankLinearSolver solves with it: Y = A^-1 W is known, and what a cycle
 /// leaves of z = A^-1 x becomes z - Y (1 + S V^T Y)^-1 S V^T z.
-class LowRankCycle : public CycledMedium {
+class LowRankPreconditioner : public MediumPreconditioner {
  public:
   /// A term in the unknowns of the system; all must outlive this.
   struct Term {
@@ -29,34 +29,33 @@ class LowRankCycle : public CycledMedium {
   };
 
   /// \param inverse  (1 + S V^T Y)^-1, row by row
-  LowRankCycle(CycledMedium& medium, const std::vector<Term>& terms, std::vector<double> inverse)
+  LowRankPreconditioner(MediumPreconditioner& medium, const std::vector<Term>& terms, std::vector<double> inverse)
       : medium_(medium),
         terms_(terms),
         inverse_(std::move(inverse)),
         single_(terms.size()),
         flows_(terms.size()),
         pressures_(terms.size()) {
-    std::vector<double> right;
     for (std::size_t i = 0; i < terms_.size(); ++i) {
-      const auto shorten = [&](const std::vector<double>& of_system, std::vector<float>& x) {
-        medium_.order(of_system, right);
-        medium_.shorten(right, 1, x);
+      const auto gather = [&](const std::vector<double>& of_system, std::vector<float>& x) {
+        x.resize(medium_.size());
+        medium_.gather(of_system, x);
       };
-      shorten(*terms_[i].rows, single_[i].rows);
-      shorten(*terms_[i].columns, single_[i].columns);
-      shorten(*terms_[i].solution, single_[i].solution);
+      gather(*terms_[i].rows, single_[i].rows);
+      gather(*terms_[i].columns, single_[i].columns);
+      gather(*terms_[i].solution, single_[i].solution);
     }
   }
 
   std::size_t size() const override { return medium_.size(); }
   int place(int node) const override { return medium_.place(node); }
-  void multiply(const std::vector<float>& x, std::vector<float>& y) const override {
+  void multiply(Input x, Output y) const override {
     medium_.multiply(x, y);
     for (std::size_t i = 0; i < terms_.size(); ++i) flows_[i] = dot(single_[i].columns, x);
     for (std::size_t i = 0; i < terms_.size(); ++i) add(pressure_of(i), single_[i].rows, y);
   }
-  void cycle(const std::vector<float>& x, std::vector<float>& y) override {
-    medium_.cycle(x, y);
+  void apply(Input x, Output y) override {
+    medium_.apply(x, y);
     for (std::size_t i = 0; i < terms_.size(); ++i) flows_[i] = dot(single_[i].columns, y);
     for (std::size_t i = 0; i < terms_.size(); ++i) pressures_[i] = pressure_of(i);
     for (std::size_t i = 0; i < terms_.size(); ++i) {
@@ -66,20 +65,15 @@ class LowRankCycle : public CycledMedium {
     }
   }
 
-  using CycledMedium::cycle;
+  using MediumPreconditioner::apply;
 
-  void order(const std::vector<double>& of_system, std::vector<double>& mine) const override {
-    medium_.order(of_system, mine);
+  void gather(const std::vector<double>& of_system, Output mine) const override { medium_.gather(of_system, mine); }
+  double restrict_residual(const std::vector<double>& residual, double tolerance) override {
+    return medium_.restrict_residual(residual, tolerance);
   }
-  void take(const std::vector<double>& residual, double tolerance, std::vector<double>& right) override {
-    medium_.take(residual, tolerance, right);
-  }
-  void shorten(const std::vector<double>& right, double factor, std::vector<float>& x) const override {
-    medium_.shorten(right, factor, x);
-  }
-  void complete(const std::vector<float>& x, double factor, double tolerance,
-                std::vector<double>& correction) override {
-    medium_.complete(x, factor, tolerance, correction);
+  void write_restricted(double factor, Output right) const override { medium_.write_restricted(factor, right); }
+  void expand(Input x, double factor, double tolerance, std::vector<double>& correction) override {
+    medium_.expand(x, factor, tolerance, correction);
   }
   void multiply_whole(const std::vector<double>& x, std::vector<double>& y) override {
     medium_.multiply_whole(x, y);
@@ -100,16 +94,16 @@ class LowRankCycle : public CycledMedium {
   };
 
   double pressure_of(std::size_t i) const { return pressure_by_flows(terms_[i].slope, *terms_[i].slopes, i, flows_); }
-  static double dot(const std::vector<float>& a, const std::vector<float>& b) {
+  static double dot(Input a, Input b) {
     double sum = 0;
     for (std::size_t k = 0; k < a.size(); ++k) sum += static_cast<double>(a[k]) * b[k];
     return sum;
   }
-  static void add(double factor, const std::vector<float>& x, std::vector<float>& y) {
+  static void add(double factor, Input x, Output y) {
     for (std::size_t k = 0; k < x.size(); ++k) y[k] += static_cast<float>(factor * x[k]);
   }
 
-  CycledMedium& medium_;
+  MediumPreconditioner& medium_;
   std::vector<Term> terms_;
   std::vector<double> inverse_;
   std::vector<Single> single_;
