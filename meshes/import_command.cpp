@@ -14,6 +14,7 @@
 
 #include "base/error.hpp"
 #include "base/output_file.hpp"
+#include "base/removed_on_signal.hpp"
 #include "base/standard_streams.hpp"
 #include "base/threads.hpp"
 #include "mesh/gmsh_file.hpp"
@@ -105,7 +106,9 @@ bool is_case(const ImportRequest& request) {
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const std::filesystem::path& final_name)
-      : final_name_(final_name), path_(final_name.string() + fmt::format(".{}.part", getpid())) {
+      : final_name_(final_name),
+        path_(final_name.string() + fmt::format(".{}.part", getpid())),
+        on_signal_(path_, FilesInside::go) {
     std::error_code error;
     if (std::filesystem::exists(final_name_, error))
       throw InputError(final_name_.string(), "", "is there already", "name another folder with -o, or remove it");
@@ -129,6 +132,7 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path final_name_, path_;
+  RemovedOnSignal on_signal_;
 };
 
 /// As a path without the slash that a shell leaves behind a folder's name.

@@ -9,6 +9,7 @@ from ..base.errors import InputError
 from ..base.files import exists, is_file
 from .abaqus import read_abaqus
 from .dolfin_hdf5 import read_dolfin_hdf5
+from .dolfin_xml import read_dolfin_xml
 from .exodus import read_exodus
 from .med import read_med
 from .raw_mesh import RawMesh, of_meshio
@@ -25,6 +26,7 @@ READERS: Dict[str, Callable[[Path], RawMesh]] = {
     ".med": read_med,
     ".inp": read_abaqus,
     ".h5": read_dolfin_hdf5,
+    ".xml": read_dolfin_xml,
     **{name: read_exodus for name in (".e", ".exo", ".ex2", ".exii", ".g", ".gen")},
 }
 # What no reader takes, by the end of its name: what it is, and the way in.

@@ -176,15 +176,17 @@ class Readers(FolderCase):
     def test_exodus_shells_have_two_faces_before_their_edges(self):
         cells = [CELLS[0], np.array([0, 1, 2])]
         sides = ((2, 1), (2, 2), (2, 3), (2, 5))
-        for kind in ("TRISHELL3", "SHELL3", "TRISHELL"):
+        # To the Exodus library triangles in space are shells, whatever their type says.
+        for kind in ("TRISHELL3", "SHELL3", "TRISHELL", "TRI3", "TRI", "TRIANGLE"):
             mesh = self.exodus(kind, cells[1:], sides=[(1, side) for _, side in sides])
             self.assertEqual([(k, len(n)) for k, n in mesh.blocks], [("triangle", 1), ("triangle", 2), ("line", 2)])
             self.assertEqual(sides_at(mesh, "inlet"), [[0, 1, 2], [0, 1, 2], [0, 1], [0, 2]])
         # Of a triangle in the plane the first side is an edge.
-        mesh = self.exodus("TRI3", cells[1:], sides=((1, 1), (1, 3)))
+        mesh = self.exodus("TRI3", cells[1:], POINTS[:, :2], sides=((1, 1), (1, 3)))
         self.assertEqual(sides_at(mesh, "inlet"), [[0, 1], [0, 2]])
-        with self.assertRaisesRegex(InputError, "names side 4 of a triangle, which has 3"):
-            self.exodus("TRI3", cells[1:], sides=((1, 4),))
+        for points, count in ((POINTS[:, :2], 3), (POINTS, 5)):
+            with self.assertRaisesRegex(InputError, f"names side {count + 1} of a triangle, which has {count}"):
+                self.exodus("TRI3", cells[1:], points, sides=((1, count + 1),))
 
     def test_exodus_cells_of_ten_nodes_whatever_their_type_says(self):
         for kind in ("TETRA", "TETRA10", "TET10"):
