@@ -52,8 +52,9 @@ std::string convert(const ImportRequest& request, const std::vector<std::string>
   words.insert(words.end(), more.begin(), more.end());
   words.emplace_back("--");
   words.insert(words.end(), request.files.begin(), request.files.end());
-  // Of several files the message names the one at fault.
-  return converted(request.files.size() == 1 ? request.files.front() : "", words, request.output.quiet);
+  // Of several files, and of NAME=FILE, the message names the one at fault.
+  const bool one = request.files.size() == 1 && request.files.front().find('=') == std::string::npos;
+  return converted(one ? request.files.front() : "", words, request.output.quiet);
 }
 
 template <int Dim, int Order>

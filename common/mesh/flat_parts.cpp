@@ -100,9 +100,8 @@ std::size_t part_at(const SimplexMesh<3, Order>& mesh, const FlatParts<Order>& f
 
 }  // namespace
 
-std::string place_of(Point x) {
-  for (double& c : x)
-    if (std::abs(c) < 1e-9) c = 0;  // rounding
+std::string place_of(const Point& at) {
+  const Point x = without_rounding(at);
   return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", x[0], x[1], x[2]);
 }
 

@@ -8,7 +8,7 @@
 namespace fsi {
 
 /// A point for messages, "(0, 0, 5) mm"; what is zero to rounding is shown as zero.
-std::string place_of(Point x);
+std::string place_of(const Point& at);
 
 /// A flat part of a lumen's surface that is to have a name.
 struct FlatPart {

@@ -2,6 +2,7 @@
 
 import functools
 import re
+import shlex
 import unittest
 
 import meshio
@@ -245,6 +246,34 @@ class Check(Surfaces):
                 self.assertRegex(process.stdout, r"(?m)^taken for: fluid=region:1, ")
                 self.assertRegex(process.stdout, "(?m)^stops .*: wall_ends: the physical surface is missing")
                 self.assertNotRegex(process.stdout, "check-|fsi-mesh-")
+
+    def test_the_command_that_mends_a_mesh_without_names_does(self):
+        """In another unit; a coordinate that is zero to rounding is shown as zero."""
+        mesh = self.artery()
+        points = (mesh.points + [0, 0, -1.5]) / 10 + [1e-17, -2e-17, 0]
+        meshio.Mesh(points, [("tetra", mesh.volumes["fluid"])]).write(self.base / "bare.vtu")
+        process = self.check("bare.vtu", "--scale", 10, "--threads", 1)
+        self.assertEqual(process.returncode, 1)
+        self.assertNotRegex(process.stdout, r"\de-\d")
+        command = shlex.split(re.search(r"; fsi-mesh (import .*) names them$", process.stdout, re.MULTILINE).group(1))
+        process = execute(MESH, *command, "-q", cwd=self.base)
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        process = self.check("NEW.msh")
+        (self.base / "NEW.msh").unlink()
+        self.assertEqual((process.returncode, process.stderr), (0, ""), process.stdout)
+        self.assertEqual(process.stdout.count("\nopening NAME"), 2)
+        # Of lumen and wall that do not touch, too.
+        moved = mesh.points + [0, 0, 0.01]
+        cells = [mesh.volumes["fluid"], mesh.volumes["media"] + len(mesh.points)]
+        meshio.Mesh(
+            np.vstack([mesh.points, moved]),
+            [("tetra", np.concatenate(cells))],
+            cell_data={"region": [np.repeat([1, 2], [len(c) for c in cells])]},
+        ).write(self.base / "apart.vtu")
+        self.assertRegex(
+            self.check("apart.vtu").stdout,
+            r"(?m)^warning: a gap: .*: fsi-mesh import apart.vtu --group fluid=region:1 --group wall=region:2 -o NEW.msh$",
+        )
 
     def test_what_cannot_be_read_is_one_line(self):
         (self.base / "no.msh").write_text("no mesh\n")
