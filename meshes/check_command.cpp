@@ -237,23 +237,16 @@ class MeshDoctor {
     Keys named = wall_sides_;
     for (const auto& group : mesh_.facet_groups)
       for (const auto& facet : group.facets) named.insert(facet_key<Dim>(facet));
-    std::vector<SurfaceTriangle> triangles;
-    std::vector<char> has_name;
-    for (const auto& facet : boundary_facets(mesh_, {fluid_})) {
-      triangles.push_back({facet.nodes[0], facet.nodes[1], facet.nodes[2]});
-      has_name.push_back(named.count(facet_key<Dim>(facet.nodes)) > 0);
-    }
     std::vector<std::string> places, words;
-    for (const auto& part : flat_regions(mesh_.nodes, triangles)) {
-      std::size_t count = 0;
-      for (const int t : part.triangles) count += has_name[t];
-      if (2 * count > part.triangles.size()) continue;
+    for (const auto& part : unnamed_flat_parts(mesh_)) {
       places.push_back(fmt::format("{:.3g} mm^2 about {}", part.area, place_of(part.centre)));
       const Point at = without_rounding(part.centre);
       words.push_back(fmt::format(" --opening NAME{}={:.4g},{:.4g},{:.4g}", words.size() + 1, at[0], at[1], at[2]));
     }
     if (places.empty()) {
-      if (openings_.empty() && std::find(has_name.begin(), has_name.end(), 0) != has_name.end())
+      const bool open = std::any_of(fluid_sides_.begin(), fluid_sides_.end(),
+                                    [&](const FacetKey<Dim>& side) { return named.count(side) == 0; });
+      if (openings_.empty() && open)
         findings_.warning("the fluid has no opening: no flat end with a sharp rim, and no surface with a name",
                           "name the ends where the mesh is made, or say closed in the case");
       return;
