@@ -340,6 +340,28 @@ class NoLumen(Surfaces):
                     self.assertAlmostEqual(float(row.split()[1]), area, delta=2e-3)
                 self.assertEqual(len(re.findall(r"\(0, 0, [08]\) mm", process.stdout)), 2)
 
+    def test_a_seam_that_rounding_opens_is_closed(self):
+        """As of scripts that go once around, cos(2 pi) in the place of cos(0); points a thousandth apart are two."""
+        points, triangles = self.closed(0.0)
+        for away, code in ((3e-16, 0), (1e-3, 1)):
+            seam = np.flatnonzero(np.abs(points[:, 1]) < 1e-9)
+            seam = seam[points[seam, 0] > 0.5]
+            new = np.arange(len(points))
+            new[seam] = len(points) + np.arange(len(seam))
+            below = points[triangles].mean(axis=1)[:, 1] < 0
+            rows = np.where(below[:, None], new[triangles], triangles)
+            corners = np.vstack([points, points[seam] - [0, away, 0]])
+            text = [f"v {x!r} {y!r} {z!r}" for x, y, z in corners.tolist()]
+            text += ["f " + " ".join(str(n + 1) for n in row) for row in rows]
+            (self.base / "seam.obj").write_text("\n".join(text) + "\n")
+            process = self.listed("seam.obj")
+            self.assertEqual(process.returncode, code, process.stdout + process.stderr)
+            if code == 0:
+                self.assertEqual((process.stderr, len(process.stdout.splitlines())), ("", 3))
+            else:  # there is no end then, but one hole
+                said = r"error: seam\.obj: surface: has a slit near \(.*\) mm, as points that are there twice leave; "
+                self.assertRegex(process.stderr, said)
+
     def test_a_wall_with_both_faces_is_no_lumen(self):
         points, triangles = self.tube()
         count = len(points)
