@@ -16,6 +16,7 @@
 #include "base/error.hpp"
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
+#include "base/threads.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/cell_words.hpp"
 #include "mesh/corner_cells.hpp"
@@ -46,6 +47,7 @@ namespace {
 struct CheckOptions {
   SurfaceInput input;
   double scale = 1;
+  int threads = 0;
 };
 
 /// One line for each thing that is found.
@@ -67,6 +69,10 @@ class Findings {
     stop(who, error, remedy);
   }
 
+  /// What an import needs to name the parts as they are taken here, with a blank before it.
+  void import_needs(const std::string& options) { options_ = options; }
+  const std::string& import_options() const { return options_; }
+
   /// Errors speak of this file then, made of the user's.
   void look_at_copy(const std::string& copy) { copy_ = copy; }
 
@@ -79,14 +85,15 @@ class Findings {
     return text + (remedy.empty() ? "" : "; " + remedy) + "\n";
   }
 
-  std::string file_, copy_, text_;
+  std::string file_, copy_, text_, options_;
   int stops_ = 0;
 };
 
 const std::string drivers = "fsi-monolithic and fsi-partitioned";
 
 std::string import_with(const Findings& findings, const std::string& options) {
-  return fmt::format("fsi-mesh import {} -o NEW.msh{}", printable(findings.file()), options);
+  return fmt::format("fsi-mesh import {}{} -o NEW.msh{}", printable(findings.file()), findings.import_options(),
+                     options);
 }
 
 /// What mends a fault; empty where what it says itself is all there is to be done.
@@ -230,23 +237,16 @@ class MeshDoctor {
     Keys named = wall_sides_;
     for (const auto& group : mesh_.facet_groups)
       for (const auto& facet : group.facets) named.insert(facet_key<Dim>(facet));
-    std::vector<SurfaceTriangle> triangles;
-    std::vector<char> has_name;
-    for (const auto& facet : boundary_facets(mesh_, {fluid_})) {
-      triangles.push_back({facet.nodes[0], facet.nodes[1], facet.nodes[2]});
-      has_name.push_back(named.count(facet_key<Dim>(facet.nodes)) > 0);
-    }
     std::vector<std::string> places, words;
-    for (const auto& part : flat_regions(mesh_.nodes, triangles)) {
-      std::size_t count = 0;
-      for (const int t : part.triangles) count += has_name[t];
-      if (2 * count > part.triangles.size()) continue;
+    for (const auto& part : unnamed_flat_parts(mesh_)) {
       places.push_back(fmt::format("{:.3g} mm^2 about {}", part.area, place_of(part.centre)));
-      words.push_back(fmt::format(" --opening NAME{}={:.4g},{:.4g},{:.4g}", words.size() + 1, part.centre[0],
-                                  part.centre[1], part.centre[2]));
+      const Point at = without_rounding(part.centre);
+      words.push_back(fmt::format(" --opening NAME{}={:.4g},{:.4g},{:.4g}", words.size() + 1, at[0], at[1], at[2]));
     }
     if (places.empty()) {
-      if (openings_.empty() && std::find(has_name.begin(), has_name.end(), 0) != has_name.end())
+      const bool open = std::any_of(fluid_sides_.begin(), fluid_sides_.end(),
+                                    [&](const FacetKey<Dim>& side) { return named.count(side) == 0; });
+      if (openings_.empty() && open)
         findings_.warning("the fluid has no opening: no flat end with a sharp rim, and no surface with a name",
                           "name the ends where the mesh is made, or say closed in the case");
       return;
@@ -346,8 +346,8 @@ void examine_places(const CheckOptions& options, const std::string& into, Findin
   for (std::string line; std::getline(lines, line);) {
     if (line.rfind("warning: ", 0) == 0)
       findings.warning(line.substr(9), "");
-    else if (line.rfind("stops: ", 0) == 0)
-      findings.stop(drivers, line.substr(7), "");
+    else if (const std::string mark = "options:"; line.rfind(mark, 0) == 0)
+      findings.import_needs(line.substr(mark.size()));
     else
       findings.note(line);
   }
@@ -423,6 +423,7 @@ void examine_surface(const CheckOptions& options, Findings& findings) {
 }
 
 void check(const CheckOptions& options) {
+  set_threads(options.threads);
   Findings findings(options.input.file);
   if (is_surface(options.input.file))
     examine_surface(options, findings);
@@ -451,6 +452,7 @@ MeshCommand check_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--unit", options->input.unit, "Of a surface: its unit of length; mm unless given")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
+  add_threads_option(*command, options->threads);
   return {command, [options] { check(*options); }};
 }
 

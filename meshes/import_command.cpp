@@ -9,11 +9,13 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/output_file.hpp"
+#include "base/removed_on_signal.hpp"
 #include "base/standard_streams.hpp"
 #include "base/threads.hpp"
 #include "mesh/gmsh_file.hpp"
@@ -34,7 +36,7 @@ struct ImportRequest {
   std::string units, fibre_angle;  ///< of a case
   double scale = 1, join = 0;
   int order = 0;
-  bool list = false, wall_faces = false;
+  bool list = false, wall_faces = false, flat_ends = false;
   MeshOutput output;
 };
 
@@ -51,8 +53,9 @@ std::string convert(const ImportRequest& request, const std::vector<std::string>
   words.insert(words.end(), more.begin(), more.end());
   words.emplace_back("--");
   words.insert(words.end(), request.files.begin(), request.files.end());
-  // Of several files the message names the one at fault.
-  return converted(request.files.size() == 1 ? request.files.front() : "", words, request.output.quiet);
+  // Of several files, and of NAME=FILE, the message names the one at fault.
+  const bool one = request.files.size() == 1 && request.files.front().find('=') == std::string::npos;
+  return converted(one ? request.files.front() : "", words, request.output.quiet);
 }
 
 template <int Dim, int Order>
@@ -66,8 +69,10 @@ AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file
   const int dimension = gmsh_dimension(file);
   if (dimension != 3 && !openings.empty())
     throw InputError(named(request), "--opening", "is for meshes of volumes", "name curves by --group");
-  if (dimension != 3 && request.wall_faces)
-    throw InputError(named(request), "--wall-faces", "is for meshes of volumes", "name curves by --group");
+  for (const auto& [option, asked] :
+       {std::pair{"--wall-faces", request.wall_faces}, std::pair{"--flat-ends", request.flat_ends}})
+    if (dimension != 3 && asked)
+      throw InputError(named(request), option, "is for meshes of volumes", "name curves by --group");
   // Second-order cells keep their order unless another is asked for.
   const int order = request.order > 0 ? request.order : gmsh_order(parse_gmsh(file), dimension);
   AnyMesh mesh;
@@ -83,6 +88,7 @@ AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file
       [&](auto& read) {
         if constexpr (std::decay_t<decltype(read)>::dim == 3) {
           name_flat_parts(read, openings);
+          if (request.flat_ends) said += name_flat_ends(read);
           if (request.wall_faces) said += name_wall_faces(read, named(request));
         }
       },
@@ -105,7 +111,9 @@ bool is_case(const ImportRequest& request) {
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const std::filesystem::path& final_name)
-      : final_name_(final_name), path_(final_name.string() + fmt::format(".{}.part", getpid())) {
+      : final_name_(final_name),
+        path_(final_name.string() + fmt::format(".{}.part", getpid())),
+        on_signal_(path_, FilesInside::go) {
     std::error_code error;
     if (std::filesystem::exists(final_name_, error))
       throw InputError(final_name_.string(), "", "is there already", "name another folder with -o, or remove it");
@@ -129,6 +137,7 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path final_name_, path_;
+  RemovedOnSignal on_signal_;
 };
 
 /// As a path without the slash that a shell leaves behind a folder's name.
@@ -144,6 +153,7 @@ void make_case(const ImportRequest& request) {
   if (!request.groups.empty()) refuse("--group", "the case names its faces");
   if (!request.openings.empty()) refuse("--opening", "the case names its faces");
   if (request.wall_faces) refuse("--wall-faces", "the case names its faces");
+  if (request.flat_ends) refuse("--flat-ends", "the case names its faces");
   if (request.scale != 1) refuse("--scale", "give --units");
   if (request.output.file.empty())
     throw InputError(mesh_program, "--output", "is not given", "give -o FOLDER, which is made");
@@ -210,6 +220,8 @@ MeshCommand import_command(CLI::App& app) {
                       "the surface between them; unless given all parts with a name of their own");
   options->add_option("--opening", request->openings,
                       "NAME=X,Y,Z: surface of the fluid, the flat part of its boundary on which this point lies");
+  options->add_flag("--flat-ends", request->flat_ends,
+                    "Names the flat ends of the fluid that have no name: end_1, end_2 and so on, the largest first");
   options->add_flag("--wall-faces", request->wall_faces,
                     "Of a wall without fluid: names its faces inner and outer and its plane ends wall_ends");
   options->add_option("--scale", request->scale, "From the file's unit of length to mm: 1000 for a mesh in m")

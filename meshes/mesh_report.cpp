@@ -80,12 +80,16 @@ Mended mended(const SimplexMesh<Dim, Order>& mesh) {
 
 }  // namespace
 
+void add_threads_option(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "Taken as by all programs; one is all this needs")
+      ->check(CLI::Range(0, 1024));
+}
+
 void add_output_options(CLI::App& command, MeshOutput& output, bool file_required) {
   command.add_option("-o,--output", output.file, "The file to write, .msh")->required(file_required);
   command.add_option("--format", output.format.version, "4.1 or 2.2")->capture_default_str();
   command.add_flag("--binary", output.format.binary, "Write binary data");
-  command.add_option("--threads", output.threads, "Taken as by all programs; one is all this needs")
-      ->check(CLI::Range(0, 1024));
+  add_threads_option(command, output.threads);
   command.add_flag("-q,--quiet", output.quiet, "No quality report and no warnings");
 }
 

@@ -20,6 +20,8 @@ struct MeshOutput {
   bool advise = false;  ///< for a shape of the user's: says what its cells across the lumen are good for
 };
 
+void add_threads_option(CLI::App& command, int& threads);
+
 /// -o, --format, --binary, --threads and -q.
 void add_output_options(CLI::App& command, MeshOutput& output, bool file_required = true);
 

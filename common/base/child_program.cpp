@@ -6,15 +6,20 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/removed_on_signal.hpp"
 
 namespace fsi {
 
 namespace {
+
+std::atomic<pid_t> running{0};  // the child, 0: none
 
 /// A pipe whose ends are closed with it.
 class Pipe {
@@ -38,6 +43,33 @@ class Pipe {
  private:
   std::array<int, 2> ends_{-1, -1};
 };
+
+pid_t start(const std::vector<std::string>& words, const posix_spawn_file_actions_t& actions) {
+  std::vector<std::string> copies = words;
+  std::vector<char*> arguments;
+  for (auto& word : copies) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const SignalsWait until_it_is_known;
+  pid_t child = 0;
+  const int failure = ::posix_spawn(&child, words.front().c_str(), &actions, nullptr, arguments.data(), environ);
+  if (failure != 0)
+    throw InputError(words.front(), "", std::string("cannot be started (") + std::strerror(failure) + ")",
+                     "check its permissions");
+  running = child;
+  return child;
+}
+
+/// Its number is its own until its status is taken, so that end_child() never asks a stranger to end.
+int status_of(pid_t child) {
+  siginfo_t ended{};
+  while (::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+  }
+  running = 0;
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
 
 /// Reads both until the child has closed them.
 void read_all(Pipe& first, std::string& text_of_first, Pipe& second, std::string& text_of_second) {
@@ -77,25 +109,34 @@ ChildEnd run_child(const std::vector<std::string>& words) {
     posix_spawn_file_actions_adddup2(&actions, pipe->end(1), descriptor);
     posix_spawn_file_actions_addclose(&actions, pipe->end(0));
   }
-  std::vector<std::string> copies = words;
-  std::vector<char*> arguments;
-  for (auto& word : copies) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
   pid_t child = 0;
-  const int failure = ::posix_spawn(&child, words.front().c_str(), &actions, nullptr, arguments.data(), environ);
+  try {
+    child = start(words, actions);
+  } catch (...) {
+    posix_spawn_file_actions_destroy(&actions);
+    throw;
+  }
   posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0)
-    throw InputError(words.front(), "", std::string("cannot be started (") + std::strerror(failure) + ")",
-                     "check its permissions");
   output.close_end(1);
   errors.close_end(1);
   ChildEnd end;
   read_all(output, end.output, errors, end.errors);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = status_of(child);
   end.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return end;
+}
+
+void end_child() noexcept {
+  const pid_t child = running.exchange(0);
+  if (child == 0) return;
+  constexpr int tries = 100, pause_ms = 50;
+  ::kill(child, SIGTERM);
+  for (int i = 0; i < tries; ++i) {
+    if (::waitpid(child, nullptr, WNOHANG) != 0) return;  // it has ended, or another thread has taken its status
+    ::poll(nullptr, 0, pause_ms);
+  }
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
 }
 
 }  // namespace fsi

@@ -20,4 +20,8 @@ struct ChildEnd {
 /// \throws InputError when it cannot be started
 ChildEnd run_child(const std::vector<std::string>& words);
 
+/// Asks the child that runs to end, waits for it, and ends it after some seconds: what it makes is not left behind by a
+/// program that a signal ends. May be called by a signal handler; nothing is done where no child runs.
+void end_child() noexcept;
+
 }  // namespace fsi

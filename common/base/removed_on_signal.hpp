@@ -4,12 +4,18 @@
 
 namespace fsi {
 
-/// A file, or a folder if it is empty, that is removed when a signal ends the program at once (run/interruption.hpp)
-/// while this object lives. The owner removes it in every other case.
+/// What happens to the files of a folder that is to be removed.
+enum class FilesInside {
+  stay,  ///< and the folder with them
+  go     ///< for a folder that is the program's own; folders in it stay
+};
+
+/// A file, or a folder, that is removed when a signal ends the program at once (run/interruption.hpp) while this object
+/// lives. The owner removes it in every other case.
 class RemovedOnSignal {
  public:
   /// Only a few can be kept; what does not fit stays behind after a signal, which does no harm.
-  explicit RemovedOnSignal(const std::filesystem::path& path) noexcept;
+  explicit RemovedOnSignal(const std::filesystem::path& path, FilesInside inside = FilesInside::stay) noexcept;
   ~RemovedOnSignal();
   RemovedOnSignal(RemovedOnSignal&& other) noexcept;
   RemovedOnSignal& operator=(RemovedOnSignal&&) = delete;

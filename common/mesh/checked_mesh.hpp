@@ -46,7 +46,10 @@ struct CheckedMesh {
     throw InputError(file, key, problem, remedy);
   }
 
-  static std::string text(const Point& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]); }
+  static std::string text(const Point& at) {
+    const Point x = without_rounding(at);
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
+  }
   /// Centre of the vertices of a facet.
   Point centroid(const Facet& f) const {
     Point sum = mesh.nodes[f[0]];

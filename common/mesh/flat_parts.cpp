@@ -73,6 +73,30 @@ std::string all_places(const std::vector<FlatRegion>& parts) {
   return all.empty() ? "the surface has no flat part with a sharp rim" : "flat parts are at " + listed(all);
 }
 
+/// Most of it: a name may leave out a triangle at the rim, or take one more.
+template <int Order>
+bool is_named(const FlatParts<Order>& flat, const FlatRegion& part, const std::set<FacetKey<3>>& named) {
+  const auto in_groups = std::count_if(part.triangles.begin(), part.triangles.end(),
+                                       [&](int t) { return named.count(facet_key<3>(flat.facets[t].nodes)) > 0; });
+  return 2 * static_cast<std::size_t>(in_groups) >= part.triangles.size();
+}
+
+template <int Order>
+std::vector<FlatRegion> unnamed_of(const SimplexMesh<3, Order>& mesh, const FlatParts<Order>& flat) {
+  std::set<FacetKey<3>> known;
+  for (const auto& group : mesh.facet_groups)
+    for (const auto& facet : group.facets) known.insert(facet_key<3>(facet));
+  std::vector<int> others;
+  for (int r = 0; r < static_cast<int>(mesh.regions.size()); ++r)
+    if (mesh.regions[r] != group::fluid) others.push_back(r);
+  if (!others.empty())
+    for (const auto& facet : boundary_facets(mesh, others)) known.insert(facet_key<3>(facet.nodes));
+  std::vector<FlatRegion> unnamed;
+  for (const auto& part : flat.parts)
+    if (!is_named(flat, part, known)) unnamed.push_back(part);
+  return unnamed;
+}
+
 /// The flat part that a point is on. \throws InputError \param option  for the message
 template <int Order>
 std::size_t part_at(const SimplexMesh<3, Order>& mesh, const FlatParts<Order>& flat, const Point& at,
@@ -100,9 +124,8 @@ std::size_t part_at(const SimplexMesh<3, Order>& mesh, const FlatParts<Order>& f
 
 }  // namespace
 
-std::string place_of(Point x) {
-  for (double& c : x)
-    if (std::abs(c) < 1e-9) c = 0;  // rounding
+std::string place_of(const Point& at) {
+  const Point x = without_rounding(at);
   return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", x[0], x[1], x[2]);
 }
 
@@ -131,6 +154,34 @@ void name_flat_parts(SimplexMesh<3, Order>& mesh, const std::vector<FlatPart>& w
 }
 
 template <int Order>
+std::vector<FlatRegion> unnamed_flat_parts(const SimplexMesh<3, Order>& mesh) {
+  return unnamed_of(mesh, FlatParts<Order>(mesh, "--opening"));
+}
+
+template <int Order>
+std::string name_flat_ends(SimplexMesh<3, Order>& mesh) {
+  const std::string option = "--flat-ends";
+  const FlatParts<Order> flat(mesh, option);
+  std::vector<std::string> said;
+  int number = 0;
+  for (const auto& part : unnamed_of(mesh, flat)) {
+    std::string name;
+    do name = fmt::format("end_{}", ++number);
+    while (mesh.facets(name) != nullptr);
+    typename SimplexMesh<3, Order>::FacetGroup group{name, {}};
+    for (const int t : part.triangles) group.facets.push_back(flat.facets[t].nodes);
+    mesh.facet_groups.push_back(std::move(group));
+    said.push_back(fmt::format("{}, {:.4g} mm^2 at {}", name, part.area, place_of(part.centre)));
+  }
+  if (said.empty())
+    throw InputError(program, option,
+                     flat.parts.empty() ? "the fluid's surface has no flat part with a sharp rim"
+                                        : "each flat part of the fluid's surface has a name, or is a side of the wall",
+                     "leave the option out, or name surfaces by --group");
+  return fmt::format("Flat ends: {}.\n", fmt::join(said, "; "));
+}
+
+template <int Order>
 void require_flat_parts_named(const SimplexMesh<3, Order>& mesh, const std::vector<Point>& closed) {
   const FlatParts<Order> flat(mesh, "--closed");
   std::set<std::size_t> known;
@@ -141,12 +192,7 @@ void require_flat_parts_named(const SimplexMesh<3, Order>& mesh, const std::vect
       for (const auto& facet : group.facets) named.insert(facet_key<3>(facet));
   std::vector<const FlatRegion*> forgotten;
   for (std::size_t i = 0; i < flat.parts.size(); ++i) {
-    const auto& triangles = flat.parts[i].triangles;
-    const auto in_groups = std::count_if(triangles.begin(), triangles.end(),
-                                         [&](int t) { return named.count(facet_key<3>(flat.facets[t].nodes)) > 0; });
-    // Most of it: a name may leave out a triangle at the rim, or take one more.
-    if (known.count(i) == 0 && 2 * static_cast<std::size_t>(in_groups) < triangles.size())
-      forgotten.push_back(&flat.parts[i]);
+    if (known.count(i) == 0 && !is_named(flat, flat.parts[i], named)) forgotten.push_back(&flat.parts[i]);
   }
   if (forgotten.empty()) return;
   throw InputError(
@@ -158,6 +204,10 @@ void require_flat_parts_named(const SimplexMesh<3, Order>& mesh, const std::vect
 
 template void name_flat_parts(SimplexMesh<3, 1>&, const std::vector<FlatPart>&);
 template void name_flat_parts(SimplexMesh<3, 2>&, const std::vector<FlatPart>&);
+template std::vector<FlatRegion> unnamed_flat_parts(const SimplexMesh<3, 1>&);
+template std::vector<FlatRegion> unnamed_flat_parts(const SimplexMesh<3, 2>&);
+template std::string name_flat_ends(SimplexMesh<3, 1>&);
+template std::string name_flat_ends(SimplexMesh<3, 2>&);
 template void require_flat_parts_named(const SimplexMesh<3, 1>&, const std::vector<Point>&);
 template std::string places_of_flat_parts(const SimplexMesh<3, 1>&);
 template std::string places_of_flat_parts(const SimplexMesh<3, 2>&);

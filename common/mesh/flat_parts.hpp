@@ -3,12 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "mesh/flat_regions.hpp"
 #include "mesh/simplex_mesh.hpp"
 
 namespace fsi {
 
 /// A point for messages, "(0, 0, 5) mm"; what is zero to rounding is shown as zero.
-std::string place_of(Point x);
+std::string place_of(const Point& at);
 
 /// A flat part of a lumen's surface that is to have a name.
 struct FlatPart {
@@ -22,6 +23,17 @@ struct FlatPart {
 /// part, and for a name that a surface has
 template <int Order>
 void name_flat_parts(SimplexMesh<3, Order>& mesh, const std::vector<FlatPart>& wanted);
+
+/// The flat parts of the fluid's boundary that are in no named surface and no side of another volume, for the most part;
+/// largest first. Triangles are places in boundary_facets() of the fluid.
+/// \throws InputError for a mesh without a volume `fluid`
+template <int Order>
+std::vector<FlatRegion> unnamed_flat_parts(const SimplexMesh<3, Order>& mesh);
+
+/// Names them end_1, end_2 and so on; numbers that a surface has are left out. \return what was named, a sentence
+/// \throws InputError where there is none, and for a mesh without a volume `fluid`
+template <int Order>
+std::string name_flat_ends(SimplexMesh<3, Order>& mesh);
 
 /// Refuses a mesh in which a flat part is neither in a named surface nor `closed`: it may be an opening that was
 /// forgotten. The surface `inner` is no name here, since the wall grows on it.

@@ -29,6 +29,13 @@ inline double distance(const Point& a, const Point& b) {
   return norm(a - b);
 }
 
+/// For messages: coordinates that are zero to rounding are zero, mm.
+inline Point without_rounding(Point x) {
+  for (double& c : x)
+    if (std::abs(c) < 1e-9) c = 0;
+  return x;
+}
+
 /// Signed volume of the tetrahedron abcd in mm^3; positive when bcd runs counter-clockwise seen from outside.
 inline double tetrahedron_volume(const Point& a, const Point& b, const Point& c, const Point& d) {
   return dot(cross(b - a, c - a), d - a) / 6.0;

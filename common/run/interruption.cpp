@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdio>
 
+#include "base/child_program.hpp"
 #include "base/printable.hpp"
 #include "base/removed_on_signal.hpp"
 #include "base/standard_streams.hpp"
@@ -48,6 +49,7 @@ extern "C" void note(int number) {
 
 extern "C" void end_at_once(int number) {
   if (has_to_wait(number)) return;
+  end_child();
   remove_what_a_signal_leaves();
   const bool silent = streams_are_silent() || (launched != 0 && number == SIGTERM);
   if (!silent) write_words(last_words);

@@ -29,6 +29,22 @@ std::string coordinates_of(const Point& x) {
   return "(" + text + ")";
 }
 
+/// A rim that encloses far less area than its length could, as points that are there twice leave; empty without one.
+std::string slit_of(const TriangleSurface& surface) {
+  // Length squared over 4 pi times the area: 1 of a circle, 50 of a rectangle 157 times as long as wide.
+  constexpr double longest = 50;
+  for (const auto& rim : rims_of(surface)) {
+    double length = 0;
+    for (std::size_t i = 0; i < rim.size(); ++i)
+      length += distance(surface.nodes[rim[i]], surface.nodes[rim[(i + 1) % rim.size()]]);
+    const double area = plane_of(surface.nodes, rim).area;
+    if (length * length <= longest * 4 * pi * area) continue;
+    return fmt::format("has a slit near {}, as points that are there twice leave",
+                       place_of(surface.nodes[rim.front()]));
+  }
+  return "";
+}
+
 }  // namespace
 
 double LumenOpening::diameter() const {
@@ -77,6 +93,7 @@ std::string to_text(const std::vector<LumenOpening>& openings) {
 
 std::string not_a_lumen(const OpenedLumen& lumen) {
   const auto& openings = lumen.openings;
+  if (auto slit = slit_of(lumen.surface); !slit.empty()) return slit;
   for (std::size_t i = 0; i < openings.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const double width = std::min(openings[i].diameter(), openings[j].diameter());

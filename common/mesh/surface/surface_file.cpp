@@ -7,9 +7,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
@@ -36,17 +38,47 @@ std::string kind_of(const std::filesystem::path& file) {
   return kind;
 }
 
+/// Places as whole numbers of 1e-9 of the surface's extent: where a script goes once around, the last point of a seam
+/// may differ from the first one by rounding.
+class Places {
+ public:
+  explicit Places(const std::vector<CgalPoint>& points) {
+    Point high{-infinite, -infinite, -infinite};
+    for (const auto& p : points)
+      for (int d = 0; d < 3; ++d) {
+        low_[d] = std::min(low_[d], p[d]);
+        high[d] = std::max(high[d], p[d]);
+      }
+    double extent = 0;
+    for (int d = 0; d < 3; ++d) extent = std::max(extent, high[d] - low_[d]);
+    if (std::isfinite(extent) && extent > 0) step_ = 1e-9 * extent;
+  }
+  std::array<long long, 3> operator()(const Point& x) const {
+    std::array<long long, 3> place;
+    for (int d = 0; d < 3; ++d) place[d] = std::llround((x[d] - low_[d]) / step_);
+    return place;
+  }
+
+ private:
+  Point low_{infinite, infinite, infinite};
+  double step_ = 1;
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+};
+
 /// Nodes at one place are one node; polygons are fans; triangles with two equal corners are left out.
 TriangleSurface joined(const Polygons& found, const std::string& file) {
   TriangleSurface surface;
-  std::map<Point, int> known;
+  for (std::size_t i = 0; i < found.points.size(); ++i)
+    for (int d = 0; d < 3; ++d)
+      if (!std::isfinite(found.points[i][d]))
+        throw InputError(file, fmt::format("point {}", i + 1), "has a coordinate that is no finite number",
+                         "write the surface anew");
+  const Places place(found.points);
+  std::map<std::array<long long, 3>, int> known;
   std::vector<int> number;
   for (const auto& p : found.points) {
     const Point x{p.x(), p.y(), p.z()};
-    if (!(std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2])))
-      throw InputError(file, fmt::format("point {}", number.size() + 1), "has a coordinate that is no finite number",
-                       "write the surface anew");
-    const auto [at, is_new] = known.try_emplace(x, static_cast<int>(surface.nodes.size()));
+    const auto [at, is_new] = known.try_emplace(place(x), static_cast<int>(surface.nodes.size()));
     if (is_new) surface.nodes.push_back(x);
     number.push_back(at->second);
   }

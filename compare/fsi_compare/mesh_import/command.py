@@ -52,9 +52,10 @@ def convert_mesh(options: argparse.Namespace) -> int:
     if mesh.passed_over:
         said.append(f"Passed over, since they say no parts: {shown_names(mesh.passed_over)}")
     if options.examine:
-        said = examined(file, mesh, options.scale)
+        wanted = _all_parts(mesh) if options.output is not None else []
+        said = examined(file, mesh, options.scale, wanted)
         if options.output is not None:
-            said += _convert_all(file, mesh, options)
+            said += _convert_all(file, mesh, wanted, options)
     elif options.list:
         said = listing(mesh, options.meshes, sources, options.scale, options.join or 0.0) + said
     else:
@@ -82,11 +83,17 @@ def _convert(file: str, mesh: FoundMesh, sources: Sequence[Source], options: arg
     return said + ([f"Left out, since no --group names them: {shown_names(others)}"] if others else [])
 
 
-def _convert_all(file: str, mesh: FoundMesh, options: argparse.Namespace) -> List[str]:
-    """Writes all volumes, and the surfaces that are named or flat, by names that are guesses."""
+def _all_parts(mesh: FoundMesh) -> List[Tuple[str, str]]:
+    """All volumes, and the surfaces that are named or flat, by names that are guesses, and what the file calls them."""
     wanted = guessed_groups(mesh, separate_volumes(mesh))
     known = {part for _, part in wanted}
-    wanted += [(name, name) for name in named_parts(mesh) if name not in known and _is_surface(mesh, name)]
+    return wanted + [(name, name) for name in named_parts(mesh) if name not in known and _is_surface(mesh, name)]
+
+
+def _convert_all(
+    file: str, mesh: FoundMesh, wanted: Sequence[Tuple[str, str]], options: argparse.Namespace
+) -> List[str]:
+    """Writes them; returns what was done."""
     groups = choose_groups(file, mesh, wanted)
     turned = turn(mesh, groups)
     with replacing(options.output) as temporary, open(temporary, "w", encoding="utf-8") as out:

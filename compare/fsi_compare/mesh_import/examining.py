@@ -2,7 +2,7 @@
 doubled points. All else is asked of the mesh by `fsi-mesh` itself."""
 
 import shlex
-from typing import Dict, List
+from typing import Dict, List, Sequence, Tuple
 
 import numpy as np
 
@@ -12,18 +12,23 @@ from .raw_mesh import Block
 from .touching import Contact, contacts, doubled_words, gap_words, lonely
 
 
-def examined(file: str, mesh: FoundMesh, scale: float) -> List[str]:
-    """Lines; those of what may be wrong begin with "warning: ". The mesh is scaled already."""
+def examined(file: str, mesh: FoundMesh, scale: float, groups: Sequence[Tuple[str, str]]) -> List[str]:
+    """Lines; those of what may be wrong begin with "warning: ", and one with "options: " where an import needs any to
+    name the parts as they are taken here. The mesh is scaled already."""
+    options = "".join(f" --group {shlex.quote(f'{name}={part}')}" for name, part in groups)
+    options += f" --scale {scale:g}" if scale != 1 else ""
+    command = f"fsi-mesh import {shlex.quote(file)}{options} -o NEW.msh"
     volumes = separate_volumes(mesh)
     lines = [_size(mesh, scale)]
     longest = float(box_of(mesh, WHOLE).max())
     if scale == 1 and (words := unit_words(longest)):
-        lines.append(f"warning: {words}; fsi-mesh import {shlex.quote(file)} -o NEW.msh with it mends that")
+        lines.append(f"warning: {words}; {command} with it mends that")
     few = len(volumes) <= MOST_VOLUMES
     found = contacts(mesh.points, volumes, mesh.dimension, distances=few)
-    lines += _contact_lines(file, mesh, volumes, found, few)
+    lines += _contact_lines(command, mesh, volumes, found, few)
     doubled = doubled_words(mesh.points, [block for blocks in volumes.values() for block in blocks])
-    return lines + ([f"warning: {doubled}: {_import(file)}"] if doubled else [])
+    lines += [f"warning: {doubled}: {command}"] if doubled else []
+    return lines + ([f"options:{options}"] if options else [])
 
 
 def _size(mesh: FoundMesh, scale: float) -> str:
@@ -38,7 +43,7 @@ def _size(mesh: FoundMesh, scale: float) -> str:
 
 
 def _contact_lines(
-    file: str, mesh: FoundMesh, volumes: Dict[str, List[Block]], found: List[Contact], few: bool
+    command: str, mesh: FoundMesh, volumes: Dict[str, List[Block]], found: List[Contact], few: bool
 ) -> List[str]:
     """Of volumes that share sides with another one, and of those that are alone."""
     sides = "triangles" if mesh.dimension == 3 else "edges"
@@ -53,9 +58,5 @@ def _contact_lines(
     said = []
     for contact in found:
         if not contact.sides and (contact.first in alone or contact.second in alone):
-            said.append(f"warning: a gap: {gap_words(contact)}: {_import(file)}")
+            said.append(f"warning: a gap: {gap_words(contact)}: {command}")
     return lines + said
-
-
-def _import(file: str) -> str:
-    return f"fsi-mesh import {shlex.quote(file)} -o NEW.msh"

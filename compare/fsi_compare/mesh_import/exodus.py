@@ -32,7 +32,8 @@ KIND_OF = {
 }
 OTHERS = {"SHELL": "quad", "QUAD": "quad", "HEX": "hexahedron", "WEDGE": "wedge", "PYRAMID": "pyramid"}
 POINTS = ("SPHERE", "CIRCLE", "NODE")
-# Nodes of sides 1, 2, ...: corners, then middles of edges. Shells of triangles have two faces before them.
+# Nodes of sides 1, 2, ...: corners, then middles of edges. Shells of triangles, which all triangles in space are to the
+# Exodus library, whatever their type says, have two faces before them.
 SIDES: Dict[str, Tuple[str, Tuple[Tuple[int, ...], ...]]] = {
     "tetra": ("triangle", ((0, 1, 3), (1, 2, 3), (0, 3, 2), (0, 2, 1))),
     "tetra10": ("triangle6", ((0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6), (0, 2, 1, 6, 5, 4))),
@@ -63,9 +64,10 @@ def _read(path: Path, file: Any) -> RawMesh:
     if "num_nodes" not in file.dimensions:
         raise InputError(path, "", "holds no mesh of Exodus", REMEDY)
     mesh = RawMesh(_points(file), [])
+    space = mesh.points.shape[1]
     nothing = np.zeros(0, dtype=np.int64)
     names = _names(file, "eb", "block", "num_el_blk")
-    shells = []  # whether elements have two faces, by block
+    shells: List[bool] = []  # whether elements have two faces, by block
     starts = [0]  # elements are numbered through all blocks
     for number, name in enumerate(names, 1):
         connectivity = file.variables.get(f"connect{number}")
@@ -76,7 +78,8 @@ def _read(path: Path, file: Any) -> RawMesh:
             continue
         nodes = np.asarray(connectivity[:], dtype=np.int64) - 1
         mesh.blocks.append((_kind(path, name, str(connectivity.elem_type), nodes.shape[1]), nodes))
-        shells.append("SHELL" in str(connectivity.elem_type).upper())
+        kind = mesh.blocks[-1][0]
+        shells.append(kind.startswith("triangle") and (space == 3 or "SHELL" in str(connectivity.elem_type).upper()))
         starts.append(starts[-1] + len(nodes))
     count = len(names)
     for number, name in enumerate(names):
@@ -168,7 +171,7 @@ def _facets(
     if kind not in SIDES:
         raise InputError(path, name, f"holds sides of a {kind}", "mesh it by tetrahedra or triangles")
     facet, corners = SIDES[kind]
-    faces = 2 if shell and kind.startswith("triangle") else 0
+    faces = 2 if shell else 0
     if np.any((sides < 1) | (sides > faces + len(corners))):
         last = f"names side {int(sides.max())} of a {kind}, which has {faces + len(corners)}"
         raise InputError(path, name, last, REMEDY)

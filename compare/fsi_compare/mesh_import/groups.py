@@ -82,7 +82,8 @@ def _of_cells(
         )
         if other != name and shared:
             problem = f"{part} shares {shared} cells with {others_part}, which is {other}"
-            raise InputError(file, f"--group {name}", problem, "name parts by --group that have no cell in common")
+            remedy = "name parts by --group that have no cell in common, as the command of --list does"
+            raise InputError(file, f"--group {name}", problem, remedy)
     has = taken[name][1] if name in taken else [np.zeros(len(block.nodes), dtype=bool) for block in mesh.blocks]
     fresh = [p[~h[p]] for p, h in zip(places, has)]
     for p, h in zip(fresh, has):

@@ -212,10 +212,12 @@ def _command(
     text = " ".join(shlex.quote(word) for word in command)
     openings = len(groups) > len(volumes) or len(given) > len(volumes)
     fluid = "fluid" in given or any(name == "fluid" for name, _ in groups)
-    note = "" if openings or mesh.dimension == 2 or not fluid else " --opening NAME=X,Y,Z"
+    note = "" if openings or mesh.dimension == 2 or not fluid else " --flat-ends"
     found = ["The command; names are guesses:" if groups else "The command:", printable(f"  {text}{note}")]
     if note:
-        found.append("  with an --opening for each flat end of the fluid, X,Y,Z a point on it, mm")
+        found.append(
+            "  It calls the flat ends of the fluid end_1, end_2 ...; --opening NAME=X,Y,Z names one by a point, mm"
+        )
     if len(volumes) == 1 and fluid and not given and not any(word in next(iter(volumes)).lower() for word in FLUID):
         found.append(f"  or, where that is a wall without fluid, --group wall={next(iter(volumes))} --wall-faces")
     return found

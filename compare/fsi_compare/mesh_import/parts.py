@@ -74,7 +74,13 @@ def found_mesh(file: str, mesh: RawMesh, scale: float) -> FoundMesh:
         for text, places in _by_value(name, values, blocks):
             found.cells.setdefault(text, places)
             numbered.add(text)
-    found.points_of.update(mesh.point_sets)
+    top = found.dimension
+    whole = [np.arange(len(b.nodes)) if b.dimension == top else np.zeros(0, dtype=np.int64) for b in blocks]
+    if WHOLE not in found.cells:
+        found.cells[WHOLE] = whole
+        numbered.add(WHOLE)
+    for name, at in mesh.point_sets.items():
+        found.points_of[_of_points(found, name)] = at
     for name, at_points in mesh.point_data.items():
         values = _numbers([at_points])
         reason = _no_parts(name, values, "point")
@@ -82,15 +88,16 @@ def found_mesh(file: str, mesh: RawMesh, scale: float) -> FoundMesh:
             found.passed_over.append(f"{name} ({reason})")
             continue
         for value, places in _places_of_values(values):
-            found.points_of[f"{name}:{value}"] = places[0]
-            numbered.add(f"{name}:{value}")
-    top = found.dimension
-    whole = [np.arange(len(b.nodes)) if b.dimension == top else np.zeros(0, dtype=np.int64) for b in blocks]
-    if WHOLE not in found.cells:
-        found.cells[WHOLE] = whole
-        numbered.add(WHOLE)
+            part = _of_points(found, f"{name}:{value}")
+            found.points_of[part] = places[0]
+            numbered.add(part)
     found.numbered = frozenset(numbered)
     return found
+
+
+def _of_points(found: FoundMesh, name: str) -> str:
+    """Of a set of points whose name cells or sides have, too: decks name both alike."""
+    return f"{name}:points" if name in found.cells else name
 
 
 def _is_solid(name: str) -> bool:

@@ -2,13 +2,15 @@
 
 import contextlib
 import io
+import shlex
 from pathlib import Path
 from typing import Callable, Dict
 
 from ..base.errors import InputError
-from ..base.files import exists, is_file
+from ..base.files import exists, is_file, is_folder
 from .abaqus import read_abaqus
 from .dolfin_hdf5 import read_dolfin_hdf5
+from .dolfin_xml import read_dolfin_xml
 from .exodus import read_exodus
 from .med import read_med
 from .raw_mesh import RawMesh, of_meshio
@@ -25,6 +27,7 @@ READERS: Dict[str, Callable[[Path], RawMesh]] = {
     ".med": read_med,
     ".inp": read_abaqus,
     ".h5": read_dolfin_hdf5,
+    ".xml": read_dolfin_xml,
     **{name: read_exodus for name in (".e", ".exo", ".ex2", ".exii", ".g", ".gen")},
 }
 # What no reader takes, by the end of its name: what it is, and the way in.
@@ -46,6 +49,8 @@ def read_mesh(path: Path) -> RawMesh:
     """Raises InputError."""
     if not exists(path):
         raise InputError(path, "", "no such file", "give a mesh that meshio reads: VTU, MED, Exodus, ...")
+    if is_folder(path):
+        raise InputError(path, "", "is a folder", _way_into(path))
     if path.suffix.lower() in REFUSED:
         what, remedy = REFUSED[path.suffix.lower()]
         raise InputError(path, "", f"is {what}, which no reader takes", remedy)
@@ -54,6 +59,18 @@ def read_mesh(path: Path) -> RawMesh:
             if CASE in file.read(65536):
                 raise InputError(path, "", "is a case of svMultiPhysics, no mesh", "give -o FOLDER, without --list")
     return READERS.get(path.suffix.lower(), _read_by_meshio)(path)
+
+
+def _way_into(folder: Path) -> str:
+    """What to give in place of a folder: of SimVascular's and svMultiPhysics's, which have a file for the cells and one for
+    each face, the whole command."""
+    cells = sorted(folder.glob("*.mesh.vtu")) or sorted(folder.glob("*.vtu"))
+    if len(cells) != 1:
+        return "give the files in it: fluid=LUMEN.vtu, wall=WALL.vtu and NAME=FACE.vtp for each face"
+    faces = sorted(folder.glob("mesh-surfaces/*.vtp"))
+    ends = [face for face in faces if not face.stem.lower().startswith("wall")]
+    words = [f"fluid={cells[0]}"] + [f"{face.stem}={face}" for face in ends]
+    return f"give the files in it: fsi-mesh import {' '.join(map(shlex.quote, words))} -o {folder.name}.msh"
 
 
 def read_surface(path: Path) -> RawMesh:

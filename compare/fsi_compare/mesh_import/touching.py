@@ -113,7 +113,7 @@ def doubled_words(points: np.ndarray, blocks: Sequence[Block]) -> str:
     kept = i < j
     if not kept.any():
         return ""
-    place = ", ".join(f"{x:.4g}" for x in points[corners[i[kept][0]]])
+    place = ", ".join(f"{x if abs(x) >= 1e-9 else 0.0:.4g}" for x in points[corners[i[kept][0]]])
     farthest = float(distances[kept].max())
     return (
         f"{int(kept.sum())} pairs of points are at most {farthest:.3g} mm apart, a part of the shortest edge ({edge:.3g} mm), one "

@@ -101,9 +101,9 @@ class MeshListing(unittest.TestCase):
     def test_a_wall_alone_gets_no_opening(self):
         points, cells = cube(2)
         raw = RawMesh(points, [("tetra", cells)], cell_sets={"wall": [np.arange(48)]})
-        self.assertNotIn("--opening", self.command(said(found_mesh("a.vtu", raw, 1.0))))
+        self.assertNotIn("--flat-ends", self.command(said(found_mesh("a.vtu", raw, 1.0))))
         lines = said(found_mesh("a.vtu", RawMesh(points, [("tetra", cells)]), 1.0))
-        self.assertIn("--opening", self.command(lines))
+        self.assertIn("--flat-ends", self.command(lines))
         self.assertIn("  or, where that is a wall without fluid, --group wall=all --wall-faces", lines)
 
     def test_of_many_volumes_it_is_said_which_touch(self):

@@ -176,15 +176,17 @@ class Readers(FolderCase):
     def test_exodus_shells_have_two_faces_before_their_edges(self):
         cells = [CELLS[0], np.array([0, 1, 2])]
         sides = ((2, 1), (2, 2), (2, 3), (2, 5))
-        for kind in ("TRISHELL3", "SHELL3", "TRISHELL"):
+        # To the Exodus library triangles in space are shells, whatever their type says.
+        for kind in ("TRISHELL3", "SHELL3", "TRISHELL", "TRI3", "TRI", "TRIANGLE"):
             mesh = self.exodus(kind, cells[1:], sides=[(1, side) for _, side in sides])
             self.assertEqual([(k, len(n)) for k, n in mesh.blocks], [("triangle", 1), ("triangle", 2), ("line", 2)])
             self.assertEqual(sides_at(mesh, "inlet"), [[0, 1, 2], [0, 1, 2], [0, 1], [0, 2]])
         # Of a triangle in the plane the first side is an edge.
-        mesh = self.exodus("TRI3", cells[1:], sides=((1, 1), (1, 3)))
+        mesh = self.exodus("TRI3", cells[1:], POINTS[:, :2], sides=((1, 1), (1, 3)))
         self.assertEqual(sides_at(mesh, "inlet"), [[0, 1], [0, 2]])
-        with self.assertRaisesRegex(InputError, "names side 4 of a triangle, which has 3"):
-            self.exodus("TRI3", cells[1:], sides=((1, 4),))
+        for points, count in ((POINTS[:, :2], 3), (POINTS, 5)):
+            with self.assertRaisesRegex(InputError, f"names side {count + 1} of a triangle, which has {count}"):
+                self.exodus("TRI3", cells[1:], points, sides=((1, count + 1),))
 
     def test_exodus_cells_of_ten_nodes_whatever_their_type_says(self):
         for kind in ("TETRA", "TETRA10", "TET10"):
@@ -296,6 +298,71 @@ class Readers(FolderCase):
         (self.base / "mesh.h5").write_text("none")
         with self.assertRaisesRegex(InputError, "cannot be read"):
             read_mesh(self.base / "mesh.h5")
+
+    def write_dolfin_xml(self, **companions):
+        """Two tetrahedra, cells and vertices not in order; `companions`: the contents of NAME_KEY.xml."""
+        head = '<?xml version="1.0"?>\n<dolfin xmlns:dolfin="http://fenicsproject.org">'
+        vertices = [
+            f'<vertex index="{i}" x="{x!r}" y="{y!r}" z="{z!r}" />' for i, (x, y, z) in enumerate(POINTS.tolist())
+        ]
+        cells = [
+            f'<tetrahedron index="{i}" ' + " ".join(f'v{k}="{n}"' for k, n in enumerate(row)) + " />"
+            for i, row in enumerate(CELLS.tolist())
+        ]
+        for old in self.base.glob("d*.xml"):
+            old.unlink()
+        for name, text in companions.items():
+            (self.base / f"d_{name}.xml").write_text(f"{head}{text}</dolfin>")
+        return (
+            f'{head}<mesh celltype="tetrahedron" dim="3"><vertices size="5">{"".join(vertices[::-1])}</vertices>'
+            f'<cells size="2">{"".join(cells[::-1])}</cells></mesh></dolfin>'
+        )
+
+    def test_xml_of_dolfin(self):
+        of_cells = '<mesh_function type="uint" dim="3" size="2"><entity index="1" value="7" />'
+        of_cells += '<entity index="0" value="0" /></mesh_function>'
+        # Of the second cell the facets without its first and its last vertex; a facet of value 0 says nothing.
+        of_facets = '<mesh_function><mesh_value_collection name="f" type="uint" dim="2" size="3">'
+        for cell, facet, value in ((1, 0, 4), (1, 3, 5), (0, 0, 0)):
+            of_facets += f'<value cell_index="{cell}" local_entity="{facet}" value="{value}" />'
+        of_facets += "</mesh_value_collection></mesh_function>"
+        text = self.write_dolfin_xml(physical_region=of_cells, facet_region=of_facets)
+        mesh = found_mesh("d.xml", self.read("d.xml", text), 1.0)
+        np.testing.assert_array_equal(mesh.points, POINTS)
+        np.testing.assert_array_equal(mesh.blocks[0].nodes, CELLS)
+        expected = ["physical_region:0", "physical_region:7", "facet_region:4", "facet_region:5", "all"]
+        self.assertEqual(list(mesh.cells), expected)
+        np.testing.assert_array_equal(mesh.cells["physical_region:7"][0], [1])
+        second = np.sort(CELLS[1])
+        for part, corners in (("facet_region:4", second[1:]), ("facet_region:5", second[:3])):
+            self.assertEqual(
+                [b.nodes[p].tolist() for b, p in zip(mesh.blocks, mesh.cells[part]) if len(p)], [[[*corners]]]
+            )
+        # A function within the mesh.
+        inside = of_facets.replace("<mesh_function>", "<domains>").replace("</mesh_function>", "</domains></mesh>")
+        mesh = found_mesh("d.xml", self.read("d.xml", self.write_dolfin_xml().replace("</mesh>", inside)), 1.0)
+        self.assertEqual(list(mesh.cells), ["domains_2:4", "domains_2:5", "all"])
+
+    def test_xml_of_dolfin_whose_facets_only_dolfin_knows_is_said_to_have_them(self):
+        numbered = '<mesh_function type="uint" dim="2" size="1"><entity index="0" value="7" /></mesh_function>'
+        mesh = found_mesh("d.xml", self.read("d.xml", self.write_dolfin_xml(facet_region=numbered)), 1.0)
+        self.assertEqual(list(mesh.cells), ["all"])
+        self.assertIn("d_facet_region.xml (values of facets by dolfin's own numbers", mesh.passed_over[0])
+
+    def test_xml_that_is_no_mesh_of_dolfin(self):
+        text = self.write_dolfin_xml()
+        for wrong, words in (
+            (text.replace('index="1"', 'index="9"'), "indices of vertices or cells are not 0, 1, 2"),
+            (text.replace('v1="', 'w1="'), "cannot be read as dolfin's XML"),
+            (text.replace('celltype="tetrahedron"', 'celltype="hexahedron"'), "no tetrahedra or triangles"),
+            (text[:200], "is no XML"),
+            ("<a/>", "no other mesh in XML is known"),
+            ('<dolfin><mesh_function dim="3" /></dolfin>', "but a function of one; give the mesh, NAME.xml"),
+        ):
+            self.expect_refusal("d.xml", wrong, words)
+        beyond = '<mesh_function type="uint" dim="3" size="1"><entity index="2" value="7" /></mesh_function>'
+        self.write_dolfin_xml(physical_region=beyond)
+        self.expect_refusal("d.xml", text, "d_physical_region.xml: physical_region: names a cell or side")
 
     def test_med_of_gmsh(self):
         # Face of a tetrahedron of MED: the fourth node lies on the other side than VTK's.
@@ -481,6 +548,41 @@ ends
         text = f"MeshVersionFormatted 2\nDimension 3\nVertices\n5\n{points}Tetrahedra\n2\n{cells}End\n"
         found = found_mesh("a.mesh", self.read("a.mesh", text), 1.0)
         self.assertEqual(list(found.cells), ["medit:ref:3", "medit:ref:4", "all"])
+
+        # References of points say little, and hide no part of cells of the same number.
+        found = found_mesh("a.mesh", self.read("a.mesh", text.replace(" 0\n", " 3\n")), 1.0)
+        self.assertEqual(
+            (list(found.cells)[:2], list(found.points_of)), (["medit:ref:3", "medit:ref:4"], ["medit:ref:3:points"])
+        )
+
+    def test_a_set_of_points_with_the_name_of_cells_is_a_part_of_its_own(self):
+        deck = self.DECK.replace("NSET=ends", "NSET=Fluid").replace("\nends\n", "\nFluid\n")
+        found = found_mesh("a.inp", self.read("a.inp", deck), 1.0)
+        self.assertIn("Fluid", found.cells)
+        self.assertNotIn("Fluid", found.points_of)
+        np.testing.assert_array_equal(found.points_of["Fluid:points"], [0, 1, 2])
+        # Beside another file, too.
+        (self.base / "other.inp").write_text(self.DECK.replace("Fluid", "lumen").replace("WALL", "shell"))
+        sources = [Source("", self.base / "a.inp"), Source("", self.base / "other.inp")]
+        whole, _ = read_sources(sources, 1.0)
+        self.assertIn("Fluid:points", whole.points_of)
+
+    def test_folders_are_refused_with_the_command_for_their_files(self):
+        folder = self.base / "mesh-complete"
+        (folder / "mesh-surfaces").mkdir(parents=True)
+        with self.assertRaisesRegex(InputError, "is a folder; give the files in it: fluid=LUMEN.vtu, "):
+            read_mesh(folder)
+        for name in (
+            "mesh-complete.mesh.vtu",
+            "mesh-surfaces/cap in.vtp",
+            "mesh-surfaces/wall.vtp",
+            "walls_combined.vtp",
+        ):
+            (folder / name).write_text("")
+        words = f"fsi-mesh import fluid={folder}/mesh-complete.mesh.vtu 'cap in={folder}/mesh-surfaces/cap in.vtp' -o "
+        with self.assertRaises(InputError) as refused:
+            read_mesh(folder)
+        self.assertIn(f"{words}mesh-complete.msh", str(refused.exception))
 
     def test_lagrange_cells_of_vtk_are_quadratic_cells(self):
         array = '<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="ascii">{}</DataArray>'

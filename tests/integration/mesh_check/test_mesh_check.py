@@ -2,6 +2,7 @@
 
 import functools
 import re
+import shlex
 import unittest
 
 import meshio
@@ -246,6 +247,34 @@ class Check(Surfaces):
                 self.assertRegex(process.stdout, "(?m)^stops .*: wall_ends: the physical surface is missing")
                 self.assertNotRegex(process.stdout, "check-|fsi-mesh-")
 
+    def test_the_command_that_mends_a_mesh_without_names_does(self):
+        """In another unit; a coordinate that is zero to rounding is shown as zero."""
+        mesh = self.artery()
+        points = (mesh.points + [0, 0, -1.5]) / 10 + [1e-17, -2e-17, 0]
+        meshio.Mesh(points, [("tetra", mesh.volumes["fluid"])]).write(self.base / "bare.vtu")
+        process = self.check("bare.vtu", "--scale", 10, "--threads", 1)
+        self.assertEqual(process.returncode, 1)
+        self.assertNotRegex(process.stdout, r"\de-\d")
+        command = shlex.split(re.search(r"; fsi-mesh (import .*) names them$", process.stdout, re.MULTILINE).group(1))
+        process = execute(MESH, *command, "-q", cwd=self.base)
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        process = self.check("NEW.msh")
+        (self.base / "NEW.msh").unlink()
+        self.assertEqual((process.returncode, process.stderr), (0, ""), process.stdout)
+        self.assertEqual(process.stdout.count("\nopening NAME"), 2)
+        # Of lumen and wall that do not touch, too.
+        moved = mesh.points + [0, 0, 0.01]
+        cells = [mesh.volumes["fluid"], mesh.volumes["media"] + len(mesh.points)]
+        meshio.Mesh(
+            np.vstack([mesh.points, moved]),
+            [("tetra", np.concatenate(cells))],
+            cell_data={"region": [np.repeat([1, 2], [len(c) for c in cells])]},
+        ).write(self.base / "apart.vtu")
+        self.assertRegex(
+            self.check("apart.vtu").stdout,
+            r"(?m)^warning: a gap: .*: fsi-mesh import apart.vtu --group fluid=region:1 --group wall=region:2 -o NEW.msh$",
+        )
+
     def test_what_cannot_be_read_is_one_line(self):
         (self.base / "no.msh").write_text("no mesh\n")
         (self.base / "no.vtu").write_text("<VTKFile")
@@ -310,6 +339,28 @@ class NoLumen(Surfaces):
                 for row in rows:
                     self.assertAlmostEqual(float(row.split()[1]), area, delta=2e-3)
                 self.assertEqual(len(re.findall(r"\(0, 0, [08]\) mm", process.stdout)), 2)
+
+    def test_a_seam_that_rounding_opens_is_closed(self):
+        """As of scripts that go once around, cos(2 pi) in the place of cos(0); points a thousandth apart are two."""
+        points, triangles = self.closed(0.0)
+        for away, code in ((3e-16, 0), (1e-3, 1)):
+            seam = np.flatnonzero(np.abs(points[:, 1]) < 1e-9)
+            seam = seam[points[seam, 0] > 0.5]
+            new = np.arange(len(points))
+            new[seam] = len(points) + np.arange(len(seam))
+            below = points[triangles].mean(axis=1)[:, 1] < 0
+            rows = np.where(below[:, None], new[triangles], triangles)
+            corners = np.vstack([points, points[seam] - [0, away, 0]])
+            text = [f"v {x!r} {y!r} {z!r}" for x, y, z in corners.tolist()]
+            text += ["f " + " ".join(str(n + 1) for n in row) for row in rows]
+            (self.base / "seam.obj").write_text("\n".join(text) + "\n")
+            process = self.listed("seam.obj")
+            self.assertEqual(process.returncode, code, process.stdout + process.stderr)
+            if code == 0:
+                self.assertEqual((process.stderr, len(process.stdout.splitlines())), ("", 3))
+            else:  # there is no end then, but one hole
+                said = r"error: seam\.obj: surface: has a slit near \(.*\) mm, as points that are there twice leave; "
+                self.assertRegex(process.stderr, said)
 
     def test_a_wall_with_both_faces_is_no_lumen(self):
         points, triangles = self.tube()

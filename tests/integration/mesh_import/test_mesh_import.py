@@ -283,6 +283,35 @@ class MeshImport(FolderTest):
         words = ("--opening", "inlet=0,0,0", "--opening", "outlet=0,0,3", "--scale", 1000)
         self.expect_tube(self.imported(self.base / "tube.vtu", "--group", "fluid=all", *words))
 
+    def test_flat_ends_of_a_volume_without_names_by_the_command_of_the_list(self):
+        points, solid, sides = self.lumen()
+        meshio.Mesh(points, [solid]).write(self.base / "bare.vtu")
+        listed = execute(MESH, "import", "bare.vtu", "--list", cwd=self.base)
+        command = shlex.split(re.search(r"(?m)^  fsi-mesh (import .*)$", listed.stdout).group(1))
+        self.assertEqual(command[-3:], ["--group", "fluid=all", "--flat-ends"])
+        self.assertIn("--scale", command)
+        process = execute(MESH, *command, "--format", "2.2", cwd=self.base)
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.assertRegex(process.stdout, r"(?m)^Flat ends: end_1, [\d.]+ mm\^2 at \(0, 0, [03]\) mm; end_2, ")
+        made = meshio.read(self.base / "bare.msh")
+        (self.base / "bare.msh").unlink()
+        physical = made.cell_data_dict["gmsh:physical"]["triangle"]
+        counts = sorted(np.count_nonzero(physical == made.field_data[f"end_{k}"][0]) for k in (1, 2))
+        self.assertEqual(counts, sorted(len(side) for _, side in sides))
+        # Beside one that has a name; the sides of a wall are no ends.
+        file = self.base / "bare.vtu"
+        words = ("--group", "fluid=all", "--scale", 1000, "--flat-ends")
+        process = self.imported(file, *words, "--opening", "inlet=0,0,0")
+        self.assertRegex(process.stdout, r"(?m)^Flat ends: end_1, [\d.]+ mm\^2 at \(0, 0, 3\) mm\.$")
+        process = self.imported(file, *words, "--opening", "inlet=0,0,0", "--opening", "outlet=0,0,3")
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("--flat-ends: each flat part of the fluid's surface has a name", process.stderr)
+        process = self.imported(file, "--group", "wall=all", "--scale", 1000, "--flat-ends")
+        self.assertEqual((process.returncode, process.stderr.count("\n")), (1, 1))
+        self.assertIn(
+            "--flat-ends: names a part of the fluid's surface, and the mesh has no volume fluid", process.stderr
+        )
+
     def test_med_and_abaqus_with_names_of_their_own(self):
         points, solid, sides = self.lumen()
         blocks = [solid, *sides]

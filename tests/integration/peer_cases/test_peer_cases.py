@@ -5,6 +5,9 @@ import csv
 import math
 import re
 import shutil
+import signal
+import subprocess
+import time
 import tomllib
 import unittest
 from pathlib import Path
@@ -141,6 +144,23 @@ class PeerCases(FolderTest):
             for a, b in zip(mine, yours, strict=True):
                 for key in moved:
                     self.assertAlmostEqual(float(a[key]), float(b[key]), delta=1e-9 * size)
+
+    def test_a_signal_leaves_nothing_behind(self):
+        """Whether it comes while the case is read, or while its mesh is looked at."""
+        (self.base / "solver.xml").write_text(peer.fsi())
+        before = sorted(self.base.iterdir())
+        for number, code in ((signal.SIGTERM, 143), (signal.SIGINT, 130)):
+            for awaited in ("*.part", "*.part/*", "*.part/given.msh"):
+                with self.subTest(signal=number, awaited=awaited):
+                    command = [str(MESH), "import", "solver.xml", "-o", "interrupted"]
+                    with subprocess.Popen(command, cwd=self.base, stderr=subprocess.PIPE, text=True) as process:
+                        deadline = time.monotonic() + 100
+                        while not any(self.base.glob(awaited)) and time.monotonic() < deadline:
+                            self.assertIsNone(process.poll(), "has ended before the signal")
+                        process.send_signal(number)
+                        _, errors = process.communicate(timeout=100)
+                    self.assertEqual((process.returncode, errors), (code, "fsi-mesh: interrupted\n"))
+                    self.assertEqual(sorted(self.base.iterdir()), before)
 
     def test_units_follow_from_length_mass_and_time(self):
         """A case in SI with the numbers of the same tube is the same case."""

@@ -4,12 +4,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <thread>
 
+#include "base/child_program.hpp"
 #include "base/removed_on_signal.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -149,6 +152,43 @@ TEST_F(RemovedPaths, VanishWithTheProcess) {
             143);
   EXPECT_FALSE(std::filesystem::exists(made));
   EXPECT_TRUE(std::filesystem::exists(kept));
+}
+
+TEST_F(RemovedPaths, TakeTheirFilesAlongIfTheyMay) {
+  const auto own = folder_ / "own", users = folder_ / "users";
+  for (const auto& folder : {own, users}) {
+    std::filesystem::create_directory(folder);
+    // More than the handler reads of a folder at a time.
+    for (int i = 0; i < 300; ++i) write_text(folder / ("a file with a long name " + std::to_string(i)), "");
+  }
+  EXPECT_EQ(end_of([&] {
+              close(STDERR_FILENO);
+              end_at_signals("fsi-x", "");
+              const RemovedOnSignal of_program(own, FilesInside::go), of_user(users);
+              std::raise(SIGTERM);
+              return 1;
+            }),
+            143);
+  EXPECT_FALSE(std::filesystem::exists(own));
+  EXPECT_TRUE(std::filesystem::exists(users / "a file with a long name 299"));
+}
+
+TEST_F(RemovedPaths, AreNotMadeAnewByAChild) {
+  const auto file = folder_ / "made by the child", began = folder_ / "began";
+  EXPECT_EQ(end_of([&] {
+              close(STDERR_FILENO);
+              end_at_signals("fsi-x", "");
+              alarm(100);  // this test's own end where the signal below does not come
+              std::thread([&] {
+                while (!std::filesystem::exists(began)) std::this_thread::yield();
+                kill(getpid(), SIGTERM);
+              }).detach();
+              run_child({"/bin/sh", "-c", "echo > '" + began.string() + "'; sleep 1; echo > '" + file.string() + "'"});
+              return 1;
+            }),
+            143);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 }  // namespace
