@@ -8,11 +8,11 @@ from .mesh_import import command as mesh_import
 from .mesh_import import surface_command
 from .peer_cases import command as peer_cases
 from .reporting import accuracy, cost, export, picture_command, pressure, run_report, watch
-from .studies import command as study
-from .studies.gallery import command as gallery
+from .study import command as study
+from .gallery import command as gallery
 from .studies.linear import command as linear
-from .studies.tune import command as tune
-from .studies.verify import command as verify
+from .tune import command as tune
+from .verify import command as verify
 
 COMMANDS = (
     pressure,

@@ -6,16 +6,16 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tup
 
 from ..base.errors import InputError
 from ..base.files import read_toml
-from .starting.progress import duration
-from .gallery.scene import Number, Scene, SceneRun, SceneRuns
+from ..starting.progress import duration
+from ..gallery.scene import Number, Scene, SceneRun, SceneRuns
 from ..reporting.column import Column, Facts, fixed
 from ..reporting.layout import Table
 from ..runs.columns import ITERATIONS
 from ..runs.coupling import chosen_scheme, coupling_kind
 from ..runs.work_units import shown
-from .running.context import Context
-from .running.study_file import Study
-from .running.study_run import StudyRun
+from ..study.context import Context
+from ..study.study_file import Study
+from ..study.study_run import StudyRun
 
 SHORT = {"fsi-monolithic": "monolithic", "fsi-partitioned": "partitioned"}
 COUNTED = {"fsi-monolithic": "Newton iterations a step", "fsi-partitioned": "passes a step"}

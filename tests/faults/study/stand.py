@@ -16,10 +16,10 @@ import fake_drivers  # noqa: E402
 from fsi_compare import start  # noqa: E402
 from fsi_compare.studies.linear import command as linear_command, study as linear_study  # noqa: E402
 from fsi_compare.reporting import matplotlib_loader  # noqa: E402
-from fsi_compare.studies.starting.processes import End  # noqa: E402
-from fsi_compare.studies.starting.programs import Program  # noqa: E402
-from fsi_compare.studies import command as study_command  # noqa: E402
-from fsi_compare.studies.running import runner  # noqa: E402
+from fsi_compare.starting.processes import End  # noqa: E402
+from fsi_compare.starting.programs import Program  # noqa: E402
+from fsi_compare.study import command as study_command  # noqa: E402
+from fsi_compare.study import runner  # noqa: E402
 
 READY = TOP / "compare" / "studies"
 STEPS, STEP = 24, 0.125

@@ -276,9 +276,9 @@ class WholeStudy(FolderCase):
 
 class ReadyStudy(unittest.TestCase):
     def test_can_be_run(self):
-        from fsi_compare.studies import kinds
-        from fsi_compare.studies.command import study_path
-        from fsi_compare.studies.running.study_file import read_study
+        from fsi_compare.study import kinds
+        from fsi_compare.study.command import study_path
+        from fsi_compare.study.study_file import read_study
 
         for quick in (False, True):
             study = read_study(study_path("accuracy-cost"), kinds.NAMES, quick)
@@ -293,9 +293,9 @@ class ReadyStudy(unittest.TestCase):
                 self.assertEqual({request.case for request in study.requests}, set(study.cases))
 
     def test_elements_and_dimensions_can_be_run_side_by_side(self):
-        from fsi_compare.studies import kinds
-        from fsi_compare.studies.command import study_path
-        from fsi_compare.studies.running.study_file import read_study
+        from fsi_compare.study import kinds
+        from fsi_compare.study.command import study_path
+        from fsi_compare.study.study_file import read_study
 
         for quick in (False, True):
             study = read_study(study_path("space"), kinds.NAMES, quick)

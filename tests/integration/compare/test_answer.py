@@ -12,8 +12,8 @@ from fsi_compare.studies.paper.cost import StepCost
 from fsi_compare.studies.paper.runs import PaperRuns
 from fsi_compare.studies.paper.speeds import Measured, Speeds
 from fsi_compare.studies.paper.waves import Agreement
-from fsi_compare.studies.running.study_file import Method, Request, StudyMesh
-from fsi_compare.studies.running.study_run import DONE, StudyRun
+from fsi_compare.study.study_file import Method, Request, StudyMesh
+from fsi_compare.study.study_run import DONE, StudyRun
 
 
 def run_of(material="neo-hookean", mesh="coarse", method="monolithic", group="waves"):

@@ -8,7 +8,7 @@ from fake_drivers import behave, calls
 from folder_case import FolderCase
 from study_case import STUDY, StudyCase
 
-from fsi_compare.studies import command
+from fsi_compare.study import command
 
 
 class Overview(StudyCase):
@@ -80,7 +80,7 @@ class Overview(StudyCase):
         self.assertFalse((self.base / "results").exists())
 
     def test_without_programs(self):
-        with mock.patch("fsi_compare.studies.starting.programs._beside", return_value=None):
+        with mock.patch("fsi_compare.starting.programs._beside", return_value=None):
             code, out, err = FolderCase.call(self, "study", "--list")
         self.assertEqual(code, 0)
         self.assertIn("two  Two runs (2 runs asked for)", out)

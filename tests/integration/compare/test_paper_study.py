@@ -14,11 +14,11 @@ from study_case import StudyCase
 from test_report import outside_references
 
 from fsi_compare.studies.catalogue import paper
-from fsi_compare.studies.starting.case_digest import case_digest
+from fsi_compare.starting.case_digest import case_digest
 from fsi_compare.base.errors import InputError
 from fsi_compare.studies.evidence import energy_plots, phase_bars
 from fsi_compare.studies.evidence.fields import TETRAHEDRA
-from fsi_compare.studies import kinds
+from fsi_compare.study import kinds
 from fsi_compare.studies.catalogue.names import MATERIALS
 from fsi_compare.studies.linear.grid import Grid
 from fsi_compare.studies.linear.study import Outcome, Request as LinearRequest
@@ -41,10 +41,10 @@ from fsi_compare.studies.paper.energy import remainders
 from fsi_compare.studies.paper.solver_claims import observed_orders, solver_claims
 from fsi_compare.studies.paper.speeds import Measured, Speeds, speed_table
 from fsi_compare.studies.paper.wave_claims import wave_claims
-from fsi_compare.studies.command import READY
+from fsi_compare.study.command import READY
 from fsi_compare.studies.evidence.plane_cut import cut
-from fsi_compare.studies.running.study_file import Method, Request, read_study
-from fsi_compare.studies.running.study_run import DONE, StudyRun
+from fsi_compare.study.study_file import Method, Request, read_study
+from fsi_compare.study.study_run import DONE, StudyRun
 from fsi_compare.studies.evidence.tube_pictures import round_factor
 
 

@@ -10,8 +10,8 @@ from fsi_compare.base.errors import InputError
 from fsi_compare.runs.coupling import with_coupling
 from fsi_compare.runs.labels import default_labels
 from fsi_compare.runs.run_folder import read_run
-from fsi_compare.studies.running.study_file import Method, Request
-from fsi_compare.studies.running.study_run import StudyRun
+from fsi_compare.study.study_file import Method, Request
+from fsi_compare.study.study_run import StudyRun
 
 SHORT = TIMES[:4]
 

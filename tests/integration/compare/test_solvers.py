@@ -14,7 +14,8 @@ from folder_case import FolderCase
 
 from fsi_compare import cli
 from fsi_compare.studies.catalogue import paper
-from fsi_compare.studies.catalogue.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, METHODS, MULTILEVEL
+from fsi_compare.studies.catalogue.names import BLOCK_PRECONDITIONERS, MATERIALS, METHODS, MULTILEVEL
+from fsi_compare.study.mesh_levels import MESHES
 from fsi_compare.studies.linear.command import CASES
 
 SMALL = ("--materials", "neo-hookean", "--meshes", "coarse", "--methods", "amg,amg_fgmres,direct", "--systems", "1:1")

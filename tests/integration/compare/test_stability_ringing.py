@@ -8,8 +8,8 @@ from synthetic import parabola, write_run
 
 from fsi_compare.reporting.report import Report
 from fsi_compare.studies.evidence.cross_check import AGREES, Cell
-from fsi_compare.studies.running.study_file import Method, Request
-from fsi_compare.studies.running.study_run import DONE, StudyRun
+from fsi_compare.study.study_file import Method, Request
+from fsi_compare.study.study_run import DONE, StudyRun
 from fsi_compare.studies.stability.ringing import ringing, ringing_table
 from fsi_compare.studies.stability.settings import Settings
 

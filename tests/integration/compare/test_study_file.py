@@ -6,9 +6,9 @@ import unittest.mock
 from folder_case import FolderCase
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.studies import kinds
-from fsi_compare.studies.command import READY, ready, study_path
-from fsi_compare.studies.running.study_file import read_study
+from fsi_compare.study import kinds
+from fsi_compare.study.command import READY, ready, study_path
+from fsi_compare.study.study_file import read_study
 
 GOOD = """\
 title = "A study"
@@ -87,7 +87,7 @@ class StudyFile(FolderCase):
 
     def test_processes_up_to_the_cores(self):
         for cores, expected in ((1, [1]), (2, [1, 2]), (6, [1, 2, 4, 6]), (8, [1, 2, 4, 8])):
-            with unittest.mock.patch("fsi_compare.studies.running.study_file.usable_cores", lambda n=cores: n):
+            with unittest.mock.patch("fsi_compare.study.study_file.usable_cores", lambda n=cores: n):
                 study = self.read(GOOD.replace("[1, 3]", '"cores"'))
             self.assertEqual([r.processes for r in study.requests if r.group == "parts"][: len(expected)], expected)
 

@@ -11,7 +11,7 @@ from programs import MONOLITHIC, FolderTest, execute
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "compare"))
 
-from fsi_compare.studies.starting.programs import Program  # noqa: E402
+from fsi_compare.starting.programs import Program  # noqa: E402
 from fsi_compare.studies.linear.stress import ASPECT_RATIO, make_stretched_mesh  # noqa: E402
 
 COMPARE = os.environ["FSI_COMPARE"]

@@ -2,7 +2,7 @@
 
 from typing import List, Optional, Sequence, Tuple
 
-from ..starting.progress import duration
+from ...starting.progress import duration
 from ...runs.waves import JUDGED, PRESSURE, QUANTITIES, Quantity
 from .convergence import SPACE, TIME, Series
 from .frontier import cheapest

@@ -5,8 +5,8 @@ from typing import Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 from ...runs.coupling import coupling_kind
 from ...runs.waves import JUDGED, QUANTITIES, Waves, read_run, relative_difference
-from ..running.study_file import Request, show
-from ..running.study_run import StudyRun
+from ...study.study_file import Request, show
+from ...study.study_run import StudyRun
 from .plan import Plan
 
 SOLVING = ("monolithic.", "partitioned.", "output.")  # settings that leave the discrete equations as they are

@@ -8,8 +8,8 @@ from ...base.files import absolute
 from ...base.suggestions import nearest
 from ...runs.reference import WaveReference, read_reference
 from ...runs.waves import WINDOW
-from ..running.section import is_positive
-from ..running.study_file import Study, report_of
+from ...study.section import is_positive
+from ...study.study_file import Study, report_of
 
 Wrong = Callable[[str, str, str], InputError]  # of key, problem and remedy
 

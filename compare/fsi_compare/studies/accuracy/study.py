@@ -7,11 +7,11 @@ from typing import Dict, List, Sequence
 
 from ..catalogue.names import MATERIALS
 from ...reporting.report import Report
-from ..evidence.runs_table import runs_table
+from ...study.runs_table import runs_table
 from ...runs.waves import JUDGED, QUANTITIES, Quantity
-from ..running.context import Context
-from ..running.repeats import timing_words
-from ..running.study_file import Study
+from ...study.context import Context
+from ...study.repeats import timing_words
+from ...study.study_file import Study
 from . import pictures
 from .advice import algebraic_advice, enough, estimate, percent, small_steps, total_advice
 from .convergence import SPACE, TIME, Series, series

@@ -2,12 +2,12 @@
 
 from typing import Callable, List, NamedTuple, Optional, Sequence
 
-from ..starting.progress import duration
+from ...starting.progress import duration
 from ...reporting.column import Column, Facts
 from ...reporting.layout import Table
 from ...runs.work_units import NOTE_IN_ALL
 from ...runs.waves import QUANTITIES, Quantity
-from ..running.study_run import known
+from ...study.study_run import known
 from .advice import percent
 from .convergence import SPACE, Series
 from .frontier import frontier

@@ -5,12 +5,12 @@ from typing import Any, Callable, List, Mapping, Optional, Sequence
 
 import numpy as np
 
-from ..running.study_run import StudyRun
-from ..verify.doubt import on_common_points
-from ..verify.family import CaseFacts, Member
-from ..verify.quantities import curves_of
-from ..verify.results import FamilyRuns, about, judge
-from ..verify.verdict import CONVERGES, Bar
+from ...study.study_run import StudyRun
+from ...verify.doubt import on_common_points
+from ...verify.family import CaseFacts, Member
+from ...verify.quantities import curves_of
+from ...verify.results import FamilyRuns, about, judge
+from ...verify.verdict import CONVERGES, Bar
 
 EXACT_TO = 1e-6  # relative: below it the truth is not known
 Known = Callable[[str, np.ndarray], Any]  # exact values of a curve at times, or None

@@ -10,14 +10,14 @@ from ...base.errors import InputError
 from ...reporting.column import Column
 from ...reporting.layout import Table
 from ...reporting.log_axes import log_axes
-from ..running.context import Context
-from ..running.section import Section
-from ..running.study_file import Study, report_of
-from ..running.study_run import StudyRun
-from ..verify.family import STEP_RATIO, CaseFacts, Member, members
-from ..verify.mesh_family import Recipe, ratio_for
-from ..verify.scene_family import require_scenes, scene_family
-from ..verify.verdict import BAR_WIDENED, CONVERGES, NOT_IN_RANGE
+from ...study.context import Context
+from ...study.section import Section
+from ...study.study_file import Study, report_of
+from ...study.study_run import StudyRun
+from ...verify.family import STEP_RATIO, CaseFacts, Member, members
+from ...verify.mesh_family import Recipe, ratio_for
+from ..evidence.scene_family import require_scenes, scene_family
+from ...verify.verdict import BAR_WIDENED, CONVERGES, NOT_IN_RANGE
 from .record import Record, Score, records
 
 SCENE_KEYS = ("reference", "trap", "skipped", "levels")

@@ -6,8 +6,6 @@ from ...base.errors import InputError
 from ...base.suggestions import nearest
 
 MATERIALS = {"neo-hookean": "neo-Hookean", "mooney-rivlin": "Mooney-Rivlin", "artery": "artery"}
-MESHES = {"coarse": "C", "intermediate": "I", "fine": "F"}
-MESH_NODES = {"coarse": 1e3, "intermediate": 7e3, "fine": 55e3}  # about, to weigh the work of runs
 
 # The paper's block preconditioners of GMRES (its Table 4); each also with exact sub-solves.
 BLOCK_PRECONDITIONERS = {"diagonal": "P_D", "lower": "P_L", "upper": "P_U", "ssor": "P_SSOR", "ilu": "P_ILU"}

@@ -5,7 +5,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Dict, List, Optional
 
-from .names import MESHES
+from ...study.mesh_levels import MESHES
 
 
 @lru_cache(maxsize=None)

@@ -13,10 +13,10 @@ import numpy as np
 from ...base.errors import ProgramError
 from ...reporting.column import Column
 from ...reporting.layout import Table
-from ..running.context import Context
-from ..running.section import Section
-from ..running.study_file import Study
-from ..running.study_run import DONE, NOT_CONVERGED, StudyRun
+from ...study.context import Context
+from ...study.section import Section
+from ...study.study_file import Study
+from ...study.study_run import DONE, NOT_CONVERGED, StudyRun
 from .added_mass import AddedMass
 from .bisection import Bracket, bisect
 

@@ -15,9 +15,9 @@ from ...base.errors import InputError
 from ..catalogue.names import MATERIALS
 from ...reporting.cost import Cost, cost_table, read_cost
 from ..evidence.cross_check import WRONG, Cell
-from ..running.context import Context
-from ..running.study_file import Study
-from ..running.study_run import DONE, StudyRun
+from ...study.context import Context
+from ...study.study_file import Study
+from ...study.study_run import DONE, StudyRun
 from . import added_mass_runs, sweeps
 from .pictures import passes_figure
 from .tables import Agreement, agreement_table, agreements, growth_table, mesh_name, passes_table, saving_table

@@ -10,9 +10,9 @@ from typing import Dict, List, Optional, Sequence
 from ...reporting.column import Column, Facts
 from ...reporting.layout import Table
 from ..evidence.cross_check import AGREES, BOUND, DEVIATES, FAR, FAULTS, UNCHECKED, WRONG, Cell, cells
-from ..running.commands import with_name
-from ..running.study_file import Study, report_of
-from ..running.study_run import StudyRun
+from ..evidence.commands import with_name
+from ...study.study_file import Study, report_of
+from ...study.study_run import StudyRun
 from . import added_mass_runs
 from .pictures import Series
 

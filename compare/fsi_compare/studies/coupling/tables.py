@@ -7,8 +7,8 @@ from ...reporting.column import Column, Facts, fixed
 from ...reporting.layout import Table
 from ...reporting.cost import Cost
 from ...runs.differences import largest_difference
-from ..running.study_file import show
-from ..running.study_run import StudyRun
+from ...study.study_file import show
+from ...study.study_run import StudyRun
 from .sweeps import MONOLITHIC
 
 Place = Tuple[str, str]  # mesh and case: what a column is of

@@ -8,8 +8,8 @@ import numpy as np
 from ...base.errors import InputError
 from ...runs.differences import largest_difference
 from ...runs.pressure_waves import PressureWaves
-from ..running.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
-from ..running.study_run import WRONG as NOT_FINITE
+from ...study.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
+from ...study.study_run import WRONG as NOT_FINITE
 
 AGREES = "converged"  # and no time level is further from the other driver's than the bound
 UNCHECKED = "converged, unchecked"  # the other driver was not run there, found nothing, or broke off earlier

@@ -11,7 +11,7 @@ from ...reporting.layout import Table
 from ...reporting.log_axes import plain_log_axis
 from ...reporting.pictures import PANEL_INCHES, finish
 from ...reporting.report import Report
-from ..running.study_run import StudyRun
+from ...study.study_run import StudyRun
 
 FILE = "energy.csv"
 ENERGIES = (

@@ -7,11 +7,12 @@ from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.files import is_file, read_toml
-from ..catalogue.names import MATERIALS, MESHES
+from ..catalogue.names import MATERIALS
+from ...study.mesh_levels import MESHES
 from ...reporting.column import Column
 from ...reporting.layout import Table
-from ..running.section import flat
-from ..running.study_run import StudyRun
+from ...study.section import flat
+from ...study.study_run import StudyRun
 from ...runs.reference import FILE, WaveReference, read_reference
 from ...runs.waves import DISPLACEMENT, PRESSURE, WRITTEN, read_waves, relative_difference
 

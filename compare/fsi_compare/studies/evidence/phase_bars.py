@@ -9,7 +9,7 @@ from ...base.errors import InputError
 from ...reporting.column import Column
 from ...reporting.layout import Table
 from ...reporting.pictures import finish
-from ..running.study_run import StudyRun
+from ...study.study_run import StudyRun
 
 # Told apart in grey by lightness and hatch.
 PARTS = {

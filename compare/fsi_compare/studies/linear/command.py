@@ -11,11 +11,12 @@ from typing import Dict, List, Optional, Sequence, Set, Tuple
 from ...base.errors import InputError, printable
 from ...base.files import folder, is_file, is_folder, make_folder, output_folder, replacing, together
 from ...base.options import Commands, add_command, add_output
-from ..starting.folder_lock import locked
-from ..catalogue.names import MATERIALS, MESHES, METHODS, pick
+from ...starting.folder_lock import locked
+from ..catalogue.names import MATERIALS, METHODS, pick
+from ...study.mesh_levels import MESHES
 from ...reporting.layout import show_tables, write_tables
 from ...reporting.matplotlib_loader import load_matplotlib
-from ..starting.programs import Program, find_monolithic, has_petsc
+from ...starting.programs import Program, find_monolithic, has_petsc
 from . import stress as stress_study
 from .results import System
 from .study import Outcome, Request, run_study

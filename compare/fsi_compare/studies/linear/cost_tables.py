@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 from typing import Any, Callable, List, Optional
 
-from ..catalogue.names import MATERIALS, MESHES
+from ..catalogue.names import MATERIALS
+from ...study.mesh_levels import MESHES
 from ...reporting.column import Column, fixed
 from ...reporting.layout import Table
 from .grid import Entry, Grid, suffix

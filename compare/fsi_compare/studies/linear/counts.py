@@ -4,7 +4,8 @@ from dataclasses import dataclass, replace
 from typing import List, Optional, Tuple
 
 from ..catalogue import paper
-from ..catalogue.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES
+from ..catalogue.names import BLOCK_PRECONDITIONERS, MATERIALS
+from ...study.mesh_levels import MESHES
 from ...reporting.column import Column
 from .grid import Entry, Grid
 from .results import NewtonSystem, System

@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 from typing import Iterable, List, Optional, Sequence
 
-from ..catalogue.names import MATERIALS, MESHES, METHODS
+from ..catalogue.names import MATERIALS, METHODS
+from ...study.mesh_levels import MESHES
 from .results import NewtonSystem, Solve, System
 from .study import Outcome
 

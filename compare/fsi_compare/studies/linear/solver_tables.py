@@ -4,7 +4,8 @@ from dataclasses import dataclass
 from typing import List, NamedTuple, Optional, Sequence, Tuple
 
 from ..catalogue import paper
-from ..catalogue.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MESHES, MULTILEVEL
+from ..catalogue.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MULTILEVEL
+from ...study.mesh_levels import MESHES
 from ...reporting.column import Column, Facts, fixed
 from ...reporting.layout import Table
 from .cost_tables import cost_table

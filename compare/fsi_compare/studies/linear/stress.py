@@ -9,8 +9,8 @@ from ...base.files import TEMPORARY, absolute, exists, make_folder
 from ..catalogue.names import MATERIALS
 from ...reporting.column import Column, Facts
 from ...reporting.layout import Table
-from ..starting.processes import execute
-from ..starting.programs import Program, find_mesh_maker
+from ...starting.processes import execute
+from ...starting.programs import Program, find_mesh_maker
 from .results import NewtonSystem, Solve
 from .study import Outcome, Request
 

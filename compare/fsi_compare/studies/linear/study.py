@@ -10,11 +10,11 @@ from typing import List, Optional, Sequence, Tuple
 
 from ...base.errors import InputError, ProgramError
 from ...base.files import exists, make_folder, read_bytes, read_object, remove_tree, replacing, sweep
-from ..catalogue.names import MESH_NODES
-from ..starting.progress import Progress
-from ..starting.case_digest import case_digest
-from ..starting.processes import End, execute
-from ..starting.programs import Program
+from ...study.mesh_levels import MESH_NODES
+from ...starting.progress import Progress
+from ...starting.case_digest import case_digest
+from ...starting.processes import End, execute
+from ...starting.programs import Program
 from .results import FILE, LinearSolvers, System, read_linear_solvers
 
 REQUEST = "request.json"

@@ -5,14 +5,15 @@ from dataclasses import dataclass
 from typing import Dict, List, Optional, Sequence
 
 from ..catalogue import paper
-from ..catalogue.names import MATERIALS, MESHES
+from ..catalogue.names import MATERIALS
+from ...study.mesh_levels import MESHES
 from ..linear.grid import Grid
 from ...reporting.cost import COUPLED, FLUID, WALL, calls
 from ...reporting.column import Column
 from ...reporting.layout import Table
 from ...runs.work_units import NOTE
-from ..running.repeats import spread
-from ..running.study_run import OUT_OF_TIME, StudyRun
+from ...study.repeats import spread
+from ...study.study_run import OUT_OF_TIME, StudyRun
 from .claims import NOT_COMPARABLE, Claim, unexamined, verdict
 from .linear import FIRST_SYSTEM
 from .runs import COST, FIXED_POINT, NEWTON, WAVES, PaperRuns, mesh_of

@@ -8,7 +8,7 @@ from ...reporting.column import Column
 from ...reporting.layout import Table
 from ...reporting.report import Report
 from ..evidence.energy_plots import Balance, balance, energy_section
-from ..running.study_run import StudyRun
+from ...study.study_run import StudyRun
 from .runs import GROUPS, MONOLITHIC, RESOLVED, STOPPED_EARLY, WAVES, PaperRuns
 from .speeds import level_of
 

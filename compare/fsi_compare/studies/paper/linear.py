@@ -7,16 +7,17 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.files import make_folder
-from ..catalogue.names import MATERIALS, MESHES, METHODS
+from ..catalogue.names import MATERIALS, METHODS
+from ...study.mesh_levels import MESHES
 from ...base.suggestions import check_keys, nearest
 from ..linear.results import System
 from ..linear.grid import Grid
 from ..linear.study import Request, finished, run_study
-from ..starting.programs import require_linear_systems
-from ..running.builds import Builds
-from ..running.context import Context
-from ..running.runner import Runner, Standing
-from ..running.study_file import Study
+from ...starting.programs import require_linear_systems
+from ...study.builds import Builds
+from ...study.context import Context
+from ...study.runner import Runner, Standing
+from ...study.study_file import Study
 
 FOLDER = "linear"
 FIRST_SYSTEM = (1, 1)

@@ -2,8 +2,9 @@
 
 from typing import List, Optional, Sequence
 
-from ..catalogue.names import MATERIALS, MESHES
-from ..running.study_run import StudyRun
+from ..catalogue.names import MATERIALS
+from ...study.mesh_levels import MESHES
+from ...study.study_run import StudyRun
 
 MONOLITHIC, PARTITIONED = "monolithic", "robin-neumann-iqn"
 WAVES, RESOLVED, NEWTON, FIXED_POINT, COST = "waves", "resolved", "newton", "fixed-point", "cost"

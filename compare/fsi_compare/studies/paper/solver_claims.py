@@ -6,7 +6,8 @@ import sys
 from typing import Callable, Collection, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
 
 from ..catalogue import paper
-from ..catalogue.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, MULTILEVEL
+from ..catalogue.names import BLOCK_PRECONDITIONERS, MATERIALS, MULTILEVEL
+from ...study.mesh_levels import MESHES
 from ..linear.grid import Grid
 from .claims import Claim, compared, unexamined, verdict
 from .linear import FIRST_SYSTEM

@@ -14,7 +14,7 @@ from ...reporting.pictures import PANEL_INCHES, finish
 from ...runs.pressure_waves import crest_speed
 from ..evidence import wave_speed
 from ..evidence.tube import Tube, read_tube
-from ..running.study_run import StudyRun
+from ...study.study_run import StudyRun
 from .runs import DENSITY, FIBRES, MONOLITHIC, RESOLVED, TIMES, WAVES, PaperRuns, mesh_of
 from .waves import peaks
 

@@ -18,10 +18,10 @@ from ...reporting.report import Report
 from ..evidence.mesh_error import MeshError, error_words
 from ..evidence.phase_bars import MEANING, phase_figure, phase_table
 from ..evidence.tube import Tube, read_tube
-from ..running.context import Context
-from ..running.runner import Runner, Standing
-from ..running.study_file import Study
-from ..running.study_run import StudyRun
+from ...study.context import Context
+from ...study.runner import Runner, Standing
+from ...study.study_file import Study
+from ...study.study_run import StudyRun
 from . import cost as paper_cost, linear as paper_linear, speeds as paper_speeds, tables as paper_tables
 from . import waves as paper_waves
 from .answer import Found, answer

@@ -6,7 +6,8 @@ from typing import Dict, List, Mapping, NamedTuple, Optional, Sequence
 from ..catalogue import paper
 from ...base.errors import InputError
 from ...base.files import read_toml
-from ..catalogue.names import MATERIALS, MESHES
+from ..catalogue.names import MATERIALS
+from ...study.mesh_levels import MESHES
 from ..linear.grid import Grid
 from ...reporting.column import Column, Facts, fixed
 from ...reporting.layout import Table

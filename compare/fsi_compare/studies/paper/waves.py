@@ -7,7 +7,8 @@ from typing import Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..catalogue.names import MATERIALS, MESHES
+from ..catalogue.names import MATERIALS
+from ...study.mesh_levels import MESHES
 from ...reporting.column import Column, Facts
 from ...reporting.layout import Table
 from ...reporting.pictures import pressure_figure
@@ -19,7 +20,7 @@ from ...runs.differences import largest_difference
 from ...runs.pressure_waves import PressureWaves, peak
 from ..evidence import fields, tube_pictures
 from ..evidence.mesh_error import MeshError, error_table, error_words, mesh_error
-from ..running.study_run import StudyRun
+from ...study.study_run import StudyRun
 from .runs import MONOLITHIC, PARTITIONED, PICTURE_TIME, RESOLVED, STOPPED_EARLY, TIMES, PaperRuns, mesh_of, times_of
 
 SEEN_APART = 1e-2  # of the largest pressure: curves nearer than this lie on each other in a picture

@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 from typing import Dict, List, Mapping, Optional, Sequence, Tuple
 
-from ..gallery.scene import Number, Scene, SceneRun, SceneRuns
-from ..running.study_run import StudyRun
-from ..verify.family import CaseFacts, Member
-from ..verify.results import sizes
-from ..verify.verdict import Bar, Value, bar_of
+from ...gallery.scene import Number, Scene, SceneRun, SceneRuns
+from ...study.study_run import StudyRun
+from ...verify.family import CaseFacts, Member
+from ...verify.results import sizes
+from ...verify.verdict import Bar, Value, bar_of
 
 # Units of what is made of gradients and pressures, whose order in space is one less.
 OF_GRADIENTS = ("Pa", "kPa", "mmHg", "N", "N/m", "mN")

@@ -10,12 +10,12 @@ from ...base.errors import InputError
 from ...reporting.column import Column
 from ...reporting.layout import Table
 from ...reporting.log_axes import plain_log_axis
-from ..running.context import Context
-from ..running.section import Section
-from ..running.study_file import Study, report_of
-from ..running.study_run import StudyRun
-from ..verify.family import Member, members, mesh_ratio
-from ..verify.scene_family import require_scenes, scene_family
+from ...study.context import Context
+from ...study.section import Section
+from ...study.study_file import Study, report_of
+from ...study.study_run import StudyRun
+from ...verify.family import Member, members, mesh_ratio
+from ..evidence.scene_family import require_scenes, scene_family
 from .record import Record, Score, records
 
 SCENE_KEYS = ("levels", "finer")

@@ -6,7 +6,7 @@ from typing import Any, Mapping, Optional
 from ...base.errors import InputError
 from ...runs.summary import FILE
 from ..evidence.phase_bars import phase_seconds
-from ..running.study_run import StudyRun
+from ...study.study_run import StudyRun
 
 ASSEMBLY = ("assembly",)  # parts of a run's time, as phase_seconds names them
 ALGEBRA = ("set-up", "solve", "coupling", "other")

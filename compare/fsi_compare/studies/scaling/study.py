@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
-from ..starting.launch import usable_cores
-from ..evidence.runs_table import runs_table
-from ..running.context import Context
-from ..running.section import Section
-from ..running.study_file import Study, report_of
-from ..running.study_run import StudyRun
+from ...starting.launch import usable_cores
+from ...study.runs_table import runs_table
+from ...study.context import Context
+from ...study.section import Section
+from ...study.study_file import Study, report_of
+from ...study.study_run import StudyRun
 from .measured import Measured, measure
 from .model import Counted, Machine, Step, assumptions, counted, step
 from .tables import alone, counts_table, short, model_table, strong_table, weak_efficiency, weak_table

@@ -12,10 +12,10 @@ from ...reporting.column import Column, fixed
 from ...reporting.layout import Table
 from ...runs.differences import largest_difference
 from ..evidence.cross_check import waves_of
-from ..running.context import Context
-from ..running.section import Section
-from ..running.study_file import Request, Study, show, report_of
-from ..running.study_run import StudyRun
+from ...study.context import Context
+from ...study.section import Section
+from ...study.study_file import Request, Study, show, report_of
+from ...study.study_run import StudyRun
 
 REPORT_KEYS = ("repeat", "economies")
 ECONOMY_KEYS = ("label", "counter", "off", "off_label", "differs")

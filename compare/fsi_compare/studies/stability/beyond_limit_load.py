@@ -7,7 +7,7 @@ from ...reporting.column import Column, Facts, fixed
 from ...reporting.layout import Table
 from ...reporting.report import Report
 from ..evidence.cross_check import Cell, quantity
-from ..running.study_file import show
+from ...study.study_file import show
 from .limit_load import Curve, Inflation, Wall, inflation, pulse_figure, static_figure
 from .messages import without_folder
 from .settings import Settings

@@ -19,8 +19,8 @@ from matplotlib.figure import Figure
 from ...base.errors import InputError
 from ...reporting.pictures import LINES, finish
 from ..evidence.tube import Layer
-from ..running.section import Section
-from ..running.study_run import StudyRun
+from ...study.section import Section
+from ...study.study_run import StudyRun
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(20)
 LABEL = (0.1, 0.055)  # width and height of a label, of the picture's: nearer ones would cover each other

@@ -10,8 +10,8 @@ from matplotlib.patches import Patch, Rectangle
 
 from ...reporting.pictures import finish
 from ..evidence.cross_check import AGREES, DEVIATES, FAR, FAULTS, NOT_FINITE, UNCHECKED, USABLE, WRONG, Cell
-from ..running.study_file import show
-from ..running.study_run import CRASHED, NOT_CONVERGED, OUT_OF_TIME, REFUSED
+from ...study.study_file import show
+from ...study.study_run import CRASHED, NOT_CONVERGED, OUT_OF_TIME, REFUSED
 
 CELL_INCHES = (0.92, 0.36)
 MOST_ITERATIONS = 500.0  # darkest cell

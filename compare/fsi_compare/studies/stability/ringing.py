@@ -8,7 +8,7 @@ from ...reporting.column import Column, Facts
 from ...reporting.layout import Table
 from ...reporting.report import Report
 from ..evidence.cross_check import Cell, point_of, waves_of
-from ..running.study_file import show
+from ...study.study_file import show
 from .settings import Settings
 
 

@@ -6,9 +6,9 @@ from typing import Any, Mapping, Optional, Sequence
 from ...base.errors import InputError
 from ...base.suggestions import nearest
 from ..evidence.cross_check import BOUND
-from ..running.section import Section
-from ..running.study_file import Study, report_of
-from ..running.study_run import StudyRun
+from ...study.section import Section
+from ...study.study_file import Study, report_of
+from ...study.study_run import StudyRun
 from .limit_load import TUBE_KEYS, Wall, read_wall
 
 REPORT_KEYS = ("scope", "bound", "references", "one_pass", "quantities", "tube", "static", "pulse")

@@ -7,8 +7,8 @@ from ...reporting.column import Column, Facts
 from ...reporting.layout import Table
 from ...reporting.report import Report
 from ..evidence.cross_check import USABLE, Cell, point_of, quantity
-from ..running.study_file import show
-from ..running.study_run import DONE
+from ...study.study_file import show
+from ...study.study_run import DONE
 from .settings import Settings
 
 

@@ -5,7 +5,7 @@ the bound is a fault, as are crashes and values that are not finite, and gives e
 import re
 from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
-from ..starting.progress import duration
+from ...starting.progress import duration
 from ...reporting.column import Column
 from ...reporting.layout import Table
 from ..evidence.cross_check import (
@@ -22,10 +22,10 @@ from ..evidence.cross_check import (
     point_of,
     quantity,
 )
-from ..running.commands import with_name
-from ..running.context import Context
-from ..running.study_file import Study, show
-from ..running.study_run import NOT_CONVERGED, OUT_OF_TIME, REFUSED, known
+from ..evidence.commands import with_name
+from ...study.context import Context
+from ...study.study_file import Study, show
+from ...study.study_run import NOT_CONVERGED, OUT_OF_TIME, REFUSED, known
 from .beyond_limit_load import beyond_limit_load
 from .messages import Message, distinct, without_folder
 from .ringing import ringing
