@@ -2,27 +2,23 @@
 
 import argparse
 import platform
-import re
 import time
 from pathlib import Path
 from typing import Any, Dict, List, Optional, TYPE_CHECKING
 
 from ..base.errors import InputError, ProgramError, printable, say_note, say_warning
-from ..base.files import absolute, folder, is_file, output_folder, together
+from ..base.files import absolute, folder, output_folder, together
 from ..base.options import Commands, add_command, add_drivers, add_usual, positive
 from ..starting.folder_lock import locked
 from ..starting.progress import duration
-from ..base.suggestions import nearest
 from ..starting.programs import Program, find_mesh_maker, find_program
-from . import kinds
+from .catalogue import OWN, Catalogue
 from .overview import default_output, overview
 from .runner import Runner, remove_runs, sweep_study
 from .study_file import Study, read_study
 
 if TYPE_CHECKING:
     from ..reporting.report import Report  # matplotlib takes a second to load
-
-READY = Path(__file__).resolve().parents[2] / "studies"
 
 DESCRIPTION = """\
 Makes the runs that a study file lists, each in a folder of its own, and the report from them. A study that was stopped
@@ -34,23 +30,22 @@ runs, a warning and the report tell how many; --fresh makes them anew. Writes to
   *.csv                 its tables
   *.png, *.svg          its pictures
   runs/, meshes/        the result folders, each with its command in study_run.json
-  linear/               of the kind paper: linear systems, shared with fsi-compare solvers -o OUTDIR/linear
 Exit code 2: a run that the report needs is missing; the report says which."""
 
 EXAMPLES = """\
 examples:
   fsi-compare study --list
-  fsi-compare study paper --quick
-  fsi-compare study compare/studies/stability.toml -o results/stability
+  fsi-compare study refinement --quick
+  fsi-compare study my-study.toml -o results/mine
 """
 
 
-def add_parser(commands: Commands, version: str) -> None:
+def add_parser(commands: Commands, version: str, catalogue: Catalogue = OWN) -> None:
     command = add_command(
         commands, "study", study, "a whole study: runs what is missing, writes an HTML report", DESCRIPTION, EXAMPLES
     )
     command.add_argument(
-        "study", metavar="STUDY", nargs="?", help=f"study file (TOML), or a ready one: {', '.join(ready())}"
+        "study", metavar="STUDY", nargs="?", help=f"study file (TOML), or a ready one: {', '.join(catalogue.ready)}"
     )
     command.add_argument("-o", "--output", metavar="OUTDIR", type=folder, help="default: results/studies/NAME")
     command.add_argument("--quick", action="store_true", help="the study's short form")
@@ -62,8 +57,8 @@ def add_parser(commands: Commands, version: str) -> None:
     command.add_argument(
         "--fresh",
         action="store_true",
-        help="make finished runs anew: removes the study's runs in OUTDIR/runs; the linear systems in "
-        "OUTDIR/linear stay, remove OUTDIR/linear/runs to make those anew",
+        help="make finished runs anew: removes the study's runs in OUTDIR/runs; of the kind paper, the linear systems in "
+        "OUTDIR/linear stay",
     )
     add_drivers(command)
     command.add_argument(
@@ -79,27 +74,20 @@ def add_parser(commands: Commands, version: str) -> None:
         help="runs at once (default: the study's); more than one spoils the seconds",
     )
     add_usual(command, version, "of each run (default: the study's)")
-
-
-def ready() -> List[str]:
-    """Names of the study files there; case files that they use lie beside them."""
-    return sorted(
-        path.stem
-        for path in READY.glob("*.toml")
-        if re.search(r"^kind\s*=", path.read_text(encoding="utf-8"), re.MULTILINE)
-    )
+    command.set_defaults(catalogue=catalogue)
 
 
 def study(options: argparse.Namespace) -> int:
     """Checks everything before the first run."""
+    catalogue: Catalogue = options.catalogue
     if options.study is None:
-        return list_ready(options)
-    asked = read_study(study_path(options.study), kinds.NAMES, options.quick)
+        return list_ready(options, catalogue)
+    asked = read_study(catalogue.path(options.study), catalogue.kinds, options.quick)
     if not asked.requests:
         problem = "holds nothing to run" + (" in its quick form" if options.quick else "")
         remedy = "add a section [runs.NAME]" + (" with quick = true" if options.quick else "")
         raise InputError(asked.path, "runs", problem, remedy)
-    kind = kinds.kind(asked.kind)
+    kind = catalogue.kind(asked.kind)
     kind.check(asked)
     programs = find_programs(options)
     if options.list:
@@ -149,10 +137,12 @@ def make(options: argparse.Namespace, asked: Study, kind: Any, folder: Path, pro
     return code
 
 
-def list_ready(options: argparse.Namespace) -> int:
+def list_ready(options: argparse.Namespace, catalogue: Catalogue) -> int:
     """Each ready study in a line, with what its default output folder lacks."""
     if not options.list:
-        raise InputError("", "STUDY", "is missing", f"give a study file, or a ready study: {', '.join(ready())}")
+        raise InputError(
+            "", "STUDY", "is missing", f"give a study file, or a ready study: {', '.join(catalogue.ready)}"
+        )
     if options.output is not None:
         raise InputError("", "--output", "is of one study, and --list without STUDY is of all", "name the study")
     try:
@@ -163,8 +153,7 @@ def list_ready(options: argparse.Namespace) -> int:
         say_warning(f"finished runs cannot be counted: {error}")
         programs = None
     maker = find_mesh_maker(programs["fsi-monolithic"]) if programs else None
-    paths = [READY / f"{name}.toml" for name in ready()]
-    print("\n".join(overview(paths, options.quick, programs, options.threads, maker)))
+    print("\n".join(overview(catalogue, options.quick, programs, options.threads, maker)))
     return 0
 
 
@@ -174,16 +163,6 @@ def find_programs(options: argparse.Namespace) -> Dict[str, Program]:
         "fsi-monolithic": find_program("fsi-monolithic", options.monolithic, "--monolithic"),
         "fsi-partitioned": find_program("fsi-partitioned", options.partitioned, "--partitioned"),
     }
-
-
-def study_path(text: str) -> Path:
-    path = Path(text)
-    if path.suffix == ".toml" or is_file(path):
-        return path
-    if text in ready():
-        return READY / f"{text}.toml"
-    problem = f"'{text}' is neither a file nor a ready study"
-    raise InputError("", "STUDY", problem, f"did you mean '{nearest(text, ready())}'? Ready: {', '.join(ready())}")
 
 
 def about(report: "Report", asked: Study, runner: Runner, programs: Dict[str, Program]) -> None:

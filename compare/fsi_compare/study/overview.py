@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
 from ..starting.programs import Program
-from . import kinds
+from .catalogue import Catalogue
 from .runner import Runner, Standing
 from .study_file import read_study
 
@@ -17,18 +17,19 @@ def default_output(path: Path, quick: bool) -> Path:
 
 
 def overview(
-    paths: Sequence[Path],
+    catalogue: Catalogue,
     quick: bool,
     programs: Optional[Dict[str, Program]],
     threads: Optional[int] = None,
     mesh_maker: Optional[Path] = None,
 ) -> List[str]:
-    """A line for each study file: name, title, and how its default output folder stands. `programs`: by name; None:
+    """A line for each ready study: name, title, and how its default output folder stands. `programs`: by name; None:
     they are not built, and nothing is known of finished runs. Makes nothing."""
+    paths = list(catalogue.ready.values())
     width = max((len(path.stem) for path in paths), default=0)
     lines = []
     for path in paths:
-        study = read_study(path, kinds.NAMES, quick)
+        study = read_study(path, catalogue.kinds, quick)
         output = default_output(path, quick)
         if not study.requests:
             state = "has no quick form" if quick else "holds nothing to run"
@@ -37,7 +38,7 @@ def overview(
         else:
             runner = Runner(study, output, programs, mesh_maker, threads, quiet=True)
             standings = [runner.standing(study.requests)]
-            also = getattr(kinds.kind(study.kind), "also_standing", None)
+            also = getattr(catalogue.kind(study.kind), "also_standing", None)
             if also is not None:
                 standings.append(also(study, runner))
             state = f"{output}: {_state(standings)}"

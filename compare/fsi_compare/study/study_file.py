@@ -9,6 +9,7 @@ from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 from ..base.errors import InputError
 from ..base.files import absolute, exists, is_file, read_toml
+from . import source_tree
 from .mesh_levels import MESHES
 from ..base.suggestions import nearest
 from ..gallery.mesh_chain import with_places
@@ -198,7 +199,10 @@ class _Reader:
 
     def study(self, data: Dict[str, Any], kinds: Sequence[str]) -> Study:
         top = self.section("", data, TOP_KEYS)
-        kind = self.one_of("kind", top.text("kind"), kinds)
+        kind = top.text("kind")
+        if kind not in kinds and kind in source_tree.KINDS:
+            raise source_tree.refusal(self.path, "kind", f"the kind '{kind}'")
+        kind = self.one_of("kind", kind, kinds)
         limit = top.number("time_limit", 3600.0)
         entries = top.table("cases", True)
         cases = {name: self.case(name, entry) for name, entry in entries.items()}

@@ -19,10 +19,10 @@ from fsi_compare.starting.processes import execute, message_of
 from fsi_compare.study.fingerprint import fingerprint
 from fsi_compare.study.study_file import Method, Request
 from fsi_compare.study.study_run import DONE, StudyRun
-from fsi_compare.studies.scaling import model, study as scaling
-from fsi_compare.studies.scaling.measured import Spread, measure
-from fsi_compare.studies.scaling.model import Counted, Growth, Machine, counted, growth, step
-from fsi_compare.studies.scaling.tables import weak_efficiency
+from fsi_research.scaling import model, study as scaling
+from fsi_research.scaling.measured import Spread, measure
+from fsi_research.scaling.model import Counted, Growth, Machine, counted, growth, step
+from fsi_research.scaling.tables import weak_efficiency
 from fsi_compare.starting.programs import Program
 
 TUBE = Counted(

@@ -7,7 +7,7 @@ from folder_case import FolderCase
 from synthetic import parabola, write_run
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.studies.skip import study as skip
+from fsi_research.skip import study as skip
 from fsi_compare.study.context import Context
 from fsi_compare.reporting.report import Report
 from fsi_compare.study.study_file import read_study
