@@ -26,26 +26,6 @@ class Program:
     digest: str = ""  # SHA-256 of the executable: a program built anew may keep its version
 
 
-def find_monolithic(named: Optional[Path]) -> Program:
-    """The program named, else the one beside fsi-compare, else the one on the path. It must answer, and know how to
-    solve single systems."""
-    program = find_program("fsi-monolithic", named)
-    require_linear_systems(program)
-    return program
-
-
-def require_linear_systems(program: Program) -> None:
-    """Raises InputError unless fsi-monolithic knows how to solve single systems."""
-    if "--linear-systems" not in _answer(program.path, "--help"):
-        remedy = "take the program built from the same sources as fsi-compare"
-        raise InputError(program.path, "--program", f"version {program.version} does not know --linear-systems", remedy)
-
-
-def has_petsc(program: Program) -> bool:
-    """Whether fsi-monolithic was built with PETSc: it says where not."""
-    return "petsc is not in this build" not in _answer(program.path, "--help")
-
-
 def find_program(name: str, named: Optional[Path] = None, option: str = "--program") -> Program:
     """The program `named`, else the one of this name beside fsi-compare, else the one on the path. It must answer."""
     path = named if named is not None else _beside(Path(sys.argv[0]), name)
@@ -56,7 +36,7 @@ def find_program(name: str, named: Optional[Path] = None, option: str = "--progr
     if is_folder(path) or not os.access(path, os.X_OK):
         raise InputError(path, option, "is not a program", BUILD)
     path = absolute(path)
-    said = VERSION.fullmatch(_answer(path, "--version").strip())
+    said = VERSION.fullmatch(answer_to(path, "--version").strip())
     if said is None or said["name"] != name:
         raise InputError(path, option, f"is not {name}", BUILD)
     return Program(path, said["version"], _digest(_executable(path, said["level"])))
@@ -86,7 +66,8 @@ def _beside(program: Path, name: str) -> Optional[Path]:
     return Path(found) if found else None
 
 
-def _answer(path: Path, option: str) -> str:
+def answer_to(path: Path, option: str) -> str:
+    """What a program prints. Raises InputError where it cannot be started."""
     try:
         return answer([path, option], time_limit=60)
     except (OSError, ValueError, subprocess.SubprocessError) as error:

@@ -10,7 +10,7 @@ from ..base.errors import InputError, ProgramError, printable, say_note, say_war
 from ..base.files import absolute, folder, output_folder, together
 from ..base.options import Commands, add_command, add_drivers, add_usual, positive
 from ..starting.folder_lock import locked
-from ..starting.progress import duration
+from ..starting.duration import duration
 from ..starting.programs import Program, find_mesh_maker, find_program
 from .catalogue import OWN, Catalogue
 from .overview import default_output, overview

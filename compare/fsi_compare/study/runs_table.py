@@ -2,7 +2,7 @@
 
 from typing import Sequence
 
-from ..starting.progress import duration
+from ..starting.duration import duration
 from ..reporting.column import Column
 from ..reporting.layout import Table
 from .study_file import show

@@ -5,7 +5,7 @@ import time
 from typing import Any, Dict, List, Sequence, Tuple
 
 from .mesh_levels import MESH_NODES
-from ..starting.progress import duration
+from ..starting.duration import duration
 from .study_file import Request
 from .study_run import StudyRun
 

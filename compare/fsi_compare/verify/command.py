@@ -12,7 +12,7 @@ from ..reporting.matplotlib_loader import load_matplotlib
 from ..reporting.pressure import read_times
 from ..study.runner import Runner, sweep_study
 from ..starting.folder_lock import locked
-from ..starting.progress import duration
+from ..starting.duration import duration
 from ..starting.programs import Program, find_mesh_maker, find_program
 from .adapting import adapted
 from .doubt import step_within

@@ -4,7 +4,7 @@ import copy
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Mapping, Optional, Sequence
 
 import numpy as np
 
@@ -234,8 +234,3 @@ class Requests:
     def awaits_scheme(self, driver: str) -> bool:
         """Whether a run has to tell which tolerances the driver stops by."""
         return driver == "partitioned" and self.scheme is None and not names_scheme(self.facts.entries)
-
-
-def corner_sizes(found: Sequence[Member]) -> Tuple[float, float]:
-    """The finest mesh and step of a family."""
-    return min(m.mesh for m in found), min(m.step for m in found)

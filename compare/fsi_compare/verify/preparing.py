@@ -6,7 +6,7 @@ from typing import List, Sequence
 
 from ..base.errors import InputError
 from ..gallery.mesh_chain import READ
-from ..starting.progress import duration
+from ..starting.duration import duration
 from .adapting import Adapted, about_adapted
 from .artery_sizes import keeps_short_waves
 from .family import CaseFacts, Member, members, mesh_ratio

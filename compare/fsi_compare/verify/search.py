@@ -11,7 +11,7 @@ from ..base.errors import InputError, printable
 from ..gallery.mesh_chain import MARK, as_typed
 from ..study.study_file import StudyMesh
 from ..study.study_run import StudyRun
-from ..starting.progress import duration
+from ..starting.duration import duration
 from .adapting import Adapted
 from .cost import learn
 from .demand import Settings, cheapest, direction_of, outside, reached, refinable, shown_by, tolerance_factor, widest

@@ -8,7 +8,7 @@ from ..base.files import replacing
 from ..reporting.column import Column
 from ..reporting.layout import Table
 from ..runs.verification import FILE, identity
-from ..starting.progress import duration
+from ..starting.duration import duration
 from .direction import Part
 from .family import Member
 from .results import BarsOfRun, FamilyRuns, Judged

@@ -201,9 +201,3 @@ def inherited(bar: Bar, curve: Bar) -> Bar:
     """Of a number whose members say nothing: it is off by no more than its curve is. Nothing is extrapolated."""
     parts = replace(curve.mesh, error=0.0), replace(curve.step, error=0.0)
     return Bar(bar.value, bar.scale, *parts, curve.together, curve.solver, BAR_WIDENED, "", bar.value)
-
-
-def dominating(bar: Bar) -> str:
-    """What refinement would gain most: "mesh", "step" or "solver"."""
-    parts = {"mesh": bar.mesh.bar, "step": bar.step.bar, "solver": bar.solver}
-    return max(parts, key=lambda name: parts[name])

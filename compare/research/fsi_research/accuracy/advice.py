@@ -2,7 +2,7 @@
 
 from typing import List, Optional, Sequence, Tuple
 
-from fsi_compare.starting.progress import duration
+from fsi_compare.starting.duration import duration
 from fsi_compare.runs.waves import JUDGED, PRESSURE, QUANTITIES, Quantity
 from .convergence import SPACE, TIME, Series
 from .frontier import cheapest

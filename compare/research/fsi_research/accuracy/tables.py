@@ -2,7 +2,7 @@
 
 from typing import Callable, List, NamedTuple, Optional, Sequence
 
-from fsi_compare.starting.progress import duration
+from fsi_compare.starting.duration import duration
 from fsi_compare.reporting.column import Column, Facts
 from fsi_compare.reporting.layout import Table
 from fsi_compare.runs.work_units import NOTE_IN_ALL

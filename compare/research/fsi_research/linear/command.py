@@ -16,8 +16,9 @@ from ..catalogue.names import MATERIALS, METHODS, pick
 from fsi_compare.study.mesh_levels import MESHES
 from fsi_compare.reporting.layout import show_tables, write_tables
 from fsi_compare.reporting.matplotlib_loader import load_matplotlib
-from fsi_compare.starting.programs import Program, find_monolithic, has_petsc
+from fsi_compare.starting.programs import Program
 from . import stress as stress_study
+from .programs import find_monolithic, has_petsc
 from .results import System
 from .study import Outcome, Request, run_study
 

@@ -11,10 +11,10 @@ from typing import List, Optional, Sequence, Tuple
 from fsi_compare.base.errors import InputError, ProgramError
 from fsi_compare.base.files import exists, make_folder, read_bytes, read_object, remove_tree, replacing, sweep
 from fsi_compare.study.mesh_levels import MESH_NODES
-from fsi_compare.starting.progress import Progress
 from fsi_compare.starting.case_digest import case_digest
 from fsi_compare.starting.processes import End, execute
 from fsi_compare.starting.programs import Program
+from .progress import Progress
 from .results import FILE, LinearSolvers, System, read_linear_solvers
 
 REQUEST = "request.json"

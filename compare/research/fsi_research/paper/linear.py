@@ -13,7 +13,7 @@ from fsi_compare.base.suggestions import check_keys, nearest
 from ..linear.results import System
 from ..linear.grid import Grid
 from ..linear.study import Request, finished, run_study
-from fsi_compare.starting.programs import require_linear_systems
+from ..linear.programs import require_linear_systems
 from fsi_compare.study.builds import Builds
 from fsi_compare.study.context import Context
 from fsi_compare.study.runner import Runner, Standing

@@ -6,7 +6,7 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tup
 
 from fsi_compare.base.errors import InputError
 from fsi_compare.base.files import read_toml
-from fsi_compare.starting.progress import duration
+from fsi_compare.starting.duration import duration
 from fsi_compare.gallery.scene import Number, Scene, SceneRun, SceneRuns
 from fsi_compare.reporting.column import Column, Facts, fixed
 from fsi_compare.reporting.layout import Table

@@ -5,7 +5,7 @@ the bound is a fault, as are crashes and values that are not finite, and gives e
 import re
 from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
-from fsi_compare.starting.progress import duration
+from fsi_compare.starting.duration import duration
 from fsi_compare.reporting.column import Column
 from fsi_compare.reporting.layout import Table
 from ..evidence.cross_check import (
