@@ -2,7 +2,7 @@
 # tree can be moved.
 #   bin/                   the programs
 #   lib/fsi-duo/LEVEL/     with FSI_PACKAGE_LEVELS: the drivers for each x86-64 level, which those in bin/ start
-#   share/fsi-duo/         fsi-compare's Python, ready studies, ready cases, the gallery, an example for Slurm
+#   share/fsi-duo/         fsi-compare's Python, a study to copy, ready cases, the gallery, an example for Slurm
 #   lib/python3/dist-packages/   fsi-duo.pth, which puts that Python on the path of Debian's
 #   share/doc/fsi-duo/     README, docs, licence
 #   include/fsi-duo/       headers, in the folders of the sources
@@ -25,7 +25,10 @@ else()
   install(TARGETS ${_drivers} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endif()
 
-# fsi-compare: compare/ and meshes/ lie beside each other as in the sources, where it looks for cases and studies.
+# fsi-compare: compare/ and meshes/ lie beside each other as in the sources, where it looks for cases and studies. The
+# studies of this project, compare/research, stay in the source tree.
+set(FSI_COMPARE_FOLDERS ".")
+set(FSI_COMPARE_START fsi_compare.start)
 file(RELATIVE_PATH FSI_COMPARE_PACKAGE_DIR
   ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR}/fsi-duo/compare)
 foreach(_program fsi-compare fsi-python)

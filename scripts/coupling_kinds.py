@@ -31,8 +31,8 @@ import numpy as np
 TOP = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(TOP / "compare"))
 
-from fsi_compare.studies.gallery.mesh_chain import make_mesh, with_places  # noqa: E402
-from fsi_compare.studies.gallery.scene import read_scene  # noqa: E402
+from fsi_compare.gallery.mesh_chain import make_mesh, with_places  # noqa: E402
+from fsi_compare.gallery.scene import read_scene  # noqa: E402
 
 TABLE = TOP / "docs/data/coupling-kinds.csv"
 ARTERY = TOP / "meshes/artery/axisymmetric"

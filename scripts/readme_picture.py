@@ -26,7 +26,7 @@ SECONDS = DATA / "coupling-kinds.csv"
 COLORS = {"monolithic": "#222222", "interface": "#e08a1e", "block": "#4a90c8"}
 PICTURE = TOP / "docs/pictures/artery-both-drivers.png"
 CASE = "meshes/artery/axisymmetric/neo-hookean.toml"
-REFERENCE = "compare/studies/references/neo-hookean"  # step and mesh extrapolated to zero
+REFERENCE = "compare/research/studies/references/neo-hookean"  # step and mesh extrapolated to zero
 KINDS = {  # the driver, and what a case names
     "monolithic": ("fsi-monolithic", ()),
     "interface": ("fsi-partitioned", ()),

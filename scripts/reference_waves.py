@@ -1,8 +1,8 @@
 """Makes the references that fsi-compare judges waves by, from runs of fsi-monolithic on the artery as an axisymmetric
 scene (meshes/artery/axisymmetric), quadratic elements, a wall pressure that may jump between the layers:
 
-  compare/studies/references/MATERIAL         step and mesh to 0: the error of mesh and step
-  compare/studies/references/MATERIAL-space   time step 0.125 ms, as the paper's cases: the error of the mesh alone
+  compare/research/studies/references/MATERIAL         step and mesh to 0: the error of mesh and step
+  compare/research/studies/references/MATERIAL-space   time step 0.125 ms, as the paper's cases: the error of the mesh alone
 
 usage: python3 scripts/reference_waves.py [--jobs N] BIN_DIR WORK_DIR MATERIAL...
 
@@ -22,13 +22,13 @@ from typing import Any, Dict, NamedTuple, Sequence
 import numpy as np
 
 TOP = Path(__file__).resolve().parents[1]
-REFERENCES = TOP / "compare/studies/references"
-sys.path.insert(0, str(TOP / "compare"))
+REFERENCES = TOP / "compare/research/studies/references"
+sys.path[:0] = [str(TOP / "compare"), str(TOP / "compare/research")]
 
 from fsi_compare.base.errors import InputError, printable  # noqa: E402
-from fsi_compare.studies.catalogue.names import MATERIALS  # noqa: E402
-from fsi_compare.studies.accuracy.observed_order import self_convergence  # noqa: E402
-from fsi_compare.studies.evidence.mesh_error import physical  # noqa: E402
+from fsi_research.catalogue.names import MATERIALS  # noqa: E402
+from fsi_research.accuracy.observed_order import self_convergence  # noqa: E402
+from fsi_research.evidence.mesh_error import physical  # noqa: E402
 from fsi_compare.runs.waves import QUANTITIES, Waves, extrapolated, norm, read_run  # noqa: E402
 
 

@@ -15,9 +15,9 @@ from typing import Callable, Iterator, NamedTuple, Tuple
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "compare"))
+sys.path[:0] = [str(Path(__file__).resolve().parents[1] / folder) for folder in ("compare", "compare/research")]
 
-from fsi_compare.studies.evidence.bessel import bessel_i  # noqa: E402
+from fsi_research.evidence.bessel import bessel_i  # noqa: E402
 
 STIFFNESS = 1.8  # kPa/mm, and masses in mg/mm^2, as fsi-partitioned states them of the paper's coarse artery
 WALL, FLUID = 0.519, 0.697

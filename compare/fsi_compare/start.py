@@ -4,11 +4,13 @@ import os
 import sys
 import traceback
 from pathlib import Path
-from typing import Callable, NoReturn, Sequence
+from typing import Callable, NoReturn, Optional, Sequence, TypeAlias
 
 from .base import interruption
 from .base.errors import PROBLEM_LIMIT, PROGRAM, InputError, say_error, shortened
 from .base.streams import ReaderLeft, guarded
+
+Run: TypeAlias = Callable[[Sequence[str], str], int]  # the command line: arguments and version to exit code
 
 TRACEBACK = "FSI_COMPARE_TRACEBACK"  # set in the environment: where an unexpected exception comes from is shown
 
@@ -18,17 +20,23 @@ def program(version: str = "unknown") -> NoReturn:
     sys.exit(main(sys.argv[1:], version, to_the_end=True))
 
 
-def main(arguments: Sequence[str], version: str = "unknown", to_the_end: bool = False) -> int:
-    """Exit code: 0 done, 1 wrong use or bad input, 2 done but something did not converge; 128 + n ended by signal n."""
+def main(
+    arguments: Sequence[str],
+    version: str = "unknown",
+    to_the_end: bool = False,
+    load: Optional[Callable[[], Run]] = None,
+) -> int:
+    """Exit code: 0 done, 1 wrong use or bad input, 2 done but something did not converge; 128 + n ended by signal n.
+    `load`: imports the command line, which takes a while; None: that of cli.py."""
     with interruption.watched(to_the_end), guarded():
-        return _guarded_main(arguments, version)
+        return _guarded_main(arguments, version, load or _own)
 
 
-def _guarded_main(arguments: Sequence[str], version: str) -> int:
+def _guarded_main(arguments: Sequence[str], version: str, load: Callable[[], Run]) -> int:
     try:
         if not _has_working_folder():
             raise InputError(".", "", "the working folder has been removed", "change to another one")
-        run = _loaded()  # takes a while: signals are watched by now
+        run = _loaded(load)  # takes a while: signals are watched by now
         interruption.check()
         code = run(arguments, version)
         sys.stdout.flush()
@@ -56,15 +64,20 @@ def _guarded_main(arguments: Sequence[str], version: str) -> int:
         return 1
 
 
-def _loaded() -> Callable[[Sequence[str], str], int]:
+def _own() -> Run:
+    from .cli import run
+
+    return run
+
+
+def _loaded(load: Callable[[], Run]) -> Run:
     try:
-        from .cli import run
+        return load()
     except EOFError:  # what Python says of byte code that was cut by a full disk; none is written today
         folder = Path(__file__).parent
         raise InputError(
             str(folder), "", "byte code beside the sources is damaged", f"remove the folders __pycache__ in {folder}"
         ) from None
-    return run
 
 
 LESS = {  # by command; others compare runs

@@ -9,7 +9,7 @@ No closed form is known. The two drivers solve the same equations by different w
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo aneurysm.geo --order 2"
 QUICK_MESH = "geo aneurysm.geo --order 2 --set size=0.8"

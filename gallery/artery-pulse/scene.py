@@ -10,7 +10,7 @@ displacement. The paper's own linear elements with backward Euler leave several 
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "artery --for p2p1 --axisymmetric --error 3% --waves resolved"
 QUICK_MESH = "artery --for p2p1 --axisymmetric --error 5%"

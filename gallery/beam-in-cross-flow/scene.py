@@ -12,7 +12,7 @@ along each side of the inlet; with 0.3 m/s the force would be twice the publishe
 
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo channel.geo --order 2"
 QUICK_MESH = (

@@ -10,7 +10,7 @@ such a tube is found by the program.
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo bend.geo"
 QUICK = {"time.step": 0.5}

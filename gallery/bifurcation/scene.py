@@ -10,7 +10,7 @@ pressure that it must have.
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo fork.geo"
 QUICK = {"time.end": 10}

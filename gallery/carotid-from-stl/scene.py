@@ -20,7 +20,7 @@ the common branch is 13.35 ± 0.38 kPa. So the drop from there to the inner bran
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 OPENINGS = "--opening cca=0,0,-12 --opening ica=4.3,0.4,14 --opening eca=-5.2,0,14 --extension ica=1 --extension eca=1"
 WALL = "thicken --thickness-ratio 0.25 --layer media=60% --layer adventitia=40%"

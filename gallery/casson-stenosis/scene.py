@@ -13,7 +13,7 @@ the profile of the velocity there beside the exact one, and the shear stress alo
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo ../stenosis/stenosis.geo --order 2"
 QUICK_MESH = "geo ../stenosis/stenosis.geo --order 2 --set size=0.5"

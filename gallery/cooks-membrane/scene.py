@@ -9,7 +9,7 @@ Elements that lock stop at 2.3 to 4.7 mm. The quadratic element with linear pres
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo membrane.geo --order 2 --set cells=16"
 QUICK_MESH = "geo membrane.geo --order 2 --set cells=8"

@@ -18,7 +18,7 @@ error can be given; `verify` asks for steps shorter than 4 ms.
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo coronary.geo --order 2"
 QUICK_MESH = "geo coronary.geo --order 2 --set across=3 --set through=1 --set along=8"

@@ -17,7 +17,7 @@ The scene is axisymmetric and runs in seconds.
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo tube.geo --order 2"
 QUICK_MESH = "geo tube.geo --order 2 --set along=30 --set across=8 --set through=1"

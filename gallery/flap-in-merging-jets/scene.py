@@ -15,7 +15,7 @@ place by `fsi-mesh import` or `fsi-mesh lumen`.
 
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo jets.geo --order 2"
 QUICK_MESH = "geo jets.geo --order 2 --set near=8 --set pipes=9 --set jets=14 --set far=28"

@@ -10,7 +10,7 @@ A neo-Hookean flap that keeps its volume needs a shear modulus of 60.6 kPa. Othe
 
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo flap.geo --order 2"
 QUICK_MESH = "geo flap.geo --order 2 --set wide=2 --set thick=1 --set along=14"

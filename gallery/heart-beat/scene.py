@@ -11,7 +11,7 @@ compliance that empties in 1.4 s this takes some beats.
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo carotid.geo --order 2"
 QUICK_MESH = "geo carotid.geo --order 2 --set across=3 --set through=1 --set along=8"

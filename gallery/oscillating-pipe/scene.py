@@ -12,7 +12,7 @@ period.
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo pipe.geo --order 2"
 QUICK_MESH = "geo pipe.geo --order 2 --set across=6 --set media=2 --set adventitia=1 --set along=4"

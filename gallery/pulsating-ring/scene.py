@@ -10,8 +10,8 @@ four fifths of the swinging mass: a scheme that treats this added mass wrongly s
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.layered_tube import holding_pressure, place, swing
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.layered_tube import holding_pressure, place, swing
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo ring.geo --order 2"
 QUICK = {"time.end": 4, "time.step": 0.0625}

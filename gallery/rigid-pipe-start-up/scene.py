@@ -10,7 +10,7 @@ difference that is left.
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "artery --axisymmetric --order 2 --inner-radius 2 --media 0.2 --adventitia 0 --length 40 --lumen-cells 6 --lumen-grading 3 --axial-cells 20"
 DRIVERS = ("fsi-monolithic",)

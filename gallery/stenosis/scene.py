@@ -11,7 +11,7 @@ balances what the pressures at both ends press, since as much momentum leaves as
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo stenosis.geo --order 2"
 QUICK_MESH = "geo stenosis.geo --order 2 --set size=0.5"

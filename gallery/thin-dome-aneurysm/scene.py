@@ -15,7 +15,7 @@ into the neck. The rise of the top in the pulse is the other driver's.
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo lumen.geo | thicken --thickness-from thickness.csv --layer wall=100%:2"
 QUICK_MESH = "geo lumen.geo --set size=1.0 | thicken --thickness-from thickness.csv --layer wall=100%:2"

@@ -15,7 +15,7 @@ G = mu + i w eta/2 + G_1 i w tau/(1 + i w tau) of the wall.
 
 import numpy as np
 
-from fsi_compare.studies.gallery.dispersion import (
+from fsi_compare.gallery.dispersion import (
     draw_swings,
     incompressible_waves,
     lack,

@@ -9,7 +9,7 @@ The swing of the pressure gradient and that of the shear stress at the wall foll
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = (
     "artery --axisymmetric --order 2 --inner-radius 2 --media 0.2 --adventitia 0 --length 40 --lumen-cells 8 "

@@ -1,9 +1,10 @@
-"""python_layering.py ROOT: the modules of fsi_compare import downwards only, and never in a circle.
+"""python_layering.py ROOT: the modules of fsi_compare and fsi_research import downwards only, and never in a circle.
 
 The Python counterpart of layering.py. A module may import from its own package and from the floors below it; packages on
-the same floor do not know each other. Imports within functions count too. What users import stands below the studies of
-this project, and LIBRARY, which hands it out, sees neither them nor the command line. Besides itself fsi_compare imports
-the standard library and LIBRARIES, so that it cannot come to lean on tests or scripts.
+the same floor do not know each other. Imports within functions count too. fsi_compare is the product, and stands below
+fsi_research, the studies of this project. LIBRARY, which is what users import, sees neither the commands that start
+programs nor the command line. Besides themselves they import the standard library and LIBRARIES, so that they cannot
+come to lean on tests or scripts.
 """
 
 import ast
@@ -12,51 +13,63 @@ from pathlib import Path
 
 from circles import circles
 
-PACKAGE = "fsi_compare"
-FOLDER = f"compare/{PACKAGE}"
-# Lowest first. Packages of one line share a floor; "" is fsi_compare itself, with its command line.
+PACKAGES = {"fsi_compare": "compare/fsi_compare", "fsi_research": "compare/research/fsi_research"}  # folder of each
+# Lowest first. Packages of one line share a floor; "fsi_compare" is what lies beside them, with its command line.
 FLOORS = (
-    ("base",),
-    ("runs", "mesh_import", "drawing"),
-    ("results", "peer_cases"),
-    ("reporting",),
-    ("studies.catalogue", "studies.starting"),
-    ("studies.linear", "studies.gallery"),
-    ("studies.running",),
-    ("studies.evidence", "studies.verify"),
+    ("fsi_compare.base",),
+    ("fsi_compare.runs", "fsi_compare.mesh_import", "fsi_compare.drawing"),
+    ("fsi_compare.results", "fsi_compare.peer_cases"),
+    ("fsi_compare.reporting",),
+    ("fsi_compare.starting",),
+    ("fsi_compare.gallery",),
+    ("fsi_compare.study",),
+    ("fsi_compare.verify",),
+    ("fsi_compare.tune",),
+    ("fsi_compare",),
+    ("fsi_research.catalogue", "fsi_research.drawing"),
+    ("fsi_research.linear",),
+    ("fsi_research.evidence",),
     (
-        "studies.accuracy",
-        "studies.calibration",
-        "studies.references",
-        "studies.coupling",
-        "studies.paper",
-        "studies.scaling",
-        "studies.skip",
-        "studies.stability",
-        "studies.tune",
+        "fsi_research.accuracy",
+        "fsi_research.calibration",
+        "fsi_research.coupling",
+        "fsi_research.paper",
+        "fsi_research.references",
+        "fsi_research.scaling",
+        "fsi_research.scenes",
+        "fsi_research.skip",
+        "fsi_research.stability",
     ),
-    ("studies",),
-    ("",),
+    ("fsi_research",),
 )
-LIBRARY = ("", "library")  # modules: what `import fsi_compare` is
+OF_LIBRARY = tuple(package for floor in FLOORS[:4] for package in floor)  # what it may import
+LIBRARY = ("fsi_compare", "fsi_compare.library")  # modules: what `import fsi_compare` is
 LIBRARIES = ("numpy", "matplotlib", "h5py", "meshio", "netCDF4", "jinja2", "markupsafe")
-# Imports by a name that is computed are seen by no check: only where every module that it may name lies below.
-COMPUTED = ("studies.kinds",)
+# Imports by a name that is computed are seen by no check: only of kinds of study, which are loaded when they are asked for.
+COMPUTED = ("fsi_compare.study.catalogue",)
 
 
 def source_files(root):
     """Paths of the modules, relative to the root."""
-    return sorted(path.relative_to(root).as_posix() for path in (root / FOLDER).rglob("*.py"))
+    folders = PACKAGES.values()
+    return sorted(path.relative_to(root).as_posix() for folder in folders for path in (root / folder).rglob("*.py"))
 
 
 def module_of(path):
-    """'runs.columns' for compare/fsi_compare/runs/columns.py; a package is named by its folder."""
-    parts = Path(path).relative_to(FOLDER).with_suffix("").parts
+    """'fsi_compare.runs.columns' for compare/fsi_compare/runs/columns.py; a package is named by its folder."""
+    parts = _parts(path)
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
 def package_of(path):
-    return ".".join(Path(path).relative_to(FOLDER).parts[:-1])
+    return ".".join(_parts(path)[:-1])
+
+
+def _parts(path):
+    for package, folder in PACKAGES.items():
+        if Path(folder) in Path(path).parents:
+            return (package, *Path(path).relative_to(folder).with_suffix("").parts)
+    raise ValueError(path)
 
 
 def allowed_packages(package):
@@ -71,14 +84,14 @@ def may_import(path, target, allowed):
     """Whether a module of a package with these allowed packages may import the module `target`."""
     if module_of(path) not in LIBRARY:
         return package_of(target) in allowed
-    return module_of(target) in LIBRARY or package_of(target).partition(".")[0] not in ("", "studies")
+    return module_of(target) in LIBRARY or package_of(target) in OF_LIBRARY
 
 
 def imports(root, path, modules):
-    """(line, text, path) of each import of a module of fsi_compare, (line, text, None) of any other that will not do.
+    """(line, text, path) of each import of a module of PACKAGES, (line, text, None) of any other that will not do.
     `modules`: path of each by its name."""
     tree = ast.parse((root / path).read_text(encoding="utf-8"), path)
-    package = package_of(path).split(".") if package_of(path) else []
+    package = package_of(path).split(".")
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             for alias in node.names:
@@ -88,7 +101,7 @@ def imports(root, path, modules):
             text = f"from {'.' * node.level}{node.module or ''} import {', '.join(names)}"
             if node.level == 0:
                 yield from _absolute(node.lineno, text, node.module, names, modules)
-            elif node.level > len(package) + 1:
+            elif node.level > len(package):
                 yield node.lineno, text, None
             else:
                 kept = package[: len(package) - node.level + 1]
@@ -102,16 +115,16 @@ def imports(root, path, modules):
 
 
 def _absolute(line, text, name, names, modules):
-    first, _, rest = name.partition(".")
-    if first == PACKAGE:
-        yield from _own(line, text, rest, names, modules)
+    first = name.partition(".")[0]
+    if first in PACKAGES:
+        yield from _own(line, text, name, names, modules)
     elif first not in sys.stdlib_module_names and first not in LIBRARIES:
         yield line, text, None
 
 
 def _own(line, text, name, names, modules):
     """`name` is a module, or a package of which `names` are modules or what its __init__ defines."""
-    inside = [f"{name}.{one}".lstrip(".") for one in names]
+    inside = [f"{name}.{one}" for one in names]
     found = [modules[one] for one in inside if one in modules]
     if len(found) < max(len(names), 1):
         found.append(modules.get(name))
@@ -131,7 +144,7 @@ def wrong_imports(root):
             continue
         for line, text, target in imports(root, path, modules):
             if target is None:
-                yield f"{path}:{line}: {text}: neither a module of {PACKAGE} nor one of {', '.join(LIBRARIES)}"
+                yield f"{path}:{line}: {text}: neither a module of {', '.join(PACKAGES)} nor one of {', '.join(LIBRARIES)}"
             elif not may_import(path, target, allowed):
                 yield f'{path}:{line}: {text} from "{package}"; allowed: {", ".join(allowed)}'
 
@@ -148,7 +161,7 @@ def cycles(root):
 
 
 def main(arguments):
-    if len(arguments) != 1 or not (Path(arguments[0]) / FOLDER).is_dir():
+    if len(arguments) != 1 or not (Path(arguments[0]) / PACKAGES["fsi_compare"]).is_dir():
         print("python_layering.py: error: give the root of the repository", file=sys.stderr)
         return 1
     root = Path(arguments[0])

@@ -6,28 +6,33 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from python_layering import FLOORS, FOLDER, cycles, main, wrong_imports
+from python_layering import FLOORS, OF_LIBRARY, PACKAGES, cycles, main, wrong_imports
 
+FOLDER = PACKAGES["fsi_compare"]
+RESEARCH = PACKAGES["fsi_research"]
 CLEAN = {
     "__init__.py": "def __getattr__(name):\n    from . import library\n\n    return getattr(library, name)\n",
     "library.py": "from .runs.columns import np\n",
     "__main__.py": "import sys\n\nfrom .cli import main\n",
-    "cli.py": "from .base.errors import InputError\nfrom .studies.command import study\n",
+    "cli.py": "from .base.errors import InputError\nfrom .study.command import study\n",
     "base/__init__.py": "",
     "base/errors.py": "from pathlib import Path\n",
     "runs/__init__.py": "",
     "runs/columns.py": "import numpy as np\n\nfrom ..base.errors import InputError\n",
     "reporting/__init__.py": "",
     "reporting/pictures.py": "from matplotlib.figure import Figure\n\nfrom ..base import errors\n",
-    "studies/__init__.py": "",
-    "studies/command.py": "from . import kinds\n",
-    "studies/kinds.py": "import importlib\n\n\ndef kind(name):\n    return importlib.import_module(name)\n",
-    "studies/evidence/__init__.py": "LIMIT = 1\n",
-    "studies/evidence/waves.py": "from ...runs.columns import read_columns\n",
-    "studies/paper/__init__.py": "",
-    "studies/paper/study.py": "from ..evidence import LIMIT, waves\nfrom fsi_compare.reporting import pictures\n",
-    "studies/skip/__init__.py": "",
-    "studies/skip/study.py": "",
+    "study/__init__.py": "",
+    "study/command.py": "from . import catalogue\n",
+    "study/catalogue.py": "import importlib\n\n\ndef kind(name):\n    return importlib.import_module(name)\n",
+}
+OF_RESEARCH = {
+    "__init__.py": "",
+    "evidence/__init__.py": "LIMIT = 1\n",
+    "evidence/waves.py": "from fsi_compare.runs.columns import read_columns\n",
+    "paper/__init__.py": "",
+    "paper/study.py": "from ..evidence import LIMIT, waves\nfrom fsi_compare.reporting import pictures\n",
+    "skip/__init__.py": "",
+    "skip/study.py": "",
 }
 
 
@@ -38,9 +43,11 @@ class PythonLayering(unittest.TestCase):
         self.root = Path(temporary.name)
         for path, text in CLEAN.items():
             self.write(path, text)
+        for path, text in OF_RESEARCH.items():
+            self.write(path, text, RESEARCH)
 
-    def write(self, path, text):
-        file = self.root / FOLDER / path
+    def write(self, path, text, folder=FOLDER):
+        file = self.root / folder / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text)
 
@@ -62,7 +69,9 @@ class PythonLayering(unittest.TestCase):
 
     def test_upwards(self):
         self.write("runs/columns.py", "import math\n\nfrom ..reporting.pictures import draw\n")
-        self.assert_problem("runs/columns.py:3: from ..reporting.pictures import draw", "allowed: base, runs")
+        self.assert_problem(
+            "runs/columns.py:3: from ..reporting.pictures import draw", "allowed: fsi_compare.base, fsi_compare.runs"
+        )
 
     def test_upwards_by_a_package(self):
         self.write("runs/columns.py", "from ..reporting import pictures\n")
@@ -81,33 +90,40 @@ class PythonLayering(unittest.TestCase):
         self.assert_problem("runs/columns.py:2")
 
     def test_upwards_by_what_a_package_defines(self):
-        self.write("runs/columns.py", "from ..studies.evidence import LIMIT\n")
+        self.write("runs/columns.py", "from ..study import catalogue\n")
         self.assert_problem("runs/columns.py:1")
 
     def test_sideways(self):
-        self.write("studies/skip/study.py", "from ..paper.study import evaluate\n")
-        self.assert_problem('studies/skip/study.py:1: from ..paper.study import evaluate from "studies.skip"')
+        self.write("skip/study.py", "from ..paper.study import evaluate\n", RESEARCH)
+        self.assert_problem('skip/study.py:1: from ..paper.study import evaluate from "fsi_research.skip"')
 
-    def test_what_users_import_is_below_the_studies(self):
-        packages = [package for floor in FLOORS for package in floor if package]
-        below = [package for package in packages if package.partition(".")[0] != "studies"]
-        self.assertEqual(packages[: len(below)], below)
+    def test_research_from_the_product(self):
+        self.write("study/command.py", "def late():\n    from fsi_research.evidence import LIMIT\n")
+        self.assert_problem("study/command.py:2: from fsi_research.evidence import LIMIT")
 
-    def test_library_from_the_studies(self):
-        self.write("library.py", "from .studies.evidence import LIMIT\n")
-        self.assert_problem("library.py:1: from .studies.evidence import LIMIT")
+    def test_research_from_the_command_line_of_the_product(self):
+        self.write("cli.py", "import fsi_research.paper.study\n")
+        self.assert_problem("cli.py:1: import fsi_research.paper.study")
+
+    def test_what_users_import_is_below_all_else(self):
+        packages = [package for floor in FLOORS for package in floor]
+        self.assertEqual(packages[: len(OF_LIBRARY)], list(OF_LIBRARY))
+
+    def test_library_from_the_commands_that_start_programs(self):
+        self.write("library.py", "from .study.command import study\n")
+        self.assert_problem("library.py:1: from .study.command import study")
 
     def test_library_from_the_command_line(self):
         self.write("library.py", "def late():\n    from .cli import study\n")
         self.assert_problem("library.py:2: from .cli import study")
 
     def test_package_itself_from_the_studies(self):
-        self.write("__init__.py", "from .studies.kinds import kind\n")
-        self.assert_problem("__init__.py:1: from .studies.kinds import kind")
+        self.write("__init__.py", "from .study.catalogue import kind\n")
+        self.assert_problem("__init__.py:1: from .study.catalogue import kind")
 
     def test_unknown_package(self):
         self.write("attic/old.py", "")
-        self.assert_problem('attic/old.py:1: package "attic" is on no floor')
+        self.assert_problem('attic/old.py:1: package "fsi_compare.attic" is on no floor')
 
     def test_unknown_module(self):
         self.write("runs/columns.py", "from ..base.mistakes import InputError\n")

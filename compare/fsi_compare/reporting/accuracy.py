@@ -32,15 +32,15 @@ DESCRIPTION = f"""\
 How far runs are from a reference: relative L2 norm along z of the centre-line pressure, of its mean over {WINDOW} ms
 around each time (where the run covers them) and of the radial displacement of the inner wall, at each of the times,
 their mean and the worst of them. REFERENCE is a finished run, or a folder of
-compare/studies/references. Runs of any element and geometry may be mixed: a tube of tetrahedra and its axisymmetric twin
-write the same files. With the reference's time step in all runs what is left is the error in space. Writes to OUTDIR:
+compare/research/studies/references in the source tree. Runs of any element and geometry may be mixed: a tube of
+tetrahedra and its axisymmetric twin write the same files. With the reference's time step in all runs what is left is the error in space. Writes to OUTDIR:
   accuracy.csv   all errors, in full precision
   accuracy.md    the table for documents"""
 
 EXAMPLES = """\
 examples:
   fsi-compare accuracy results/axisymmetric-fine results/whole results/quarter results/axisymmetric
-  fsi-compare accuracy compare/studies/references/neo-hookean results/small-steps --times 1.5,3,4.5,6,7.5,9
+  fsi-compare accuracy compare/research/studies/references/neo-hookean results/small-steps --times 1.5,3,4.5,6,7.5,9
 """
 
 

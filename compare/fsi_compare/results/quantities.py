@@ -1,7 +1,7 @@
 """What of a field is shown as one number for each node: magnitudes and components of vectors, stresses of tensors."""
 
 from dataclasses import dataclass
-from typing import Callable, Dict, List, Optional
+from typing import Callable, List
 
 import numpy as np
 
@@ -72,9 +72,3 @@ def quantities_of_field(medium: MediumFields, field: str) -> List[Quantity]:
         Quantity(f"{field}:{c}", field, f"{words}, {c}", unit, True, _component(i)) for i, c in enumerate(COMPONENTS)
     ]
     return found + parts
-
-
-def quantity_named(medium: MediumFields, name: str) -> Optional[Quantity]:
-    """By its key; None for another name."""
-    known: Dict[str, Quantity] = {quantity.key: quantity for quantity in quantities_of(medium)}
-    return known.get(name)

@@ -12,7 +12,7 @@ from ..base.files import exists, is_file, is_folder
 from .levels import read_levels
 from .pressure_waves import PressureWaves
 from .samples import CENTRE_LINE, LINES, requested_line, waves_along
-from .summary import FILE, PROGRAMS, read_summary
+from .summary import FILE, read_summary
 
 
 @dataclass(frozen=True)
@@ -25,10 +25,6 @@ class Run:
     title: str
     summary: dict  # all of summary.json
     pressure: PressureWaves
-
-    @property
-    def short_program(self) -> str:
-        return PROGRAMS[self.program]
 
 
 def read_finished(folder: Path) -> dict:

@@ -8,7 +8,7 @@ A thick compressible tube in plane strain has p R (1 + nu)/E ((1 - 2 nu) R^2 + R
 
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo ../artery-segment/segment.geo --order 2"
 QUICK_MESH = "geo ../artery-segment/segment.geo --order 2 --set across=3 --set along=2"

@@ -11,7 +11,7 @@ The peer meshes a quarter with quadratic hexahedra and steps of 20 ms; here the 
 
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo segment.geo --order 2"
 QUICK_MESH = "geo segment.geo --order 2 --set across=3 --set along=2"

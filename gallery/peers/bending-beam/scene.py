@@ -14,7 +14,7 @@ of the step's end: the displacement runs a third of a step ahead of the load.
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo beam.geo --order 2 --set along=24 --set wide=12 --set thick=3"
 QUICK_MESH = "geo beam.geo --order 2 --set along=8 --set wide=4 --set thick=1"

@@ -9,7 +9,7 @@ Whoever compares codes on this tube compares schemes and steps first. With the s
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo ../../elastic-tube/tube.geo --order 2 --set along=90 --set across=8 --set through=2"
 QUICK_MESH = "geo ../../elastic-tube/tube.geo --order 2 --set along=30 --set across=6 --set through=1"

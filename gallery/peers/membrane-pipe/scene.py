@@ -20,7 +20,7 @@ within 1.9 s, so that the fourth second is compared with the fourth second.
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo tube.geo --order 2"
 QUICK_MESH = "geo tube.geo --order 2 --set across=3 --set along=8"

@@ -11,7 +11,7 @@ this program gives Kratos' numbers. Mok's own are 7.8 and 6.0 cm, Valdes' 8.2 an
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo channel.geo --order 2"
 QUICK_MESH = "geo channel.geo --order 2 --set far=100 --set near=40 --set gap=25 --set flap=12"

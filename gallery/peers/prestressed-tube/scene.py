@@ -13,7 +13,7 @@ means over the nodes of a face between 130 and 170 mm, of linear tetrahedra, whe
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo tube.geo --order 2"
 QUICK_MESH = "geo tube.geo --order 2 --set through=2 --set along=60"

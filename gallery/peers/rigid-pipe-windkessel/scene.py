@@ -15,7 +15,7 @@ tenth of the compliance and two steps: its numbers are others.
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.gallery.scene import Number
 
 MESH = "geo pipe.geo --order 2"
 QUICK_MESH = "geo pipe.geo --order 2 --set across=3 --set along=8"

@@ -75,7 +75,7 @@ def written(keys):
 def ready_cases():
     """{name: keys} of the ready cases, each with the tiny mesh and one step."""
     cases = {}
-    for file in sorted([*CASES.rglob("*.toml"), *(TOP / "compare/studies").glob("*.toml")]):
+    for file in sorted([*CASES.rglob("*.toml"), *(TOP / "compare/research/studies").glob("*.toml")]):
         table = tomllib.loads(file.read_text(encoding="utf-8"))
         if "mesh" not in table or not isinstance(table["mesh"], dict):
             continue  # a study file

@@ -10,18 +10,18 @@ import sys
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(TOP / "compare"), str(TOP / "tests/integration/compare")]
+sys.path[:0] = [str(TOP / "compare"), str(TOP / "compare/research"), str(TOP / "tests/integration/compare")]
 
 import fake_drivers  # noqa: E402
-from fsi_compare import start  # noqa: E402
-from fsi_compare.studies.linear import command as linear_command, study as linear_study  # noqa: E402
+from fsi_research import start  # noqa: E402
+from fsi_research.linear import command as linear_command, study as linear_study  # noqa: E402
 from fsi_compare.reporting import matplotlib_loader  # noqa: E402
-from fsi_compare.studies.starting.processes import End  # noqa: E402
-from fsi_compare.studies.starting.programs import Program  # noqa: E402
-from fsi_compare.studies import command as study_command  # noqa: E402
-from fsi_compare.studies.running import runner  # noqa: E402
+from fsi_compare.starting.processes import End  # noqa: E402
+from fsi_compare.starting.programs import Program  # noqa: E402
+from fsi_compare.study import command as study_command  # noqa: E402
+from fsi_compare.study import runner  # noqa: E402
 
-READY = TOP / "compare" / "studies"
+READY = TOP / "compare" / "research" / "studies"
 STEPS, STEP = 24, 0.125
 
 PLAIN = {

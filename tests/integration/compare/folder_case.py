@@ -9,11 +9,13 @@ from pathlib import Path
 
 import synthetic  # noqa: F401: the package's folder onto the path
 
-from fsi_compare.start import main
+from fsi_research.start import main
 
 
 class FolderCase(unittest.TestCase):
-    """`base`: the folder; `out`: within it, where fsi-compare is told to write."""
+    """`base`: the folder; `out`: within it, where fsi-compare is told to write. `main`: of fsi-compare in the source tree."""
+
+    main = staticmethod(main)
 
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
@@ -26,7 +28,7 @@ class FolderCase(unittest.TestCase):
         out, err = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
             try:
-                code = main([str(word) for word in arguments], version="1.2.3")
+                code = self.main([str(word) for word in arguments], version="1.2.3")
             except SystemExit as end:
                 code = end.code
         return code, out.getvalue(), err.getvalue()

@@ -5,7 +5,7 @@ import json
 from fake_drivers import install
 from folder_case import FolderCase
 
-from fsi_compare.studies.running.runner import RECORD
+from fsi_compare.study.runner import RECORD
 
 STUDY = """\
 title = "Two runs"

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "compare"))
+COMPARE = Path(__file__).resolve().parents[3] / "compare"
+sys.path[:0] = [str(COMPARE), str(COMPARE / "research")]
 
 TIMES = 0.125 * np.arange(1, 97)  # the paper's 96 steps
 Z = np.arange(181) / 10

@@ -15,9 +15,9 @@ from folder_case import FolderCase
 from synthetic import Z
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.studies.accuracy.frontier import cheapest, frontier
-from fsi_compare.studies.accuracy.observed_order import self_convergence, slope
-from fsi_compare.studies.accuracy.trend import trend
+from fsi_research.accuracy.frontier import cheapest, frontier
+from fsi_research.accuracy.observed_order import self_convergence, slope
+from fsi_research.accuracy.trend import trend
 from fsi_compare.runs.waves import QUANTITIES, WINDOW, Waves, averaged, extrapolated, read_waves, relative_difference
 
 TIMES = np.array([1.5, 2.0, 2.5, 3.0])
@@ -276,13 +276,12 @@ class WholeStudy(FolderCase):
 
 class ReadyStudy(unittest.TestCase):
     def test_can_be_run(self):
-        from fsi_compare.studies import kinds
-        from fsi_compare.studies.command import study_path
-        from fsi_compare.studies.running.study_file import read_study
+        from fsi_research.studies import CATALOGUE
+        from fsi_compare.study.study_file import read_study
 
         for quick in (False, True):
-            study = read_study(study_path("accuracy-cost"), kinds.NAMES, quick)
-            kinds.kind(study.kind).check(study)
+            study = read_study(CATALOGUE.path("accuracy-cost"), CATALOGUE.kinds, quick)
+            CATALOGUE.kind(study.kind).check(study)
             self.assertTrue(study.requests)
             if quick:
                 small = {"coarse", "section-4-1-1-36", "section-4-1-1-96"}
@@ -293,13 +292,12 @@ class ReadyStudy(unittest.TestCase):
                 self.assertEqual({request.case for request in study.requests}, set(study.cases))
 
     def test_elements_and_dimensions_can_be_run_side_by_side(self):
-        from fsi_compare.studies import kinds
-        from fsi_compare.studies.command import study_path
-        from fsi_compare.studies.running.study_file import read_study
+        from fsi_research.studies import CATALOGUE
+        from fsi_compare.study.study_file import read_study
 
         for quick in (False, True):
-            study = read_study(study_path("space"), kinds.NAMES, quick)
-            kinds.kind(study.kind).check(study)
+            study = read_study(CATALOGUE.path("space"), CATALOGUE.kinds, quick)
+            CATALOGUE.kind(study.kind).check(study)
             kinds_of_runs = {
                 (request.settings.get("element", "p1"), request.settings.get("geometry", "3d"))
                 for request in study.requests

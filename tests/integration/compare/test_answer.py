@@ -5,15 +5,15 @@ from pathlib import Path
 
 from study_case import StudyCase  # noqa: F401: the package's folder onto the path
 
-from fsi_compare.studies.evidence.mesh_error import MeshError
-from fsi_compare.studies.paper.answer import accuracy, cost, drivers, failures, wave
-from fsi_compare.studies.paper.claims import NOT_REPRODUCED, REPRODUCED, Claim
-from fsi_compare.studies.paper.cost import StepCost
-from fsi_compare.studies.paper.runs import PaperRuns
-from fsi_compare.studies.paper.speeds import Measured, Speeds
-from fsi_compare.studies.paper.waves import Agreement
-from fsi_compare.studies.running.study_file import Method, Request, StudyMesh
-from fsi_compare.studies.running.study_run import DONE, StudyRun
+from fsi_research.evidence.mesh_error import MeshError
+from fsi_research.paper.answer import accuracy, cost, drivers, failures, wave
+from fsi_research.paper.claims import NOT_REPRODUCED, REPRODUCED, Claim
+from fsi_research.paper.cost import StepCost
+from fsi_research.paper.runs import PaperRuns
+from fsi_research.paper.speeds import Measured, Speeds
+from fsi_research.paper.waves import Agreement
+from fsi_compare.study.study_file import Method, Request, StudyMesh
+from fsi_compare.study.study_run import DONE, StudyRun
 
 
 def run_of(material="neo-hookean", mesh="coarse", method="monolithic", group="waves"):

@@ -6,8 +6,8 @@ import numpy as np
 from fake_family import A, B
 from family_study_case import FamilyStudyCase
 
-from fsi_compare.studies.gallery.scene import READY, read_scene
-from fsi_compare.studies.verify.tolerances import ERROR_TOLERANCE
+from fsi_compare.gallery.scene import READY, read_scene
+from fsi_compare.verify.tolerances import ERROR_TOLERANCE
 
 STUDY = """\
 title = "Bars"
@@ -41,7 +41,7 @@ class Calibration(FamilyStudyCase):
         def known(scene, name, times):
             return np.sin(times / 4) if name == "tip: displacement x" else None
 
-        self.patch("fsi_compare.studies.gallery.scene.Scene.known_curve", known)
+        self.patch("fsi_compare.gallery.scene.Scene.known_curve", known)
         code, _, err = self.call_study(STUDY)
         self.assertEqual(code, 0, err)
         rows = {row["quantity"]: row for row in self.csv("records.csv") if row["family"] == "normal"}

@@ -13,15 +13,15 @@ from synthetic import parabola, write_run
 
 from fsi_compare.base.errors import InputError
 from fsi_compare.reporting.pictures import write_figure
-from fsi_compare.studies.running.commands import with_name
-from fsi_compare.studies.coupling import study as coupling
-from fsi_compare.studies.coupling import added_mass_runs, pictures, sweeps
-from fsi_compare.studies.evidence.cross_check import AGREES, FAR, UNCHECKED, WRONG
-from fsi_compare.studies.coupling.added_mass import ARTERY, AddedMass
-from fsi_compare.studies.evidence.bessel import bessel_i
-from fsi_compare.studies.coupling.bisection import bisect
-from fsi_compare.studies.running.study_file import Method, Request, StudyMesh, read_study
-from fsi_compare.studies.running.study_run import DONE, NOT_CONVERGED, StudyRun
+from fsi_research.evidence.commands import with_name
+from fsi_research.coupling import study as coupling
+from fsi_research.coupling import added_mass_runs, pictures, sweeps
+from fsi_research.evidence.cross_check import AGREES, FAR, UNCHECKED, WRONG
+from fsi_research.coupling.added_mass import ARTERY, AddedMass
+from fsi_research.evidence.bessel import bessel_i
+from fsi_research.coupling.bisection import bisect
+from fsi_compare.study.study_file import Method, Request, StudyMesh, read_study
+from fsi_compare.study.study_run import DONE, NOT_CONVERGED, StudyRun
 
 
 class AddedMassTheory(unittest.TestCase):

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import synthetic  # noqa: F401: the package's folder onto the path
 
-from fsi_compare.studies.gallery.dispersion import (
+from fsi_compare.gallery.dispersion import (
     Swing,
     compressible_waves,
     incompressible_waves,
@@ -15,7 +15,7 @@ from fsi_compare.studies.gallery.dispersion import (
     root,
     wave_number,
 )
-from fsi_compare.studies.gallery.scene import READY, read_scene
+from fsi_compare.gallery.scene import READY, read_scene
 
 
 class Exact(unittest.TestCase):

@@ -10,7 +10,7 @@ from folder_case import FolderCase
 from synthetic import parabola, write_run
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.studies.starting.folder_lock import NAME, locked, start_of
+from fsi_compare.starting.folder_lock import NAME, locked, start_of
 
 HOST = os.uname().nodename
 

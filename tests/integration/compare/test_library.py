@@ -240,7 +240,7 @@ class Comparison(FolderCase):
         script = (
             "import sys, fsi_compare\n"
             "found = [getattr(fsi_compare, name) for name in fsi_compare.__all__]\n"
-            "print([name for name in sys.modules if name.startswith(('fsi_compare.studies', 'fsi_compare.cli'))])\n"
+            "print([name for name in sys.modules if name.startswith(('fsi_research', 'fsi_compare.cli'))])\n"
         )
         place = str(Path(fsi_compare.__file__).parents[1])
         ended = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True, cwd=place)

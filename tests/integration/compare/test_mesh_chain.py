@@ -7,9 +7,9 @@ import synthetic  # noqa: F401: the package's folder onto the path
 from folder_case import FolderCase
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.studies.gallery.mesh_chain import as_typed, links, make_mesh, with_places
-from fsi_compare.studies.running.runner import recipe
-from fsi_compare.studies.running.study_file import StudyMesh
+from fsi_compare.gallery.mesh_chain import as_typed, links, make_mesh, with_places
+from fsi_compare.study.runner import recipe
+from fsi_compare.study.study_file import StudyMesh
 
 # Writes its words, and what is in the files that it is given, to the file behind -o; "fail" ends it with an error.
 MAKER = f"""#!{sys.executable}

@@ -6,14 +6,14 @@ import unittest
 
 from folder_case import FolderCase
 
-from fsi_compare.studies.catalogue.names import MATERIALS
-from fsi_compare.studies.command import READY
-from fsi_compare.studies.evidence.mesh_error import error_table, error_words, mesh_error, percent, physical, references
+from fsi_research.catalogue.names import MATERIALS
+from fsi_research.studies import FOLDER as READY
+from fsi_research.evidence.mesh_error import error_table, error_words, mesh_error, percent, physical, references
 from fsi_compare.runs.waves import WRITTEN
-from fsi_compare.studies.running.study_file import Method, Request, StudyMesh
-from fsi_compare.studies.running.study_run import DONE, StudyRun
+from fsi_compare.study.study_file import Method, Request, StudyMesh
+from fsi_compare.study.study_run import DONE, StudyRun
 
-ARTERY = READY.parents[1] / "meshes" / "artery"
+ARTERY = READY.parents[2] / "meshes" / "artery"
 METHOD = Method("monolithic", "monolithic", "fsi-monolithic", {})
 
 

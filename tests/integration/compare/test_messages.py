@@ -3,7 +3,6 @@
 import contextlib
 import io
 import unittest
-import unittest.mock
 
 import synthetic  # noqa: F401: the package's folder onto the path
 
@@ -39,9 +38,8 @@ class Messages(unittest.TestCase):
             def fails(arguments, version):
                 raise MemoryError
 
-            with unittest.mock.patch("fsi_compare.start._loaded", lambda: fails):
-                with contextlib.redirect_stderr(io.StringIO()) as err:
-                    self.assertEqual(start.main(list(words), "0"), 1)
+            with contextlib.redirect_stderr(io.StringIO()) as err:
+                self.assertEqual(start.main(list(words), "0", load=lambda: fails), 1)
             return err.getvalue()
 
         self.assertIn("compare fewer or smaller runs", said("pressure", "a", "b"))

@@ -8,7 +8,8 @@ from fake_drivers import behave, calls
 from folder_case import FolderCase
 from study_case import STUDY, StudyCase
 
-from fsi_compare.studies import command
+from fsi_compare.study import catalogue
+from fsi_research import studies
 
 
 class Overview(StudyCase):
@@ -22,7 +23,8 @@ class Overview(StudyCase):
         (ready / "two.toml").write_text(STUDY)
         varied = STUDY.replace("[runs.all]", '[runs.all]\nvary = { "time.step" = [0.125, 0.25, 0.125, 0.5] }')
         (ready / "six.toml").write_text(varied.replace("Two runs", "Six runs").rpartition("quick")[0])
-        patch = mock.patch.object(command, "READY", ready)
+        self.ready = ready
+        patch = mock.patch.object(studies, "CATALOGUE", catalogue.Catalogue(catalogue.OWN.modules, (ready,)))
         patch.start()
         self.addCleanup(patch.stop)
         self.addCleanup(os.chdir, os.getcwd())
@@ -73,14 +75,14 @@ class Overview(StudyCase):
         self.assertIn("results/studies/two-quick: 1 of 1 runs finished, 0 to run", lines[1])
 
     def test_own_meshes_are_not_made_for_the_list(self):
-        study = command.READY / "two.toml"
+        study = self.ready / "two.toml"
         own = '[meshes.own]\noptions = ["--size", "0.5"]\n[runs.all]\nvary = { mesh = ["own", "coarse"] }'
         study.write_text(study.read_text().replace("[runs.all]", own))
         self.assertIn("two: 0 of 4 runs finished, 4 to run", self.lines()[1])
         self.assertFalse((self.base / "results").exists())
 
     def test_without_programs(self):
-        with mock.patch("fsi_compare.studies.starting.programs._beside", return_value=None):
+        with mock.patch("fsi_compare.starting.programs._beside", return_value=None):
             code, out, err = FolderCase.call(self, "study", "--list")
         self.assertEqual(code, 0)
         self.assertIn("two  Two runs (2 runs asked for)", out)
@@ -108,7 +110,7 @@ class ReadyStudies(StudyCase):
         )
         code, out, err = FolderCase.call(self, "study", "--list", *programs)
         self.assertEqual((code, err), (0, ""))
-        self.assertEqual([line.split()[0] for line in out.splitlines()], command.ready())
+        self.assertEqual([line.split()[0] for line in out.splitlines()], list(studies.CATALOGUE.ready))
         # with the linear systems: 3 materials on 3 meshes, and the later ones on 2
         listed = FolderCase.call(self, "study", "paper", "--list", *programs)[1].splitlines()
         paper = next(line for line in out.splitlines() if line.startswith("paper"))

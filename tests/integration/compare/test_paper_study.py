@@ -13,17 +13,17 @@ from folder_case import FolderCase
 from study_case import StudyCase
 from test_report import outside_references
 
-from fsi_compare.studies.catalogue import paper
-from fsi_compare.studies.starting.case_digest import case_digest
+from fsi_research.catalogue import paper
+from fsi_compare.starting.case_digest import case_digest
 from fsi_compare.base.errors import InputError
-from fsi_compare.studies.evidence import energy_plots, phase_bars
-from fsi_compare.studies.evidence.fields import TETRAHEDRA
-from fsi_compare.studies import kinds
-from fsi_compare.studies.catalogue.names import MATERIALS
-from fsi_compare.studies.linear.grid import Grid
-from fsi_compare.studies.linear.study import Outcome, Request as LinearRequest
-from fsi_compare.studies.paper import cost as paper_cost
-from fsi_compare.studies.paper.claims import (
+from fsi_research.evidence import energy_plots, phase_bars
+from fsi_research.evidence.fields import TETRAHEDRA
+from fsi_research.studies import CATALOGUE
+from fsi_research.catalogue.names import MATERIALS
+from fsi_research.linear.grid import Grid
+from fsi_research.linear.study import Outcome, Request as LinearRequest
+from fsi_research.paper import cost as paper_cost
+from fsi_research.paper.claims import (
     FEWER,
     IN_PART,
     MIXED,
@@ -37,15 +37,15 @@ from fsi_compare.studies.paper.claims import (
     tally,
     unexamined,
 )
-from fsi_compare.studies.paper.energy import remainders
-from fsi_compare.studies.paper.solver_claims import observed_orders, solver_claims
-from fsi_compare.studies.paper.speeds import Measured, Speeds, speed_table
-from fsi_compare.studies.paper.wave_claims import wave_claims
-from fsi_compare.studies.command import READY
-from fsi_compare.studies.evidence.plane_cut import cut
-from fsi_compare.studies.running.study_file import Method, Request, read_study
-from fsi_compare.studies.running.study_run import DONE, StudyRun
-from fsi_compare.studies.evidence.tube_pictures import round_factor
+from fsi_research.paper.energy import remainders
+from fsi_research.paper.solver_claims import observed_orders, solver_claims
+from fsi_research.paper.speeds import Measured, Speeds, speed_table
+from fsi_research.paper.wave_claims import wave_claims
+from fsi_research.studies import FOLDER as READY
+from fsi_research.evidence.plane_cut import cut
+from fsi_compare.study.study_file import Method, Request, read_study
+from fsi_compare.study.study_run import DONE, StudyRun
+from fsi_research.evidence.tube_pictures import round_factor
 
 
 class PlaneCut(unittest.TestCase):
@@ -297,13 +297,13 @@ class PaperNumbers(unittest.TestCase):
 
 class Checks(FolderCase):
     def refused(self, old, new, *expected):
-        text = (READY / "paper.toml").read_text().replace("../../meshes", str(READY.parents[1] / "meshes"))
+        text = (READY / "paper.toml").read_text().replace("../../../meshes", str(READY.parents[2] / "meshes"))
         self.assertIn(old, text)
         path = self.base / "paper.toml"
         path.write_text(text.replace(old, new))
         with self.assertRaises(InputError) as caught:
-            study = read_study(path, kinds.NAMES)
-            kinds.kind(study.kind).check(study)
+            study = read_study(path, CATALOGUE.kinds)
+            CATALOGUE.kind(study.kind).check(study)
         for part in expected:
             self.assertIn(part, str(caught.exception))
 
@@ -344,7 +344,7 @@ class WholeStudy(StudyCase):
 
     def setUp(self):
         super().setUp()
-        text = (READY / "paper.toml").read_text().replace("../../meshes", str(READY.parents[1] / "meshes"))
+        text = (READY / "paper.toml").read_text().replace("../../../meshes", str(READY.parents[2] / "meshes"))
         self.study.write_text(text)
 
     def claims(self):

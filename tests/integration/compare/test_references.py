@@ -22,7 +22,7 @@ ring-in-time = { levels = 3 }
 def numbers(scene, runs):
     """The fake's last displacement: beside its limit, beside twice that, and beside one that others know no
     better than that; that of the other driver, and its pressure, which is of second order in space."""
-    from fsi_compare.studies.gallery.scene import Number
+    from fsi_compare.gallery.scene import Number
 
     found = []
     for run in runs:
@@ -41,7 +41,7 @@ def numbers(scene, runs):
 class References(FamilyStudyCase):
     def setUp(self):
         super().setUp()
-        self.patch("fsi_compare.studies.gallery.scene.Scene.numbers", numbers)
+        self.patch("fsi_compare.gallery.scene.Scene.numbers", numbers)
 
     def test_what_a_number_is_off_by_is_counted_in_its_bar(self):
         code, _, err = self.call_study(STUDY)

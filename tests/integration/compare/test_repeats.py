@@ -7,9 +7,9 @@ from pathlib import Path
 from fake_drivers import behave, calls
 from study_case import STUDY, StudyCase
 
-from fsi_compare.studies.running.repeats import spread, timing_words
-from fsi_compare.studies.running.runner import RECORD
-from fsi_compare.studies.running.study_run import DONE, StudyRun
+from fsi_compare.study.repeats import spread, timing_words
+from fsi_compare.study.runner import RECORD
+from fsi_compare.study.study_run import DONE, StudyRun
 
 
 class Repeats(StudyCase):

@@ -10,8 +10,8 @@ from fsi_compare.base.errors import InputError
 from fsi_compare.runs.coupling import with_coupling
 from fsi_compare.runs.labels import default_labels
 from fsi_compare.runs.run_folder import read_run
-from fsi_compare.studies.running.study_file import Method, Request
-from fsi_compare.studies.running.study_run import StudyRun
+from fsi_compare.study.study_file import Method, Request
+from fsi_compare.study.study_run import StudyRun
 
 SHORT = TIMES[:4]
 
@@ -34,7 +34,7 @@ class ReadsRun(FolderCase):
         self.assertEqual(run.summary["anything"], [1, 2])
         (run.folder / "summary.json").write_text('{"program": "fsi-partitioned", "status": "done"}')
         run = read_run(run.folder)
-        self.assertEqual((run.short_program, run.title, run.version), ("partitioned", "", ""))
+        self.assertEqual((run.program, run.title, run.version), ("fsi-partitioned", "", ""))
 
     def test_further_columns_and_windows_line_ends_are_tolerated(self):
         folder = self.run_of("run").folder

@@ -14,16 +14,16 @@ from study_case import StudyCase
 from synthetic import parabola, write_run
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.studies.starting.launch import launched, without_chatter
-from fsi_compare.studies.starting.processes import execute, message_of
-from fsi_compare.studies.running.fingerprint import fingerprint
-from fsi_compare.studies.running.study_file import Method, Request
-from fsi_compare.studies.running.study_run import DONE, StudyRun
-from fsi_compare.studies.scaling import model, study as scaling
-from fsi_compare.studies.scaling.measured import Spread, measure
-from fsi_compare.studies.scaling.model import Counted, Growth, Machine, counted, growth, step
-from fsi_compare.studies.scaling.tables import weak_efficiency
-from fsi_compare.studies.starting.programs import Program
+from fsi_compare.starting.launch import launched, without_chatter
+from fsi_compare.starting.processes import execute, message_of
+from fsi_compare.study.fingerprint import fingerprint
+from fsi_compare.study.study_file import Method, Request
+from fsi_compare.study.study_run import DONE, StudyRun
+from fsi_research.scaling import model, study as scaling
+from fsi_research.scaling.measured import Spread, measure
+from fsi_research.scaling.model import Counted, Growth, Machine, counted, growth, step
+from fsi_research.scaling.tables import weak_efficiency
+from fsi_compare.starting.programs import Program
 
 TUBE = Counted(
     nodes=8000,
@@ -278,7 +278,7 @@ nodes = [1000000]
         path = f"{install_mpirun(self.base / 'mpi')}:{os.environ['PATH']}"
         for patch in (
             unittest.mock.patch.dict(os.environ, PATH=path),
-            unittest.mock.patch("fsi_compare.studies.running.study_file.usable_cores", lambda: 2),
+            unittest.mock.patch("fsi_compare.study.study_file.usable_cores", lambda: 2),
             unittest.mock.patch.object(scaling, "usable_cores", lambda: 2),
         ):
             patch.start()

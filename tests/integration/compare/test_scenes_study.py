@@ -12,13 +12,13 @@ from folder_case import FolderCase
 from synthetic import parabola, write_run
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.studies.gallery.scene import READY, SceneRun, SceneRuns
-from fsi_compare.studies.gallery.turek_hron import Benchmark, Known
+from fsi_compare.gallery.scene import READY, SceneRun, SceneRuns
+from fsi_compare.gallery.turek_hron import Benchmark, Known
 from fsi_compare.reporting.report import Report
-from fsi_compare.studies import scenes
-from fsi_compare.studies.running.context import Context
-from fsi_compare.studies.running.study_file import read_study
-from fsi_compare.studies.running.study_run import DONE, NOT_CONVERGED, StudyRun
+from fsi_research.scenes import study as scenes
+from fsi_compare.study.context import Context
+from fsi_compare.study.study_file import read_study
+from fsi_compare.study.study_run import DONE, NOT_CONVERGED, StudyRun
 
 STUDY = """
 title = "Scenes"

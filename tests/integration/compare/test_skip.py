@@ -7,11 +7,11 @@ from folder_case import FolderCase
 from synthetic import parabola, write_run
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.studies.skip import study as skip
-from fsi_compare.studies.running.context import Context
+from fsi_research.skip import study as skip
+from fsi_compare.study.context import Context
 from fsi_compare.reporting.report import Report
-from fsi_compare.studies.running.study_file import read_study
-from fsi_compare.studies.running.study_run import DONE, NOT_CONVERGED, StudyRun
+from fsi_compare.study.study_file import read_study
+from fsi_compare.study.study_run import DONE, NOT_CONVERGED, StudyRun
 
 STUDY = """
 title = "Economies"

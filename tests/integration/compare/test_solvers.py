@@ -6,16 +6,16 @@ import subprocess
 import sys
 import time
 import unittest
-from pathlib import Path
 from unittest import mock
 
 from fake_monolithic import behave, calls, install
 from folder_case import FolderCase
+from synthetic import COMPARE
 
-from fsi_compare import cli
-from fsi_compare.studies.catalogue import paper
-from fsi_compare.studies.catalogue.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, METHODS, MULTILEVEL
-from fsi_compare.studies.linear.command import CASES
+from fsi_research.catalogue import paper
+from fsi_research.catalogue.names import BLOCK_PRECONDITIONERS, MATERIALS, METHODS, MULTILEVEL
+from fsi_compare.study.mesh_levels import MESHES
+from fsi_research.linear.command import CASES
 
 SMALL = ("--materials", "neo-hookean", "--meshes", "coarse", "--methods", "amg,amg_fgmres,direct", "--systems", "1:1")
 
@@ -25,7 +25,7 @@ class StudyTest(FolderCase):
 
     def setUp(self):
         if not self.draw:
-            patch = mock.patch("fsi_compare.studies.linear.solver_pictures.write_solver_pictures", return_value=[])
+            patch = mock.patch("fsi_research.linear.solver_pictures.write_solver_pictures", return_value=[])
             patch.start()
             self.addCleanup(patch.stop)
         super().setUp()
@@ -71,10 +71,10 @@ class WithPictures(StudyTest):
     draw = True
 
     def test_legend_covers_no_panel(self):
-        from fsi_compare.studies.linear.solver_pictures import cost_figure, iterations_figure
+        from fsi_research.linear.solver_pictures import cost_figure, iterations_figure
 
         with mock.patch(
-            "fsi_compare.studies.linear.solver_pictures.write_solver_pictures",
+            "fsi_research.linear.solver_pictures.write_solver_pictures",
             side_effect=lambda folder, grid: grids.append(grid) or [],
         ):
             for arguments in (SMALL, ("--systems", "1:1")):
@@ -113,7 +113,7 @@ class WithPictures(StudyTest):
         self.assertEqual([path.suffix for path in self.out.iterdir() if path.suffix in (".png", ".svg")], [])
 
     def test_names_differ_in_grey(self):
-        from fsi_compare.studies.linear.solver_pictures import MATERIAL_LINES, MESH_MARKS
+        from fsi_research.linear.solver_pictures import MATERIAL_LINES, MESH_MARKS
 
         for lines in (MATERIAL_LINES, MESH_MARKS):
             self.assertEqual(len({line["marker"] for line in lines.values()}), len(lines))
@@ -402,8 +402,8 @@ class Restart(StudyTest):
     def test_a_study_that_is_ended_leaves_no_run_behind(self):
         behave(self.program, sleep=600)
         code = (
-            "import sys; sys.path[:0] = sys.argv.pop(1),; "
-            "from fsi_compare.start import main; sys.exit(main(sys.argv[1:]))"
+            "import sys; sys.path[:0] = sys.argv.pop(1), sys.argv.pop(1); "
+            "from fsi_research.start import main; sys.exit(main(sys.argv[1:]))"
         )
         words = [
             sys.executable,
@@ -411,7 +411,8 @@ class Restart(StudyTest):
             "-B",
             "-c",
             code,
-            Path(cli.__file__).parents[1],
+            COMPARE,
+            COMPARE / "research",
             "solvers",
             "-o",
             self.out,

@@ -10,18 +10,18 @@ from synthetic import parabola, write_run
 
 from fsi_compare.base.errors import InputError
 from fsi_compare.runs.pressure_waves import PressureWaves
-from fsi_compare.studies.stability import study as stability
-from fsi_compare.studies.running.context import Context
-from fsi_compare.studies.evidence.cross_check import AGREES, DEVIATES, FAR, UNCHECKED, WRONG, Cell, difference_of
-from fsi_compare.studies.stability.beyond_limit_load import Inflated, limit_load_table
-from fsi_compare.studies.stability.limit_load import TUBE_KEYS, Inflation, apart, read_wall
-from fsi_compare.studies.stability.settings import Settings
+from fsi_research.stability import study as stability
+from fsi_compare.study.context import Context
+from fsi_research.evidence.cross_check import AGREES, DEVIATES, FAR, UNCHECKED, WRONG, Cell, difference_of
+from fsi_research.stability.beyond_limit_load import Inflated, limit_load_table
+from fsi_research.stability.limit_load import TUBE_KEYS, Inflation, apart, read_wall
+from fsi_research.stability.settings import Settings
 from fsi_compare.reporting.report import Report
-from fsi_compare.studies.stability.messages import distinct, without_folder
-from fsi_compare.studies.running.section import Section
-from fsi_compare.studies.running.study_file import Method, Request, read_study
-from fsi_compare.studies.running.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
-from fsi_compare.studies.running.study_run import WRONG as NOT_FINITE
+from fsi_research.stability.messages import distinct, without_folder
+from fsi_compare.study.section import Section
+from fsi_compare.study.study_file import Method, Request, read_study
+from fsi_compare.study.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
+from fsi_compare.study.study_run import WRONG as NOT_FINITE
 
 STUDY = """
 title = "A map"

@@ -7,11 +7,11 @@ from folder_case import FolderCase
 from synthetic import parabola, write_run
 
 from fsi_compare.reporting.report import Report
-from fsi_compare.studies.evidence.cross_check import AGREES, Cell
-from fsi_compare.studies.running.study_file import Method, Request
-from fsi_compare.studies.running.study_run import DONE, StudyRun
-from fsi_compare.studies.stability.ringing import ringing, ringing_table
-from fsi_compare.studies.stability.settings import Settings
+from fsi_research.evidence.cross_check import AGREES, Cell
+from fsi_compare.study.study_file import Method, Request
+from fsi_compare.study.study_run import DONE, StudyRun
+from fsi_research.stability.ringing import ringing, ringing_table
+from fsi_research.stability.settings import Settings
 
 SETTINGS = Settings("", 1e-3, [], [], {"time.step": {"label": "Step in ms"}}, None, "", "")
 

@@ -6,9 +6,8 @@ import unittest.mock
 from folder_case import FolderCase
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.studies import kinds
-from fsi_compare.studies.command import READY, ready, study_path
-from fsi_compare.studies.running.study_file import read_study
+from fsi_research.studies import CATALOGUE, FOLDER
+from fsi_compare.study.study_file import read_study
 
 GOOD = """\
 title = "A study"
@@ -49,7 +48,7 @@ class StudyFile(FolderCase):
 
     def read(self, text, quick=False):
         self.path.write_text(text)
-        return read_study(self.path, kinds.NAMES, quick)
+        return read_study(self.path, CATALOGUE.kinds, quick)
 
     def refused(self, old, new, *expected):
         self.assertIn(old, GOOD)
@@ -87,7 +86,7 @@ class StudyFile(FolderCase):
 
     def test_processes_up_to_the_cores(self):
         for cores, expected in ((1, [1]), (2, [1, 2]), (6, [1, 2, 4, 6]), (8, [1, 2, 4, 8])):
-            with unittest.mock.patch("fsi_compare.studies.running.study_file.usable_cores", lambda n=cores: n):
+            with unittest.mock.patch("fsi_compare.study.study_file.usable_cores", lambda n=cores: n):
                 study = self.read(GOOD.replace("[1, 3]", '"cores"'))
             self.assertEqual([r.processes for r in study.requests if r.group == "parts"][: len(expected)], expected)
 
@@ -105,7 +104,7 @@ class StudyFile(FolderCase):
                 self.read(text)
             self.assertIn(expected, str(caught.exception))
         with self.assertRaises(InputError) as caught:
-            read_study(self.path.parent / "none.toml", kinds.NAMES)
+            read_study(self.path.parent / "none.toml", CATALOGUE.kinds)
         self.assertIn("none.toml: no such study", str(caught.exception))
 
     def test_misspelt_names_with_the_nearest(self):
@@ -150,23 +149,23 @@ class StudyFile(FolderCase):
 
 class ReadyStudies(unittest.TestCase):
     def test_each_parses_and_checks_in_both_forms(self):
-        self.assertIn("paper", ready())
-        for name in ready():
+        self.assertIn("paper", CATALOGUE.ready)
+        for name in CATALOGUE.ready:
             for quick in (False, True):
                 with self.subTest(study=name, quick=quick):
-                    study = read_study(study_path(name), kinds.NAMES, quick)
+                    study = read_study(CATALOGUE.path(name), CATALOGUE.kinds, quick)
                     if not study.requests:
                         self.assertTrue(quick, "no runs at all")
                         continue
-                    kinds.kind(study.kind).check(study)
+                    CATALOGUE.kind(study.kind).check(study)
 
     def test_case_files_beside_them_are_no_studies(self):
-        for path in READY.glob("*.toml"):
-            self.assertEqual(path.stem in ready(), "\nkind = " in path.read_text(), path)
+        for path in FOLDER.glob("*.toml"):
+            self.assertEqual(path.stem in CATALOGUE.ready, "\nkind = " in path.read_text(), path)
 
     def test_unknown_name(self):
         with self.assertRaises(InputError) as caught:
-            study_path("papr")
+            CATALOGUE.path("papr")
         self.assertIn("did you mean 'paper'?", str(caught.exception))
 
 

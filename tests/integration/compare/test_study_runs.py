@@ -13,9 +13,9 @@ from pathlib import Path
 from fake_drivers import behave, build_anew, calls
 from study_case import STUDY, StudyCase
 
-from fsi_compare.studies.starting.processes import End, Job, execute, run_jobs
-from fsi_compare.studies.running.runner import RECORD, first_not_finite, judge
-from fsi_compare.studies.running.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG
+from fsi_compare.starting.processes import End, Job, execute, run_jobs
+from fsi_compare.study.runner import RECORD, first_not_finite, judge
+from fsi_compare.study.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG
 
 
 class Restart(StudyCase):

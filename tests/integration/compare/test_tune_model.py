@@ -7,14 +7,14 @@ from pathlib import Path
 import numpy as np
 import synthetic  # noqa: F401: the package's folder onto the path
 
-from fsi_compare.studies.tune.beat import Repetition, cut_off, shown_by_run
-from fsi_compare.studies.tune.circuit import PHASES, GivenFlow, GivenPressure, Windkessel, mean_flows, periodic_state
-from fsi_compare.studies.tune.curves import Curves, mean, over_period
-from fsi_compare.studies.tune.scene import read_scene
-from fsi_compare.studies.tune.solving import Model, Rule, reachable_pulse, solved
-from fsi_compare.studies.tune.targets import DIASTOLIC, FLOW, MEAN, SPLIT, SYSTOLIC, Target
-from fsi_compare.studies.tune.tuning import BeatFailed, Demand, Ran, tune
-from fsi_compare.studies.tune.vessel import Vessel, fitted_vessel, not_negative
+from fsi_compare.tune.beat import Repetition, cut_off, shown_by_run
+from fsi_compare.tune.circuit import PHASES, GivenFlow, GivenPressure, Windkessel, mean_flows, periodic_state
+from fsi_compare.tune.curves import Curves, mean, over_period
+from fsi_compare.tune.scene import read_scene
+from fsi_compare.tune.solving import Model, Rule, reachable_pulse, solved
+from fsi_compare.tune.targets import DIASTOLIC, FLOW, MEAN, SPLIT, SYSTOLIC, Target
+from fsi_compare.tune.tuning import BeatFailed, Demand, Ran, tune
+from fsi_compare.tune.vessel import Vessel, fitted_vessel, not_negative
 
 PERIOD = 800.0  # ms
 PHASE = 2 * np.pi * np.arange(PHASES) / PHASES

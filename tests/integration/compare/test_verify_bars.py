@@ -7,11 +7,11 @@ import unittest
 
 import numpy as np
 import synthetic  # noqa: F401: the package onto the path
-from fsi_compare.studies.verify.direction import AS_EXPECTED, OUTSIDE, SILENT, WIDENED, Part, observed, part_of
-from fsi_compare.studies.verify.family import Member
-from fsi_compare.studies.verify.quantities import Asked, Curve, peak
-from fsi_compare.studies.verify.results import FamilyRuns, bands, judge, missed_sizes
-from fsi_compare.studies.verify.verdict import BAR_WIDENED, CONVERGES, NOT_IN_RANGE, Value, bar_of
+from fsi_compare.verify.direction import AS_EXPECTED, OUTSIDE, SILENT, WIDENED, Part, observed, part_of
+from fsi_compare.verify.family import Member
+from fsi_compare.verify.quantities import Asked, Curve, peak
+from fsi_compare.verify.results import FamilyRuns, bands, judge, missed_sizes
+from fsi_compare.verify.verdict import BAR_WIDENED, CONVERGES, NOT_IN_RANGE, Value, bar_of
 
 EXACT = 3.0
 

@@ -12,7 +12,7 @@ import fake_family
 from fake_family import A, B, STEP, behave, calls
 from test_verify_command import CASE, VerifyCase
 
-from fsi_compare.studies.verify.chain_sizes import GROWTH, Lumen, apart, sized, times
+from fsi_compare.verify.chain_sizes import GROWTH, Lumen, apart, sized, times
 
 SURFACE = """\
 import sys

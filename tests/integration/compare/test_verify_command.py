@@ -167,7 +167,7 @@ class OtherFamilies(VerifyCase):
         self.geo.write_text("DefineConstant[ cells = 8 ];\nTransfinite Curve{1} = cells + 1;\n")
         code, _, err = self.verify("--list")
         self.assertEqual(code, 0, err)
-        from fsi_compare.studies.verify.geo_sizes import read_sizes
+        from fsi_compare.verify.geo_sizes import read_sizes
 
         self.assertEqual(read_sizes(self.geo).settings(2.0, {}), {"cells": 16})
 
@@ -278,7 +278,7 @@ class AdaptedMeshes(VerifyCase):
         fake_family.install(self.base / "bin")
         (self.base / "tube.msh").write_text("no mesh")
         from fsi_compare.base.errors import InputError
-        from fsi_compare.studies.verify.adapting import nodes_of
+        from fsi_compare.verify.adapting import nodes_of
 
         with self.assertRaisesRegex(InputError, "cannot be read"):
             nodes_of(self.base / "tube.msh")

@@ -15,22 +15,22 @@ from folder_case import FolderCase
 
 from fsi_compare.base.case_names import RENAMED, short_name, with_present_names
 from fsi_compare.base.errors import InputError
-from fsi_compare.studies.verify import standard
-from fsi_compare.studies.verify.cost import Costs, learn
-from fsi_compare.studies.verify.demand import cheapest, refinable, shown_by, tolerance_factor
-from fsi_compare.studies.verify.doubt import doubt, on_common_points, step_within
-from fsi_compare.studies.verify.family import Member, read_case, with_settings
-from fsi_compare.studies.verify.found_case import write_case
-from fsi_compare.studies.verify.geo_sizes import graded_text, read_sizes
-from fsi_compare.studies.verify.lean import between, cross, lean, starting_member
-from fsi_compare.studies.verify.artery_sizes import LEVELS, RECOMMENDED, SHORT_STEP, artery_words, waves_of
-from fsi_compare.studies.verify.mesh_family import ratio_for
-from fsi_compare.studies.verify.paying import kind_of, unpaid
+from fsi_compare.verify import standard
+from fsi_compare.verify.cost import Costs, learn
+from fsi_compare.verify.demand import cheapest, refinable, shown_by, tolerance_factor
+from fsi_compare.verify.doubt import doubt, on_common_points, step_within
+from fsi_compare.verify.family import Member, read_case, with_settings
+from fsi_compare.verify.found_case import write_case
+from fsi_compare.verify.geo_sizes import graded_text, read_sizes
+from fsi_compare.verify.lean import between, cross, lean, starting_member
+from fsi_compare.verify.artery_sizes import LEVELS, RECOMMENDED, SHORT_STEP, artery_words, waves_of
+from fsi_compare.verify.mesh_family import ratio_for
+from fsi_compare.verify.paying import kind_of, unpaid
 from fsi_compare.runs.coupling import chosen_scheme
-from fsi_compare.studies.verify.preparing import tell_damped
-from fsi_compare.studies.verify.quantities import Asked, Curve, peak, quantities_of
-from fsi_compare.studies.verify.results import Judged, about
-from fsi_compare.studies.verify.tolerances import (
+from fsi_compare.verify.preparing import tell_damped
+from fsi_compare.verify.quantities import Asked, Curve, peak, quantities_of
+from fsi_compare.verify.results import Judged, about
+from fsi_compare.verify.tolerances import (
     DEFAULT_SCHEME,
     ERROR_TOLERANCE,
     GAP_TOLERANCE,
@@ -38,7 +38,7 @@ from fsi_compare.studies.verify.tolerances import (
     WALL_ERROR_TOLERANCE,
     governing,
 )
-from fsi_compare.studies.verify.verdict import NOT_IN_RANGE, Value, bar_of
+from fsi_compare.verify.verdict import NOT_IN_RANGE, Value, bar_of
 
 
 SOURCES = Path(__file__).resolve().parents[3]  # of the drivers and of fsi-mesh

@@ -8,8 +8,8 @@ from pathlib import Path
 import synthetic  # noqa: F401: the package's folder onto the path
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.studies.evidence.tube import Layer, Tube, read_tube
-from fsi_compare.studies.evidence.wave_speed import long_wave, moens_korteweg, phase_speed, wall_stiffness
+from fsi_research.evidence.tube import Layer, Tube, read_tube
+from fsi_research.evidence.wave_speed import long_wave, moens_korteweg, phase_speed, wall_stiffness
 
 CASES = Path(__file__).resolve().parents[3] / "meshes" / "artery"
 

@@ -70,9 +70,15 @@ class Installation(unittest.TestCase):
     def test_ready_study_runs_installed_programs(self):
         """The plan of a ready study, with the ready cases, from the installed files alone."""
         output = self.scratch / "plan"
-        plan = self.program("fsi-compare", "study", "paper", "--quick", "--list", "-o", output)
-        self.assertIn("neo-hookean", plan)
+        plan = self.program("fsi-compare", "study", "refinement", "--quick", "--list", "-o", output)
+        self.assertIn("tube, partitioned", plan)
         self.assertFalse(output.exists())
+
+    def test_research_is_not_installed(self):
+        self.assertEqual([path for path in self.prefix.rglob("*") if "research" in path.name], [])
+        for words in (("study", "paper"), ("solvers",)):
+            with self.assertRaisesRegex(AssertionError, "this project's own research, which is not installed"):
+                self.program("fsi-compare", *words)
 
     def test_ready_case_runs(self):
         case = self.prefix / "share" / "fsi-duo" / "meshes" / "artery" / "neo-hookean.toml"

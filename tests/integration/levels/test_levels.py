@@ -21,7 +21,7 @@ NAME = "fsi-monolithic"
 HIDE = {"x86-64-v4": "-AVX512BW", "x86-64-v3": "-AVX2", "x86-64-v2": "-SSE4_2"}  # an instruction that the level needs
 sys.path.insert(0, str(SOURCES / "compare"))
 
-from fsi_compare.studies.starting.programs import find_program  # noqa: E402
+from fsi_compare.starting.programs import find_program  # noqa: E402
 
 
 # What hides instructions from the C library, or asks for a level: on a machine whose level is lowered it would reach the

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from programs import CASES, MESH, MONOLITHIC, FolderTest, execute, run
 
-REFERENCES = Path(__file__).resolve().parents[3] / "compare/studies/references"
+REFERENCES = Path(__file__).resolve().parents[3] / "compare/research/studies/references"
 FEW = ("--length", 2, "--lumen-cells", 2, "--axial-cells", 3)
 
 

@@ -95,11 +95,13 @@ class Tables(FolderTest):
         self.assertLessEqual(targets, made)
 
     def test_studies_and_scenes(self):
-        sentence = re.search(r"Ready studies lie in `compare/studies/`: (.*?)\n\n", TEXT, re.DOTALL).group(1)
+        sentence = re.search(
+            r"The studies of this project lie in\s+`compare/research/studies/`(.*?)\n\n", TEXT, re.DOTALL
+        ).group(1)
         studies = re.findall(r"`([a-z-]+)` \(", sentence)
         self.assertGreater(len(studies), 6)
         for study in studies:
-            self.assertTrue((ROOT / "compare" / "studies" / f"{study}.toml").is_file(), study)
+            self.assertTrue((ROOT / "compare" / "research" / "studies" / f"{study}.toml").is_file(), study)
         self.assertIn(f"{len(list(ROOT.glob('gallery/*/scene.py')))} scenes to start from", TEXT)
 
     def test_the_case_file_is_accepted_as_it_is_printed(self):
@@ -148,7 +150,7 @@ class Readme(FolderTest):
             if " study " in command:  # takes minutes, and has tests of its own: is the program there, and the study?
                 program, _, study = command.split()[:3]
                 self.assertTrue((folder / program).exists(), command)
-                self.assertTrue((ROOT / "compare" / "studies" / f"{study}.toml").exists(), command)
+                self.assertTrue((ROOT / "compare" / "research" / "studies" / f"{study}.toml").exists(), command)
                 continue
             process = subprocess.run(["bash", "-euc", command], cwd=folder, capture_output=True, text=True, timeout=300)
             with self.subTest(command=command):

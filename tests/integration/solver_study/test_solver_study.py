@@ -1,6 +1,7 @@
 """`fsi-compare solvers` with the real programs on the coarse mesh."""
 
 import csv
+import json
 import os
 import sys
 import unittest
@@ -9,13 +10,34 @@ from pathlib import Path
 from msh import Mesh
 from programs import MONOLITHIC, FolderTest, execute
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "compare"))
+COMPARE_FOLDER = Path(__file__).resolve().parents[3] / "compare"
+sys.path[:0] = [str(COMPARE_FOLDER), str(COMPARE_FOLDER / "research")]
+sys.path.append(str(Path(__file__).resolve().parents[1] / "compare"))
 
-from fsi_compare.studies.starting.programs import Program  # noqa: E402
-from fsi_compare.studies.linear.stress import ASPECT_RATIO, make_stretched_mesh  # noqa: E402
+import fake_monolithic  # noqa: E402
+from fsi_compare.starting.programs import Program  # noqa: E402
+from fsi_research.linear.stress import ASPECT_RATIO, make_stretched_mesh  # noqa: E402
 
 COMPARE = os.environ["FSI_COMPARE"]
 SINGLE_SYSTEMS = "--linear-systems" in execute(MONOLITHIC, "--help").stdout
+
+
+def shape(value):
+    """Keys and types of a JSON value, a list's by its first entry; numbers are one type."""
+    if isinstance(value, dict):
+        return {key: shape(entry) for key, entry in value.items()}
+    if isinstance(value, list):
+        return [shape(entry) for entry in value[:1]]
+    return float if isinstance(value, (int, float)) and not isinstance(value, bool) else type(value)
+
+
+def common(whole, part):
+    """What of the shape `whole` has a name in `part`."""
+    if isinstance(whole, dict) and isinstance(part, dict):
+        return {key: common(entry, part[key]) for key, entry in whole.items() if key in part}
+    if isinstance(whole, list) and isinstance(part, list) and whole and part:
+        return [common(whole[0], part[0])]
+    return whole
 
 
 def rows(file):
@@ -56,11 +78,22 @@ class Study(FolderTest):
         self.assertLess(newton[3], 1e-8 * newton[0])  # quadratic, as without fsi-compare
 
         result = out / "runs" / "neo-hookean-coarse" / "linear_solvers.json"
+        self.assert_the_stand_in_says_nothing_else(result)
         before = result.stat().st_mtime_ns
         done = self.study(*words)
         self.assertEqual(done.returncode, 0)
         self.assertIn("there already", done.stderr)
         self.assertEqual(result.stat().st_mtime_ns, before)
+
+    def assert_the_stand_in_says_nothing_else(self, result):
+        """What the stand-in for the program in the tests of `compare.solvers` writes, the program writes."""
+        folder = self.base / "stand-in"
+        options = ["--linear-systems", "1:1,12:2", "--linear-solvers", "lower,amg_fgmres,direct"]
+        words = [folder / "fsi-monolithic", "neo-hookean.toml", "-o", folder, *options, "--linear-tolerance", "1e-9"]
+        folder.mkdir()
+        self.assertEqual(fake_monolithic.main([str(word) for word in words]), 0)
+        said = shape(json.loads((folder / result.name).read_text()))
+        self.assertEqual(common(shape(json.loads(result.read_text())), said), said)
 
     def test_a_misspelt_setting_is_one_error(self):
         done = self.study(

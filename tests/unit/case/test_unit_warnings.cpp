@@ -182,7 +182,7 @@ TEST(UnitWarnings, AreSilentWhereAValueIsMerelyUnusual) {
 
 TEST(UnitWarnings, AreSilentOnEveryCaseOfTheRepository) {
   int cases = 0;
-  for (const char* folder : {"meshes", "compare/studies", "tests/integration"})
+  for (const char* folder : {"meshes", "compare", "tests/integration"})
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(FSI_SOURCE) / folder)) {
       if (entry.path().extension() != ".toml") continue;
       std::ifstream stream(entry.path());
@@ -252,7 +252,7 @@ TEST(StabilisationWarnings, NameKeysThatTheElementDoesNotUse) {
 
 TEST(UnitWarnings, AreSilentOnTheSettingsOfEveryStudy) {
   int tried = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(FSI_SOURCE) / "compare/studies")) {
+  for (const auto& entry : fs::directory_iterator(fs::path(FSI_SOURCE) / "compare/research/studies")) {
     if (entry.path().extension() != ".toml") continue;
     const auto study = toml::parse_file(entry.path().string());
     for_each_setting(study, [&](const Lines& settings) {

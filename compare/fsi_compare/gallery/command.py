@@ -1,0 +1,92 @@
+"""`fsi-compare gallery`: runs the scenes of the gallery with both drivers and makes its page."""
+
+import argparse
+import sys
+
+from ..base.errors import InputError, printable, say_error
+from ..base.files import folder, make_folder
+from ..base.options import Commands, add_command, add_drivers, add_output, add_usual, positive
+from ..starting.folder_lock import locked
+from ..starting.programs import find_mesh_maker, find_program
+from .running import Programs, make_runs
+from .scene import BOTH, PEERS, READY, Number, find_scenes
+
+DESCRIPTION = """\
+Runs scenes of the gallery with both drivers, holds what they compute against what is known, and writes to OUTDIR:
+  report.html           the page, in one file
+  report.md             its text and tables, pictures by name
+  NAME/                 of each scene: its mesh and its result folders
+Exit code 2: a run failed, or a number is further from what is known than it may be."""
+
+
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands, "gallery", gallery, "runs the scenes of the gallery and makes its page", DESCRIPTION
+    )
+    command.add_argument("scenes", metavar="SCENE", nargs="*", help="names of scenes (default: all but the long ones)")
+    add_output(command, "results/gallery")
+    command.add_argument(
+        "--from", metavar="FOLDER", type=folder, dest="source", default=READY, help="a gallery of your own"
+    )
+    command.add_argument(
+        "--peers",
+        action="store_const",
+        const=READY / PEERS,
+        dest="source",
+        help="cases of other programs (docs/peers.md)",
+    )
+    command.add_argument("--long", action="store_true", help="all scenes, those that take minutes, too")
+    command.add_argument("--quick", action="store_true", help="the short forms, a second or two each")
+    command.add_argument("--list", action="store_true", help="say what there is, and run nothing")
+    command.add_argument("--jobs", metavar="N", type=positive("--jobs"), default=2, help="runs at once (default: 2)")
+    command.add_argument(
+        "--processes",
+        metavar="N",
+        type=positive("--processes"),
+        default=1,
+        help="of each run, by mpirun (default: 1, without mpirun)",
+    )
+    add_drivers(command)
+    add_usual(command, version, "accepted as by all programs; a run has one thread")
+
+
+def gallery(options: argparse.Namespace) -> int:
+    """The command. Raises InputError."""
+    scenes = find_scenes(options.scenes, options.source)
+    if options.list:
+        for scene in scenes:
+            print(f"{scene.name:<24} {scene.title}{' (long)' if scene.long else ''}")
+        return 0
+    if not options.scenes and not options.long:
+        scenes = [scene for scene in scenes if not scene.long]
+    named = {"fsi-monolithic": options.monolithic, "fsi-partitioned": options.partitioned}
+    drivers = {name: find_program(name, named[name], "--" + name.removeprefix("fsi-")) for name in BOTH}
+    mesh_maker = find_mesh_maker(drivers["fsi-monolithic"])
+    if mesh_maker is None:
+        raise InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
+
+    def said(text: str) -> None:
+        if not options.quiet:
+            print(printable(text), file=sys.stderr, flush=True)
+
+    make_folder(options.output)
+    with locked(options.output):
+        programs = Programs(mesh_maker, drivers)
+        outcomes = make_runs(scenes, options.output, programs, options.quick, options.jobs, said, options.processes)
+        from .page import write_page  # matplotlib takes a second to load
+
+        report, numbers = write_page(options.output, outcomes, options.quick, options.jobs)
+    failed = [f"{o.scene.name}: {program}: {why}" for o in outcomes for program, why in o.failures.items()]
+    wrong = [_too_far(number) for number in numbers if not number.holds]
+    for text in failed + wrong:
+        say_error(text)
+    if not options.quiet:
+        print(f"{len(numbers) - len(wrong)} of {len(numbers)} numbers as known; {options.output / 'report.html'}")
+    return 2 if failed or wrong else 0
+
+
+def _too_far(number: Number) -> str:
+    return (
+        f"{number.what}: {number.value:.6g} {number.unit} by {number.program} differs by {100 * number.error:.2g} % from "
+        f"{number.reference:.6g}, may by {100 * number.tolerance:.2g} %"
+    )

@@ -1,0 +1,125 @@
+"""The gallery's page: what each scene is, what is known of it, what both drivers make of it and what that costs."""
+
+from os.path import normpath
+from pathlib import Path
+from typing import Any, Dict, List, Mapping, Sequence, Tuple
+
+from ..reporting.column import Column
+from ..reporting.layout import Table
+from ..reporting.report import Report
+from ..results.run import RunResults
+from ..runs.coupling import coupling_kind
+from ..runs.work_units import NOTE, per_step
+from .mesh_chain import as_typed, with_places
+from .running import Outcome
+from .scene import Number, Scene, SceneRun
+from ..reporting.work_column import work_column
+
+TITLE = "fsi-duo: gallery"
+
+
+def write_page(folder: Path, outcomes: Sequence[Outcome], quick: bool, at_once: int) -> Tuple[Report, List[Number]]:
+    """Writes the page; also what was measured, of all scenes. A scene of which a run failed says so."""
+    report = Report(folder, TITLE + (", short form" if quick else ""))
+    report.text(
+        "Each scene is a folder of `gallery/` with a case file, what its mesh is made from, and a number that is known. "
+        "Both drivers run it from the same case file, with one thread each."
+    )
+    measured: List[Number] = []
+    for outcome in outcomes:
+        measured += _scene(report, outcome, quick, at_once)
+    report.write()
+    return report, measured
+
+
+def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[Number]:
+    scene = outcome.scene
+    stem = scene.name.replace("-", "_")
+    report.section(scene.title)
+    report.text(*scene.paragraphs)
+    place = scene.place
+    commands = _mesh_commands(scene, place, quick)
+    settings = "".join(f" --set {name}={value}" for name, value in (scene.quick if quick else {}).items())
+    commands += [
+        f"{program} {place}/{scene.name}.toml --set mesh.file={scene.name}.msh{settings} "
+        f"-o {scene.name}-{program.removeprefix('fsi-')}"
+        for program in scene.drivers
+    ]
+    report.list([f"`{command}`" for command in commands])
+    for program, failure in outcome.failures.items():
+        report.text(f"**{program} failed:** {failure}")
+    runs = outcome.finished(quick)
+    if outcome.failures:
+        return []
+    add_still(report, f"{stem}_vessel", runs.first.results, getattr(scene.module, "STILL", {}))
+    report.figure(stem, lambda: scene.module.draw(runs), scene.title + ".")
+    numbers = scene.numbers(runs)
+    report.table(Table(f"{stem}_numbers", "What is known", NUMBERS, numbers))
+    programs = {1: "one program", 2: "two programs"}.get(at_once, f"{at_once} programs")
+    notes = [f"Seconds of the whole program with one thread, {programs} at a time."]
+    if any(per_step(run.summary) is not None for run in outcome.runs.values()):
+        notes.append(NOTE)
+    report.table(Table(f"{stem}_cost", "What it costs", COSTS, list(outcome.runs.items()), notes=notes))
+    return numbers
+
+
+def _mesh_commands(scene: Scene, place: str, quick: bool) -> List[str]:
+    """As a user would type them in the sources' folder."""
+    words = scene.mesh_words(quick)
+    named = [
+        normpath(f"{place}/{word}") if full != word else word
+        for word, full in zip(words, with_places(words, scene.folder))
+    ]
+    return as_typed(named, Path(f"{scene.name}.msh"), place)
+
+
+def add_still(report: Report, stem: str, run: RunResults, asked: Mapping[str, Any]) -> None:
+    """The geometry with a result on it: what the scene asks for in STILL (the words of RunResults.picture), else its first
+    quantity when it is largest, with a displacement that is seen. Nothing of a run without fields."""
+    if not run.fields:
+        return
+    key = asked.get("field", run.scene.first)
+    run.scene.check(key)
+    words: Dict[str, Any] = {"time": run.scene.peak(key), "factor": run.scene.visible_factor(), **asked}
+    caption = run.scene.quantity(key).words
+    report.still(stem, lambda: run.picture(**words), f"{caption[0].upper()}{caption[1:]} at {words['time']:g} ms.")
+
+
+def driver(program: str) -> str:
+    return program.removeprefix("fsi-")
+
+
+def percent(share: float) -> str:
+    return f"{100 * share:.2g} %"
+
+
+def total(run: SceneRun, name: str) -> Any:
+    return run.summary.get("totals", {}).get(name)
+
+
+NUMBERS: Sequence[Column[Number]] = (
+    Column(
+        "quantity", "quantity", lambda n: n.what, text=lambda n: n.what + (f" [{n.unit}]" if n.unit else ""), left=True
+    ),
+    Column(csv="unit", value=lambda n: n.unit),
+    Column("driver", "program", lambda n: n.program, driver, left=True),
+    Column("known from", "source", lambda n: n.source, left=True),
+    Column("value", "value", lambda n: n.value, ".5g"),
+    Column("known", "reference", lambda n: n.reference, ".5g"),
+    Column(
+        "differs by", "relative_error", lambda n: n.error, text=lambda n: percent(n.error) + ("" if n.holds else " (!)")
+    ),
+    Column("may by", "tolerance", lambda n: n.tolerance, percent),
+)
+
+# Of (program, its run).
+COSTS: Sequence[Column[Tuple[str, SceneRun]]] = (
+    Column("driver", "program", lambda r: r[0], left=True, text=lambda r: r[1].words),
+    Column(csv="coupling_kind", value=lambda r: coupling_kind(r[1].summary), behind=True),
+    Column("unknowns", "unknowns", lambda r: r[1].summary.get("unknowns", {}).get("coupled")),
+    Column("steps", "steps", lambda r: total(r[1], "steps")),
+    work_column("work units per step", "work_units_per_step", lambda r: per_step(r[1].summary)),
+    Column("seconds", "seconds", lambda r: r[1].seconds, ".2f"),
+    Column("Newton iterations", "newton_iterations", lambda r: total(r[1], "newton_iterations")),
+    Column("passes", "passes", lambda r: total(r[1], "outer_iterations") if r[0] == "fsi-partitioned" else None),
+)

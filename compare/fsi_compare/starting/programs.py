@@ -1,0 +1,75 @@
+"""The programs of the project: where they are, and which version."""
+
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Optional
+
+from ..base.errors import InputError
+from ..base.files import absolute, exists, is_file, is_folder, read_bytes
+from .processes import answer
+
+BUILD = "build it with cmake --build --preset release, or name it with --program"
+LEVELS = Path("..", "lib", "fsi-duo")  # from the folder of a package's programs: their builds, one folder a level
+VERSION = re.compile(r"(?P<name>\S+) (?P<version>\S+)(?: \((?P<level>[\w.-]+)\))?")  # fsi-mesh 0.1.0 (x86-64-v3)
+
+
+@dataclass(frozen=True)
+class Program:
+    path: Path
+    version: str
+    digest: str = ""  # SHA-256 of the executable: a program built anew may keep its version
+
+
+def find_program(name: str, named: Optional[Path] = None, option: str = "--program") -> Program:
+    """The program `named`, else the one of this name beside fsi-compare, else the one on the path. It must answer."""
+    path = named if named is not None else _beside(Path(sys.argv[0]), name)
+    if path is None:
+        raise InputError(name, option, "is neither beside fsi-compare nor on the path", BUILD)
+    if not exists(path):
+        raise InputError(path, option, "no such program", BUILD)
+    if is_folder(path) or not os.access(path, os.X_OK):
+        raise InputError(path, option, "is not a program", BUILD)
+    path = absolute(path)
+    said = VERSION.fullmatch(answer_to(path, "--version").strip())
+    if said is None or said["name"] != name:
+        raise InputError(path, option, f"is not {name}", BUILD)
+    return Program(path, said["version"], _digest(_executable(path, said["level"])))
+
+
+def _executable(path: Path, level: Optional[str]) -> Path:
+    """What runs when `path` is called: in a package with builds for several x86-64 levels, the build for the level that
+    it says (packages/start_level.c)."""
+    own = Path(os.path.realpath(path))
+    build = own.parent / LEVELS / level / own.name if level else own
+    return build if is_file(build) else path
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(read_bytes(path, BUILD, BUILD)).hexdigest()
+
+
+def find_mesh_maker(monolithic: Program) -> Optional[Path]:
+    return _beside(monolithic.path, "fsi-mesh")
+
+
+def _beside(program: Path, name: str) -> Optional[Path]:
+    for folder in (program.parent, absolute(program).parent):
+        if is_file(folder / name):
+            return folder / name
+    found = shutil.which(name)
+    return Path(found) if found else None
+
+
+def answer_to(path: Path, option: str) -> str:
+    """What a program prints. Raises InputError where it cannot be started."""
+    try:
+        return answer([path, option], time_limit=60)
+    except (OSError, ValueError, subprocess.SubprocessError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise InputError(path, "--program", f"cannot be started: {reason}", BUILD) from None

@@ -1,0 +1,40 @@
+"""What decides the outcome of a run: a digest of case, mesh, settings, processes, threads and program version."""
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any, List, Optional
+
+from ..base.errors import InputError
+from ..base.files import is_file, read_bytes, read_toml
+from ..starting.case_digest import case_digest
+from ..starting.programs import Program
+from .study_file import Request
+
+UNREADABLE = "give a file that can be read"
+HEADINGS = ("title",)  # in the results; nothing is solved differently
+
+
+def fingerprint(request: Request, program: Program, mesh_file: Optional[Path], threads: int, processes: int) -> str:
+    digest = hashlib.sha256(case_digest(request.case_file, request.method.program, HEADINGS).encode())
+    mesh = mesh_file or _own_mesh(request)
+    if mesh is not None and is_file(mesh):
+        digest.update(read_bytes(mesh, UNREADABLE, UNREADABLE))
+    level = request.mesh.name if request.mesh and not request.mesh.options else None
+    what: List[Any] = [program.path.name, program.version, level, dict(request.settings), threads]
+    if processes > 1:  # a run on one process is what it was before there were others
+        what.append({"processes": processes})
+    digest.update(json.dumps(what, sort_keys=True, default=str).encode())
+    return digest.hexdigest()
+
+
+def _own_mesh(request: Request) -> Optional[Path]:
+    """The mesh file that the case file names, unless the study gives another."""
+    if request.mesh is not None:
+        return None
+    try:
+        section = read_toml(request.case_file, UNREADABLE, UNREADABLE).get("mesh")
+    except InputError:
+        return None  # the driver will say what is wrong with it
+    name = section.get("file") if isinstance(section, dict) else None
+    return request.case_file.parent / name if isinstance(name, str) else None

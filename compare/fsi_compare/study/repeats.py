@@ -1,0 +1,77 @@
+"""Runs that are short are timed several times: the one of median seconds stays, and how far the others were off."""
+
+import filecmp
+from pathlib import Path
+from typing import Iterable, List, Optional, Sequence
+
+from ..base.errors import InputError
+from ..base.files import is_file, remove_tree
+from ..runs.summary import FILE, read_summary
+from .study_run import StudyRun
+
+RESULTS = (
+    "centerline_pressure.csv",
+    "wall_displacement.csv",
+    "lines.csv",
+)  # the same bits whenever the same run is made
+NOT_THE_SAME = "its results were not the same when it was repeated"
+
+
+def place_of(folder: Path, repetition: int) -> Path:
+    """Where repetition 2, 3, ... of the run in `folder` is made."""
+    return folder.with_name(f"{folder.name}-{repetition}")
+
+
+def step_seconds(folder: Path) -> float:
+    """Of the time steps, from summary.json; NaN when there is none."""
+    try:
+        return float(read_summary(folder / FILE)["totals"]["wall_s"])
+    except (InputError, KeyError):
+        return float("nan")
+
+
+def same_results(folders: Sequence[Path]) -> bool:
+    """Whether the repetitions have the first one's files, bit by bit; one that failed may lack them."""
+    first = folders[0]
+    return all(
+        is_file(other / file) and filecmp.cmp(first / file, other / file, shallow=False)
+        for other in folders[1:]
+        for file in RESULTS
+        if is_file(first / file)
+    )
+
+
+def keep_median(folder: Path, repetitions: Sequence[Path]) -> List[float]:
+    """Leaves the repetition of median seconds (of two middle ones the faster) in `folder` and removes the others;
+    the seconds of all, sorted. Where the process is killed in between, the run is made anew."""
+    seconds = {place: step_seconds(place) for place in [folder, *repetitions]}
+    order = sorted(seconds, key=lambda place: seconds[place])
+    middle = order[(len(order) - 1) // 2]
+    if middle != folder:
+        remove_tree(folder)
+        middle.rename(folder)
+    for place in repetitions:
+        remove_tree(place)
+    return sorted(seconds.values())
+
+
+def spread(timings: Sequence[float]) -> Optional[float]:
+    """Slowest over fastest; None: timed once."""
+    return max(timings) / min(timings) if len(timings) > 1 and min(timings) > 0 else None
+
+
+def timing_words(runs: Iterable[StudyRun]) -> str:
+    """How far seconds of these runs can be trusted, in a sentence."""
+    done = {run.folder: run for run in runs if run.done}.values()
+    spreads = [(len(run.timings), spread(run.timings)) for run in done]
+    repeated = [(count, ratio) for count, ratio in spreads if ratio is not None]
+    if not repeated:
+        return "Seconds are single timings."
+    ratios = sorted(ratio for _, ratio in repeated)
+    once = len(done) - len(repeated)
+    return (
+        f"Seconds are medians of {max(count for count, _ in repeated)} timings"
+        + (f", those of the {once} longest runs single ones" if once else "")
+        + f"; slowest over fastest of the same run: {ratios[len(ratios) // 2]:.2f} in the middle, {ratios[-1]:.2f} "
+        "at most. Smaller differences mean nothing."
+    )

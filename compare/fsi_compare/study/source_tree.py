@@ -1,0 +1,29 @@
+"""Names of what fsi-compare has in the source tree alone: the studies of this project, compare/research, which are not
+installed."""
+
+from pathlib import Path
+from typing import Union
+
+from ..base.errors import InputError
+
+STUDIES = (
+    "accuracy-cost",
+    "calibration",
+    "coupling",
+    "paper",
+    "peers",
+    "references",
+    "scaling",
+    "skip",
+    "space",
+    "stability",
+    "turek-hron",
+)
+KINDS = ("accuracy-cost", "calibration", "coupling", "paper", "references", "scaling", "scenes", "skip", "stability")
+COMMANDS = ("solvers",)
+
+
+def refusal(path: Union[str, Path], key: str, what: str) -> InputError:
+    problem = f"{what} belongs to this project's own research, which is not installed"
+    remedy = "build in the source tree and call build/release/bin/fsi-compare there (compare/research)"
+    return InputError(path, key, problem, remedy)

@@ -1,0 +1,399 @@
+"""A study file (TOML): cases, methods, meshes, what is varied, and what the report is about."""
+
+import itertools
+import math
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
+
+from ..base.case_names import short_name
+from ..base.errors import InputError
+from ..base.files import absolute, exists, is_file, read_toml
+from . import source_tree
+from .mesh_levels import MESHES
+from ..base.suggestions import nearest
+from ..gallery.mesh_chain import with_places
+from ..gallery.scene import READY, Scene, read_scene, ready_scenes
+from ..starting.launch import usable_cores
+from .section import LARGEST_COUNT, LARGEST_NUMBER, Section
+
+PROGRAMS = ("fsi-monolithic", "fsi-partitioned")
+MESH = "mesh"  # among what is varied: a level or a section of [meshes]
+PROCESSES = "processes"  # among what is varied: numbers, or
+CORES = "cores"  # for 1, 2, 4, ... up to the cores that may be used, the last number included
+
+LONGEST_NAME = 200  # characters of a key
+MOST_RUNS = 100_000
+FILE_NAME = re.compile(r"[^/.][^/]{0,59}")
+
+TOP_KEYS = (
+    "title",
+    "kind",
+    "threads",
+    "processes",
+    "jobs",
+    "time_limit",
+    "repeats",
+    "repeat_below",
+    "set",
+    "cases",
+    "methods",
+    "meshes",
+    "runs",
+    "report",
+)
+METHOD_KEYS = ("program", "label", "set")
+CASE_KEYS = ("file", "scene", "set")
+MESH_KEYS = ("options", "label")
+GROUP_KEYS = ("cases", "methods", "set", "vary", "quick")
+VALUE_KEYS = ("label", "set", "mesh", "processes")
+
+
+@dataclass(frozen=True)
+class Method:
+    name: str
+    label: str
+    program: str
+    settings: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class StudyMesh:
+    name: str
+    label: str
+    options: Tuple[str, ...]  # of fsi-mesh's command; empty: a level of the same name, made by the driver on demand
+    command: str = "artery"  # others may follow among the options (gallery/mesh_chain.py)
+
+
+@dataclass(frozen=True)
+class Request:
+    """One run that a study asks for, by what it is and where it stands in the study."""
+
+    group: str
+    case: str
+    method: Method
+    values: Mapping[str, Any]  # label or value of each quantity that the group varies, by its name
+    case_file: Path
+    mesh: Optional[StudyMesh]  # None: the case file's own
+    settings: Mapping[str, Any]  # entries over the case file's, without the mesh
+    time_limit: float  # s
+    processes: Optional[int] = None  # None: as many as the study's other runs
+
+    @property
+    def label(self) -> str:
+        values = [f"{short_name(key)} {show(value)}" for key, value in self.values.items()]
+        parts = [self.case, self.method.name, *values]
+        return ", ".join(part for part in parts if part)
+
+
+@dataclass(frozen=True)
+class Study:
+    path: Path
+    title: str
+    kind: str
+    threads: int
+    jobs: int
+    time_limit: float  # s
+    cases: Mapping[str, Path]
+    methods: Mapping[str, Method]
+    meshes: Mapping[str, StudyMesh]
+    requests: Sequence[Request]
+    report: Mapping[str, Any]  # settings of the report, checked by its kind
+    quick: bool
+    repeats: int = 1  # of each run that takes less than `repeat_below` s, in full: its seconds are then their median
+    repeat_below: float = 60.0
+    settings: Mapping[str, Any] = field(default_factory=dict)  # of all runs
+    case_settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # of all runs of a case
+    processes: int = 1  # of each run whose group does not say
+    scenes: Mapping[str, Scene] = field(default_factory=dict)  # of the cases that are scenes of the gallery
+
+    def request(
+        self,
+        group: str,
+        case: str,
+        method: str,
+        values: Mapping[str, Any],
+        settings: Mapping[str, Any],
+        mesh: Optional[str] = None,
+    ) -> Request:
+        """One more run, for kinds that decide on the next run from the last."""
+        chosen = self.methods[method]
+        merged = {**self.settings, **self.case_settings.get(case, {}), **chosen.settings, **settings}
+        return Request(
+            group,
+            case,
+            chosen,
+            dict(values),
+            self.cases[case],
+            self.meshes[mesh] if mesh else _mesh_of(self.scenes.get(case), self.quick),
+            merged,
+            self.time_limit,
+        )
+
+
+def _mesh_of(scene: Optional[Scene], quick: bool) -> Optional[StudyMesh]:
+    """None where the case is no scene."""
+    return None if scene is None else mesh_of_scene(scene, quick)
+
+
+def mesh_of_scene(scene: Scene, quick: bool) -> StudyMesh:
+    """Its files named by their full paths."""
+    command, *options = with_places(scene.mesh_words(quick), scene.folder)
+    return StudyMesh(scene.name + ("-quick" if quick else ""), "", tuple(options), command)
+
+
+def report_of(study: Study, known: Sequence[str]) -> Section:
+    return Section(study.path, "report", study.report, known)
+
+
+def show(value: Any) -> str:
+    return format(value, "g") if isinstance(value, float) else str(value)
+
+
+def read_study(path: Path, kinds: Sequence[str], quick: bool = False) -> Study:
+    """Raises InputError naming the key unless the file is a study that can be run. `quick`: each group in its quick
+    form; groups without one are left out."""
+    if not exists(path):
+        raise InputError(path, "", "no such study", "give a study file, or the name of a ready one")
+    data = read_toml(path, "give a study file, or the name of a ready one", "give a study file")
+    _require_shown(path, "", data)
+    return _Reader(path, quick).study(data, kinds)
+
+
+def _require_shown(path: Path, key: str, entry: Any) -> None:
+    """Names and texts end in tables, reports and names of files: they must be such that people can read them."""
+    if isinstance(entry, dict):
+        for name, value in entry.items():
+            if not name.isprintable() or len(name) > LONGEST_NAME:
+                raise InputError(
+                    path,
+                    f"{key}.{name}".lstrip("."),
+                    f"has more than {LONGEST_NAME} characters" if name.isprintable() else "holds a control character",
+                    "choose another name",
+                )
+            _require_shown(path, f"{key}.{name}".lstrip("."), value)
+    elif isinstance(entry, list):
+        for value in entry:
+            _require_shown(path, key, value)
+    elif isinstance(entry, str) and not " ".join(entry.split()).isprintable():
+        raise InputError(path, key, "holds a control character", "leave it out")
+
+
+@dataclass(frozen=True)
+class _Value:
+    """Of a quantity that a group varies."""
+
+    shown: Any
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    mesh: Optional[StudyMesh] = None
+    processes: Optional[int] = None
+
+
+class _Reader:
+    def __init__(self, path: Path, quick: bool):
+        self.path, self.quick = path, quick
+        self.scenes: Dict[str, Scene] = {}  # of the cases that are scenes
+
+    def wrong(self, key: str, problem: str, remedy: str) -> InputError:
+        return InputError(self.path, key, problem, remedy)
+
+    def study(self, data: Dict[str, Any], kinds: Sequence[str]) -> Study:
+        top = self.section("", data, TOP_KEYS)
+        kind = top.text("kind")
+        if kind not in kinds and kind in source_tree.KINDS:
+            raise source_tree.refusal(self.path, "kind", f"the kind '{kind}'")
+        kind = self.one_of("kind", kind, kinds)
+        limit = top.number("time_limit", 3600.0)
+        entries = top.table("cases", True)
+        cases = {name: self.case(name, entry) for name, entry in entries.items()}
+        of_case = {
+            name: {**self.of_scene(name), **self.section(f"cases.{name}", entry, CASE_KEYS).settings("set")}
+            for name, entry in entries.items()
+            if isinstance(entry, dict)
+        }
+        methods = {name: self.method(name, entry) for name, entry in top.table("methods", True).items()}
+        meshes = {level: StudyMesh(level, level, ()) for level in MESHES}
+        for name, entry in top.table("meshes").items():
+            meshes[name] = self.mesh(name, entry)
+        settings = top.settings("set")
+        repeats = top.count("repeats", 1)
+        requests: List[Request] = []
+        for name, group in top.table("runs").items():
+            requests += self.group(name, group, cases, methods, meshes, settings, of_case, limit)
+        return Study(
+            path=self.path,
+            title=top.text("title"),
+            kind=kind,
+            threads=top.count("threads", 1),
+            processes=top.count("processes", 1),
+            jobs=top.count("jobs", 1),
+            time_limit=limit,
+            repeats=1 if self.quick else repeats,
+            repeat_below=top.number("repeat_below", 60.0),
+            cases=cases,
+            methods=methods,
+            meshes=meshes,
+            requests=requests,
+            report=top.table("report"),
+            quick=self.quick,
+            settings=settings,
+            case_settings=of_case,
+            scenes=self.scenes,
+        )
+
+    def case(self, name: str, entry: Any) -> Path:
+        """A file name, or a section with `set` and either `file` or `scene`, the name of a scene of the gallery."""
+        file = entry
+        if isinstance(entry, dict):
+            self.section(f"cases.{name}", entry, CASE_KEYS)
+            if "scene" in entry:
+                return self.scene(name, entry)
+            file = entry.get("file")
+        if not isinstance(file, str):
+            raise self.wrong(f"cases.{name}", "is not a file name", "give the case file, relative to the study")
+        path = absolute(self.path.parent / file)
+        if not is_file(path):
+            raise self.wrong(f"cases.{name}", f"no such case file: {path}", "give it relative to the study file")
+        return path
+
+    def scene(self, name: str, entry: Dict[str, Any]) -> Path:
+        key = f"cases.{name}.scene"
+        if "file" in entry:
+            raise self.wrong(key, "has a file beside it", "give one of the two")
+        self.scenes[name] = read_scene(READY / self.one_of(key, entry["scene"], ready_scenes()))
+        return self.scenes[name].case
+
+    def of_scene(self, name: str) -> Dict[str, Any]:
+        """Settings of a scene's short form, where that is asked for."""
+        return dict(self.scenes[name].quick) if self.quick and name in self.scenes else {}
+
+    def method(self, name: str, entry: Any) -> Method:
+        section = self.section(f"methods.{name}", entry, METHOD_KEYS)
+        program = self.one_of(section.key_of("program"), section.text("program"), PROGRAMS)
+        return Method(name, section.text("label", name), program, section.settings("set"))
+
+    def mesh(self, name: str, entry: Any) -> StudyMesh:
+        key = f"meshes.{name}"
+        section = self.section(key, entry, MESH_KEYS)
+        if name in MESHES:
+            raise self.wrong(key, "is a level's name already", "choose another name")
+        options = entry.get("options")
+        if not isinstance(options, list) or not options or not all(isinstance(word, str) for word in options):
+            raise self.wrong(
+                f"{key}.options", "is not a list of words", 'give options of fsi-mesh artery, e.g. ["--size", "0.5"]'
+            )
+        if not FILE_NAME.fullmatch(name):
+            raise self.wrong(key, "is no name for a file", "choose a short one without '/'")
+        return StudyMesh(name, section.text("label", name), tuple(options))
+
+    def group(
+        self,
+        name: str,
+        group: Any,
+        cases: Mapping[str, Path],
+        methods: Mapping[str, Method],
+        meshes: Mapping[str, StudyMesh],
+        settings: Mapping[str, Any],
+        of_case: Mapping[str, Mapping[str, Any]],
+        limit: float,
+    ) -> List[Request]:
+        key = f"runs.{name}"
+        self.section(key, group, GROUP_KEYS)
+        quick = group.get("quick", False)
+        if not isinstance(quick, bool):
+            self.section(f"{key}.quick", quick, GROUP_KEYS[:-1])
+        if self.quick:
+            if quick is False:
+                return []
+            if quick is not True:
+                group = {**group, **quick}
+        names = self.names(group, "cases", cases, key)
+        chosen = [methods[method] for method in self.names(group, "methods", methods, key)]
+        section = self.section(key, group, GROUP_KEYS)
+        own, vary = section.settings("set"), section.table("vary")
+        axes = [
+            [(quantity, self.value(f"{key}.vary.{quantity}", quantity, value, meshes)) for value in points]
+            for quantity, points in ((name, self.points(f"{key}.vary.{name}", name, vary[name])) for name in vary)
+        ]
+        if len(names) * len(chosen) * math.prod(len(axis) for axis in axes) > MOST_RUNS:
+            raise self.wrong(key, f"asks for more than {MOST_RUNS} runs", "vary less in one group")
+        requests = []
+        for case, method, point in itertools.product(names, chosen, itertools.product(*axes)):
+            scene = self.scenes.get(case)
+            if scene is not None and method.program not in scene.drivers:
+                continue
+            merged = {**settings, **of_case.get(case, {}), **method.settings, **own}
+            values, mesh, processes = {}, _mesh_of(scene, self.quick), None
+            for quantity, value in point:
+                values[quantity] = value.shown
+                merged.update(value.settings)
+                mesh = value.mesh or mesh
+                processes = value.processes or processes
+            requests.append(Request(name, case, method, values, cases[case], mesh, merged, limit, processes))
+        return requests
+
+    def points(self, key: str, quantity: str, values: Any) -> List[Any]:
+        """The values of an axis as they are given, or those that "cores" stands for."""
+        if quantity == PROCESSES and values == CORES:
+            most = usable_cores()
+            doubled = [2**power for power in range(most.bit_length()) if 2**power < most]
+            return [*doubled, most]
+        return self.list(key, values)
+
+    def value(self, key: str, quantity: str, value: Any, meshes: Mapping[str, StudyMesh]) -> "_Value":
+        """One value on an axis."""
+        if quantity == MESH:
+            return _Value(value, mesh=meshes[self.one_of(key, value, meshes)])
+        if quantity == PROCESSES:
+            return _Value(value, processes=self.processes(key, value))
+        if isinstance(value, dict):
+            section = self.section(key, value, VALUE_KEYS)
+            if "label" not in value:
+                raise self.wrong(key, "a value with settings has no label", 'write { label = "...", set = { ... } }')
+            self.scalar(f"{key}.label", value["label"])
+            return _Value(
+                value["label"],
+                section.settings("set"),
+                meshes[self.one_of(f"{key}.mesh", value["mesh"], meshes)] if "mesh" in value else None,
+                self.processes(f"{key}.processes", value["processes"]) if "processes" in value else None,
+            )
+        self.scalar(key, value)
+        if "." not in quantity:
+            problem = "is neither 'mesh', 'processes' nor a key of the case file"
+            raise self.wrong(key, problem, 'give a key such as "time.step", or values { label, set }')
+        return _Value(value, {quantity: value})
+
+    def processes(self, key: str, value: Any) -> int:
+        if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= LARGEST_COUNT:
+            remedy = f'give whole numbers from 1 to {LARGEST_COUNT}, or "{CORES}" in place of the list'
+            raise self.wrong(key, f"{show(value)} is no number of processes", remedy)
+        return value
+
+    def section(self, key: str, entry: Any, keys: Sequence[str]) -> Section:
+        return Section(self.path, key, entry, keys)
+
+    def one_of(self, key: str, name: Any, names: Iterable[str]) -> str:
+        if not isinstance(name, str) or name not in names:
+            remedy = f"did you mean '{nearest(str(name), list(names))}'? There are {', '.join(names)}"
+            raise self.wrong(key, f"'{name}' is unknown", remedy)
+        return name
+
+    def names(self, group: Dict[str, Any], name: str, known: Mapping[str, Any], section: str) -> List[str]:
+        """Of cases or methods: those that a group names, or all."""
+        given = group.get(name, list(known))
+        if not isinstance(given, list):
+            raise self.wrong(f"{section}.{name}", "is not a list of names", "write [a, b, ...]")
+        chosen = [self.one_of(f"{section}.{name}", entry, known) for entry in given]
+        return list(dict.fromkeys(chosen))
+
+    def scalar(self, key: str, value: Any) -> None:
+        if not isinstance(value, (str, int, float)) or (isinstance(value, int) and abs(value) > LARGEST_NUMBER):
+            raise self.wrong(
+                key, f"{show(value)} is no number or text", "write { label = ..., set = { ... } } for others"
+            )
+
+    def list(self, key: str, values: Any) -> List[Any]:
+        if not isinstance(values, list) or not values:
+            raise self.wrong(key, "is not a list of values", "write [a, b, ...]")
+        return values

@@ -1,0 +1,97 @@
+"""Where a study stands, and how long it will go on: a line rewritten on a terminal, plain lines elsewhere."""
+
+import sys
+import time
+from typing import Any, Dict, List, Sequence, Tuple
+
+from .mesh_levels import MESH_NODES
+from ..starting.duration import duration
+from .study_file import Request
+from .study_run import StudyRun
+
+
+class StudyProgress:
+    """Runs are weighted by mesh and steps; what the finished ones of the same method took tells the time left."""
+
+    def __init__(self, quiet: bool, jobs: int):
+        self._quiet, self._jobs = quiet, jobs
+        self._terminal = sys.stderr.isatty()
+        self._left: List[Request] = []
+        self._total = self._known_count = self._failed_count = 0
+        self._rates: Dict[str, Tuple[float, float]] = {}  # method -> (weight, seconds)
+        self._began: Dict[int, float] = {}
+
+    @staticmethod
+    def weight(request: Request) -> float:
+        nodes = MESH_NODES.get(request.mesh.name if request.mesh else "coarse", 3e3)
+        return (
+            nodes
+            * _positive(request.settings.get("time.end"), 12.0)
+            / _positive(request.settings.get("time.step"), 0.125)
+        )
+
+    def known(self, request: Request, run: StudyRun) -> None:
+        self._known_count += 1
+        if run.done:
+            self._learn(request, run.seconds)
+        else:
+            self._failed_count += 1
+
+    def plan(self, requests: Sequence[Request]) -> None:
+        self._left = list(requests)
+        self._total = len(self._left)
+        if self._known_count and (self._total or self._failed_count) and self._known_count + self._total > 1:
+            failed = f" ({self._failed_count} of them failed; --fresh makes all anew)" if self._failed_count else ""
+            self._say(f"{self._known_count} runs are there already{failed}, {self._total} to go{self._left_text()}")
+
+    def repeat(self, requests: Sequence[Request]) -> None:
+        """The same request as often as it is run again."""
+        self._left = list(requests)
+        self._total = len(self._left)
+        if self._left:
+            self._say(f"Again for their seconds: {self._total} runs{self._left_text()}")
+
+    def end(self, request: Request, run: StudyRun) -> None:
+        self._left.remove(request)
+        if run.done:
+            self._learn(request, run.seconds)
+        said = "" if run.done else f", {run.status}: {run.message}"
+        self._say(
+            f"[{self._total - len(self._left)}/{self._total}] {request.label}: "
+            f"{duration(run.seconds)}{said}{self._left_text()}"
+        )
+
+    def tick(self, running: Sequence[Request]) -> None:
+        if self._terminal and not self._quiet and running:
+            now = time.monotonic()
+            began = self._began.setdefault(id(running[0]), now)
+            print(
+                f"\r\033[K[{self._total - len(self._left)}/{self._total}] {running[0].label}: "
+                f"{duration(now - began)}{self._left_text()}",
+                end="",
+                file=sys.stderr,
+                flush=True,
+            )
+
+    def _learn(self, request: Request, seconds: float) -> None:
+        weight, known = self._rates.get(request.method.name, (0.0, 0.0))
+        self._rates[request.method.name] = (weight + self.weight(request), known + seconds)
+
+    def _left_text(self) -> str:
+        if not self._left or not self._rates:
+            return ""
+        mean = sum(s for _, s in self._rates.values()) / max(sum(w for w, _ in self._rates.values()), 1e-300)
+        left = 0.0
+        for request in self._left:
+            weight, seconds = self._rates.get(request.method.name, (0.0, 0.0))
+            left += self.weight(request) * (seconds / weight if weight else mean)
+        return f", about {duration(left / self._jobs)} left"
+
+    def _say(self, text: str) -> None:
+        if not self._quiet:
+            print(("\r\033[K" if self._terminal else "") + text, file=sys.stderr, flush=True)
+
+
+def _positive(value: Any, usual: float) -> float:
+    """What a study sets is for the driver to judge; here it only weighs the work."""
+    return float(value) if isinstance(value, (int, float)) and 1e-9 < value < 1e9 else usual

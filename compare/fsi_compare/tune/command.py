@@ -1,0 +1,256 @@
+"""`fsi-compare tune`: Windkessels of a case for given pressures and flow splits."""
+
+import argparse
+import shlex
+from pathlib import Path
+from typing import Any, Dict, List, Mapping, Optional
+
+from ..base.errors import InputError, ProgramError, printable, say_note, say_warning
+from ..base.files import absolute, folder, is_file, output_folder, read_toml, remove_tree, together
+from ..base.options import Commands, add_command, add_drivers, add_usual
+from ..results.run import open_run
+from ..gallery.mesh_chain import with_places
+from ..gallery.scene import read_scene as read_gallery_scene
+from ..study.runner import Runner, sweep_study
+from ..study.study_file import Method, Request, Study, StudyMesh, mesh_of_scene
+from ..starting.folder_lock import locked
+from ..starting.programs import find_mesh_maker, find_program
+from ..verify.found_case import write_case
+from ..verify.mesh_family import find_recipe
+from .curves import curves_of
+from .scene import Scene, checked_targets, read_scene
+from .solving import Rule
+from .tables import show, write_results
+from .targets import read_targets
+from .tuning import BeatFailed, Demand, Outcome, Ran, tune
+
+DRIVERS = ("monolithic", "partitioned")
+ONE_BEAT, TUNED = "one-beat.toml", "tuned.toml"
+GIVE = "give a case file that a driver runs"
+MOST_BEATS = 10
+
+DESCRIPTION = """\
+Finds the resistances and compliances of a case's Windkessels for pressures and flow
+splits that are asked for. One beat is run as the case stands. A model without
+dimensions of the vessel is fitted to its curves; the values are those with which the
+model's periodic state has what is asked for. The next beat begins from them, and
+from the model's pressures, and is fitted again.
+A target is met where a beat itself shows it within the tolerance, and begins within
+that of its periodic state. Finished beats are found again: a call that was killed
+goes on. Writes to OUTDIR: tuned.toml, the case with the values found, where all
+targets are met; targets.csv, values.csv, tune.md, tune.json, and the runs in runs/.
+Exit code 2: not all targets are met.
+"""
+
+EXAMPLES = """\
+examples:
+  fsi-compare tune carotid.toml --pressure inlet=80/120mmHg --split ica=60% --split eca=40%
+  fsi-compare tune tube.toml --mean-pressure outlet=12.4kPa --proximal kept
+  fsi-compare tune carotid.toml --targets targets.toml --driver partitioned
+
+a table of targets:
+  [pressure]
+  inlet = "80/120mmHg"
+  [split]
+  ica = "60%"
+  eca = "40%"
+"""
+
+
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands, "tune", run, "Windkessels for given pressures and flow splits", DESCRIPTION, EXAMPLES
+    )
+    command.add_argument("case", metavar="CASE.toml", type=Path, help="case file")
+    command.add_argument("-o", "--output", metavar="OUTDIR", type=folder, help="default: results/tune/CASE")
+    several: Dict[str, Any] = {"action": "append", "default": []}
+    command.add_argument(
+        "--pressure", metavar="NAME=LOW/HIGH", **several, help="of one opening, diastolic and systolic, in kPa or mmHg"
+    )
+    command.add_argument("--mean-pressure", metavar="NAME=P", **several, help="in place of them")
+    command.add_argument("--split", metavar="NAME=N%", **several, help="share of the mean flow of an outlet")
+    command.add_argument(
+        "--flow", metavar="NAME=Q", **several, help="mean flow outwards, in ml/s, ml/min, l/min, mm3/ms"
+    )
+    command.add_argument("--targets", metavar="FILE.toml", type=Path, help="the same in a table")
+    command.add_argument(
+        "--proximal",
+        metavar="N%",
+        default="8%",
+        help="of an outlet's resistance that is before its compliance; kept: as in the case (default: 8%%)",
+    )
+    command.add_argument("--tolerance", metavar="N%", default="1%", help="of each target (default: 1%%)")
+    command.add_argument("--beats", metavar="N", type=int, default=3, help="at most (default: %(default)s)")
+    command.add_argument(
+        "--driver", metavar="NAME", default="monolithic", help="monolithic or partitioned (default: %(default)s)"
+    )
+    command.add_argument("--mesh", metavar="WORDS", help="of the fsi-mesh command that makes the mesh, without -o")
+    command.add_argument("--time-limit", metavar="S", type=float, default=3600.0, help="of each beat (default: 3600)")
+    add_drivers(command)
+    add_usual(command, version, "of each run (default: 1)")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Checks everything before the first beat."""
+    given = {key: getattr(options, key) for key in ("pressure", "mean_pressure", "split", "flow")}
+    targets = read_targets(given, options.targets)
+    if options.driver not in DRIVERS:
+        raise InputError("", "--driver", f"'{options.driver}' is no driver", f"give {' or '.join(DRIVERS)}")
+    if not 1 <= options.beats <= MOST_BEATS:
+        raise InputError("", "--beats", f"{options.beats} beats will not do", f"give 1 to {MOST_BEATS}")
+    rule = Rule(None if options.proximal == "kept" else _share("--proximal", options.proximal))
+    tolerance = _share("--tolerance", options.tolerance)
+    scene = read_scene(options.case, read_toml(options.case, GIVE, GIVE))
+    demand = Demand(checked_targets(scene, targets), rule, tolerance, options.beats)
+    place = options.output or Path("results", "tune", options.case.stem)
+    with output_folder(place), locked(place):
+        sweep_study(place)
+        beats = Beats(options, scene, place)
+        say = (lambda text: None) if options.quiet else say_note
+        for line in decided(scene, demand):
+            say(line)
+        if scene.elastic and "prestress" not in scene.entries:
+            say_warning(
+                "the wall has no [prestress]: under a pressure like the one asked for it is thrown outwards first"
+            )
+        outcome = tune(scene, demand, beats.run, say)
+        return _write(options, scene, demand, outcome, beats)
+
+
+def decided(scene: Scene, demand: Demand) -> List[str]:
+    """What the call does not say, in sentences."""
+    lines = [f"tuned: the Windkessels of {', '.join(scene.windkessels)}; a beat takes {scene.period:g} ms"]
+    lines.append(f"proximal resistance: {demand.rule.words}; compliance: shared out like the mean flow")
+    for target in demand.targets:
+        if target.unit == "1":
+            lines.append(f"{target.opening}: {100 * target.value:.4g} % of the flow")
+    others = [name for name in scene.openings if name not in scene.windkessels]
+    if others:
+        lines.append(f"as the case has them: {', '.join(others)}")
+    return lines
+
+
+def _share(option: str, text: str) -> float:
+    """0.02 for 2% and for 0.02. Raises InputError."""
+    try:
+        value = float(text[:-1]) / 100 if text.endswith("%") else float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value < 1:
+        raise InputError("", option, f"{text} is no part of a value", "give a percentage, like 1%")
+    return value
+
+
+class Beats:
+    """Runs them. The folder is locked."""
+
+    def __init__(self, options: argparse.Namespace, scene: Scene, place: Path) -> None:
+        self.scene, self.place, self.limit = scene, place, options.time_limit
+        self.name = f"fsi-{options.driver}"
+        program = find_program(self.name, getattr(options, options.driver), f"--{options.driver}")
+        mesh_maker = find_mesh_maker(program)
+        self.mesh = _mesh(scene, options.mesh, mesh_maker, place)
+        self.method = Method(options.driver, options.driver, self.name, {})
+        self.case = self._case()
+        title, methods = scene.path.stem, {options.driver: self.method}
+        study = Study(
+            scene.path,
+            title,
+            "tune",
+            options.threads or 1,
+            1,
+            self.limit,
+            {title: self.case},
+            methods,
+            {},
+            (),
+            {},
+            False,
+        )
+        self.runner = Runner(study, place, {self.name: program}, mesh_maker, options.threads, 1, options.quiet)
+
+    def _case(self) -> Path:
+        """The user's file, or one without what ends a run by its periods, which one beat has not."""
+        time = dict(self.scene.entries["time"])
+        if "periods" not in time:
+            return self.scene.path
+        del time["periods"]
+        if time.get("start") != "lumped":
+            time.pop("period", None)
+        path = self.place / ONE_BEAT
+        words = f"{printable(str(self.scene.path))} without time.periods, for single beats"
+        write_case(path, {**self.scene.entries, "time": time}, absolute(self.scene.path.parent), [words])
+        return path
+
+    def run(self, number: int, settings: Mapping[str, Any]) -> Ran:
+        """Raises InputError where the first beat fails, BeatFailed where a later one does."""
+        merged = {"time.end": self.scene.period, **settings}
+        request = Request(
+            "beats", self.scene.path.stem, self.method, {"beat": number}, self.case, self.mesh, merged, self.limit
+        )
+        done = self.runner.run([request])[0]
+        if not done.done:
+            message = done.message or done.status
+            if number > 1:
+                raise BeatFailed(message)
+            raise ProgramError(self.scene.path, f"beat {number}", message, "mend the case first")
+        return Ran(curves_of(open_run(done.folder).openings), done.seconds)
+
+    def mesh_file(self) -> Optional[Path]:
+        return self.runner.mesh_file(self.mesh)
+
+
+def _mesh(scene: Scene, words: Optional[str], mesh_maker: Optional[Path], place: Path) -> Optional[StudyMesh]:
+    """None: the case's own file or level."""
+    section = scene.entries.get("mesh", {})
+    own = section.get("file") if isinstance(section, dict) else None
+    if words is None and (own is None or is_file(scene.path.parent / str(own))):
+        return None
+    if mesh_maker is None:
+        raise InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
+    folder = scene.path.parent
+    if words is not None:
+        command, *others = with_places(shlex.split(words), Path(".")) or [""]
+        return StudyMesh(scene.path.stem[:40], "", tuple(others), command)
+    if is_file(folder / "scene.py") and folder.name == scene.path.stem:
+        return mesh_of_scene(read_gallery_scene(folder), False)
+    return find_recipe(scene.path, scene.entries, None, mesh_maker).mesh(1.0, place, scene.path.stem)
+
+
+def _write(options: argparse.Namespace, scene: Scene, demand: Demand, outcome: Outcome, beats: Beats) -> int:
+    with together(beats.place) as inside:
+        tables, written = write_results(inside, scene, demand, outcome, beats.name)
+        if outcome.reached:
+            written.insert(0, _write_tuned(inside, scene, outcome, beats))
+    if not outcome.reached:
+        remove_tree(beats.place / TUNED)  # of an earlier call
+    if not options.quiet:
+        show(tables, outcome, beats.place, written)
+    return 0 if outcome.reached else 2
+
+
+def _write_tuned(inside: Path, scene: Scene, outcome: Outcome, beats: Beats) -> Path:
+    """`tuned.toml`: the case with the values of the beat that shows what is asked for."""
+    last = outcome.beats[-1]
+    entries = dict(scene.entries)
+    entries["opening"] = [_tuned(one, last.values, last.starts) for one in scene.entries["opening"]]
+    if last.starts and "start" in entries["time"]:
+        entries["time"] = {**entries["time"], "start": "given"}
+    mesh = beats.mesh_file()
+    if mesh is not None:
+        entries["mesh"] = {"file": str(absolute(mesh))}
+    words = f"{printable(str(scene.path))} with the Windkessels that fsi-compare tune has found:"
+    path = inside / TUNED
+    write_case(path, entries, absolute(scene.path.parent), [words, *outcome.lines])
+    return path
+
+
+def _tuned(opening: Mapping[str, Any], values: Mapping[str, Any], starts: Mapping[str, float]) -> Dict[str, Any]:
+    name = str(opening.get("surface"))
+    if name not in values:
+        return dict(opening)
+    law = values[name]
+    found = {**opening["windkessel"], "proximal": law.proximal, "compliance": law.compliance, "distal": law.distal}
+    if name in starts:
+        found["initial_pressure"] = starts[name]
+    return {**opening, "windkessel": found}

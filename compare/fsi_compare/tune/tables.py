@@ -1,0 +1,138 @@
+"""What was asked for and found, beat by beat: tables for people and scripts."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Sequence, Tuple
+
+from ..base.errors import printable
+from ..base.files import absolute, replacing
+from ..reporting.column import Column
+from ..reporting.layout import Table, say_written, write_tables
+from .circuit import Windkessel
+from .scene import Scene
+from .targets import KPA, Target
+from .tuning import Beat, Demand, Outcome
+
+
+@dataclass(frozen=True)
+class Found:
+    """Of one target in one beat."""
+
+    beat: int
+    target: Target
+    got: float
+    foreseen: Optional[float]
+
+    @property
+    def percent(self) -> float:
+        return 100 * (self.got / self.target.value - 1)
+
+
+@dataclass(frozen=True)
+class Value:
+    """Of one outlet in one beat."""
+
+    beat: Beat
+    outlet: str
+    law: Windkessel
+
+
+def _number(value: float) -> str:
+    return f"{value:.4g}"
+
+
+def _shown(found: Found, value: float) -> str:
+    if found.target.unit == "1":
+        return f"{100 * value:.2f} %"
+    if found.target.is_pressure:
+        return f"{value:.3f} kPa, {value / KPA['mmHg']:.1f} mmHg"
+    return f"{value:.4g} {found.target.unit}"
+
+
+TARGETS: Sequence[Column[Found]] = (
+    Column("beat", "beat", lambda f: f.beat),
+    Column("opening", "opening", lambda f: f.target.opening, left=True),
+    Column("quantity", "quantity", lambda f: f.target.kind, left=True),
+    Column(csv="unit", value=lambda f: f.target.unit),
+    Column("asked for", "asked", lambda f: f.target.value, text=lambda f: _shown(f, f.target.value)),
+    Column("found", "found", lambda f: f.got, text=lambda f: _shown(f, f.got)),
+    Column("difference [%]", "difference_percent", lambda f: f.percent, "+.2f"),
+    Column(csv="foreseen", value=lambda f: f.foreseen),
+)
+VALUES: Sequence[Column[Value]] = (
+    Column("beat", "beat", lambda v: v.beat.number),
+    Column("outlet", "outlet", lambda v: v.outlet, left=True),
+    Column("proximal [{unit}]", "proximal", lambda v: v.law.proximal, _number, unit="kPa ms/mm^3"),
+    Column("compliance [{unit}]", "compliance", lambda v: v.law.compliance, _number, unit="mm^3/kPa"),
+    Column("distal [{unit}]", "distal", lambda v: v.law.distal, _number, unit="kPa ms/mm^3"),
+    Column("starts from [{unit}]", "start", lambda v: v.beat.repeats[v.outlet].begin, _number, unit="kPa"),
+    Column("ends with [{unit}]", "end", lambda v: v.beat.repeats[v.outlet].end, _number, unit="kPa"),
+    Column("periodic [{unit}]", "periodic", lambda v: v.beat.repeats[v.outlet].periodic, _number, unit="kPa"),
+)
+VESSEL: Sequence[Column[Tuple[Beat, str]]] = (
+    Column("beat", "beat", lambda v: v[0].number),
+    Column("opening", "opening", lambda v: v[1], left=True),
+    Column("resistance [{unit}]", "resistance", lambda v: v[0].vessel.resistance[v[1]], _number, unit="kPa ms/mm^3"),
+    Column("inertance [{unit}]", "inertance", lambda v: v[0].vessel.inertance[v[1]], _number, unit="kPa ms^2/mm^3"),
+    Column("compliance [{unit}]", "compliance", lambda v: v[0].vessel.compliance, _number, unit="mm^3/kPa"),
+    Column(
+        "left of pressures [%]", "left_of_pressures_percent", lambda v: 100 * v[0].vessel.unexplained_pressure, ".1f"
+    ),
+    Column("left of volume [%]", "left_of_volume_percent", lambda v: 100 * v[0].vessel.unexplained_volume, ".1f"),
+)
+
+
+def tables_of(demand: Demand, outcome: Outcome) -> List[Table]:
+    found = [
+        Found(beat.number, target, float(beat.got[i]), None if beat.foreseen is None else float(beat.foreseen[i]))
+        for beat in outcome.beats
+        for i, target in enumerate(demand.targets)
+    ]
+    values = [Value(beat, name, law) for beat in outcome.beats for name, law in beat.values.items()]
+    vessels = [(beat, name) for beat in outcome.beats for name in beat.vessel.resistance]
+    return [
+        Table("targets", "What is asked for, and what each beat shows", TARGETS, found),
+        Table("values", "Windkessels of each beat", VALUES, values),
+        Table("vessel", "The vessel, fitted to each beat", VESSEL, vessels),
+    ]
+
+
+def write_results(
+    folder: Path, scene: Scene, demand: Demand, outcome: Outcome, program: str
+) -> Tuple[List[Table], List[Path]]:
+    tables = tables_of(demand, outcome)
+    written = write_tables(folder, tables, "tune.md", f"Tuning of {printable(scene.path.stem)}")
+    last = outcome.beats[-1]
+    said: Dict[str, Any] = {
+        "case": str(absolute(scene.path)),
+        "program": program,
+        "period_ms": scene.period,
+        "proximal": demand.rule.words,
+        "tolerance": demand.tolerance,
+        "reached": outcome.reached,
+        "notes": outcome.lines,
+        "targets": [
+            {"opening": t.opening, "quantity": t.kind, "unit": t.unit, "asked": t.value, "found": float(got)}
+            for t, got in zip(demand.targets, last.got)
+        ],
+        "windkessels": {
+            name: {"proximal": law.proximal, "compliance": law.compliance, "distal": law.distal,
+                   "initial_pressure": last.repeats[name].begin}
+            for name, law in last.values.items()
+        },
+        "beats": [
+            {"beat": b.number, "seconds": b.seconds, "distance_from_periodic": b.period_share} for b in outcome.beats
+        ],
+    }  # fmt: skip
+    path = folder / "tune.json"
+    with replacing(path) as temporary:
+        temporary.write_text(json.dumps(said, indent=1) + "\n", encoding="utf-8")
+    return tables, [*written, path]
+
+
+def show(tables: Sequence[Table], outcome: Outcome, place: Path, written: Sequence[Path]) -> None:
+    for table in tables[:2]:
+        print(table.text())
+    print("\n".join(map(printable, outcome.lines)))
+    say_written(place, written)

@@ -1,0 +1,110 @@
+"""Which words of `fsi-mesh artery` say how fine its mesh is, and the words for a mesh that is finer by a factor."""
+
+import re
+import tempfile
+from pathlib import Path
+from typing import Any, Dict, List, Mapping, Sequence
+
+from ..base.errors import InputError
+from ..starting.processes import answer
+
+LEVEL_SIZES = ("--level", "--for", "--error", "--waves")
+RECOMMENDED = re.compile(
+    r"cells through lumen (\d+)(?: \(graded ([\d.]+) to the wall\))?, media (\d+)(?:, adventitia (\d+))?"
+    r"(?:, around (\d+))?, along the axis (\d+)(?: \(graded ([\d.]+) to the inlet\))?"
+)
+CELLS = ("--lumen-cells", "--media-cells", "--adventitia-cells", "--around", "--axial-cells")
+SIZE_OPTIONS = ("--size", "--axial-size")
+SHORT_STEP = 0.1  # ms, as common/case/case_reader.cpp has it: second order keeps waves that longer steps let die
+FIRST_ORDER = ("euler",)
+# mm across and along, as common/mesh/artery/options.cpp has them: fsi-mesh says them nowhere
+LEVELS = {"coarse": (0.75, 0.78), "intermediate": (0.375, 0.34), "fine": (0.1875, 0.168)}
+
+
+def keeps_short_waves(entries: Mapping[str, Any]) -> bool:
+    """Whether the drivers take mesh.error of a case for resolved waves."""
+    time = entries.get("time", {})
+    if "static" in entries or time.get("scheme") in FIRST_ORDER:
+        return False
+    step = time.get("step", 1.0)
+    return bool(step == "adaptive" or step <= SHORT_STEP)
+
+
+def waves_of(entries: Mapping[str, Any]) -> str:
+    """That mesh.error of a case is for: "damped" or "resolved"."""
+    return str(entries.get("mesh", {}).get("waves") or ("resolved" if keeps_short_waves(entries) else "damped"))
+
+
+def cells_of(words: Sequence[str]) -> List[float]:
+    """Numbers of cells that are given."""
+    found = options_of(words)
+    return [float(found[name]) for name in CELLS if name in found]
+
+
+def options_of(words: Sequence[str]) -> Dict[str, str]:
+    """Of --name value and --name=value; a flag has an empty value."""
+    found: Dict[str, str] = {}
+    for i, word in enumerate(words):
+        if word.startswith("--"):
+            name, mark, value = word.partition("=")
+            following = words[i + 1] if i + 1 < len(words) and not words[i + 1].startswith("--") else ""
+            found[name] = value if mark else following
+    return found
+
+
+def with_numbers(words: List[str], mesh_maker: Path) -> List[str]:
+    """In the place of a recommended mesh the numbers of cells that fsi-mesh says it has."""
+    options = options_of(words)
+    if "--for" not in options:
+        return words
+    try:
+        with tempfile.TemporaryDirectory() as place:
+            said = answer([mesh_maker, "artery", *words, "-o", Path(place) / "mesh.msh"], 600)
+    except OSError as error:
+        raise InputError(mesh_maker, "artery", f"gives no answer: {error}", "build it again") from None
+    numbers = RECOMMENDED.search(said)
+    if numbers is None:
+        raise InputError(
+            mesh_maker, "artery --for", "does not say its numbers of cells", 'give them by --mesh "artery ..."'
+        )
+    lumen, wall, media, adventitia, around, axial, inlet = numbers.groups()
+    kept = _without(words, LEVEL_SIZES)
+    kept += ["--lumen-cells", lumen, "--media-cells", media, "--axial-cells", axial]
+    for name, value in (("--adventitia-cells", adventitia), ("--around", around)):
+        kept += [name, value] if value is not None else []
+    for name, value in (("--lumen-grading", wall), ("--axial-grading", inlet)):
+        kept += [name, value] if value is not None else []
+    return kept if "--order" in options else [*kept, "--order", "2"]
+
+
+def _without(words: Sequence[str], names: Sequence[str]) -> List[str]:
+    kept, skip = [], False
+    for word in words:
+        name = word.partition("=")[0]
+        if skip and not word.startswith("--"):
+            skip = False
+            continue
+        skip = name in names and "=" not in word
+        if name not in names:
+            kept.append(word)
+    return kept
+
+
+def artery_words(words: Sequence[str], factor: float) -> List[str]:
+    """Counts times the factor, sizes by it."""
+    options = options_of(words)
+    changed: Dict[str, str] = {}
+    for name in CELLS:
+        if name in options:
+            changed[name] = str(max(1, round(float(options[name]) * factor)))
+    for name in SIZE_OPTIONS:
+        if name in options:
+            changed[name] = f"{float(options[name]) / factor:.8g}"
+    kept = _without(words, tuple(changed))
+    for name, value in changed.items():
+        kept += [name, value]
+    if not changed:
+        size, along = LEVELS[options.get("--level") or "coarse"]
+        kept = _without(kept, ("--level",))
+        kept += ["--size", f"{size / factor:.8g}", "--axial-size", f"{along / factor:.8g}"]
+    return kept

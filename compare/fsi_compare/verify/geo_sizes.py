@@ -1,0 +1,93 @@
+"""Which constants of a gmsh script say how fine its mesh is, and the script for a mesh that is finer by a factor.
+
+A constant of `DefineConstant[ name = number, ... ]` is a size where it stands in the fourth place of a Point or in a
+Mesh.MeshSize option, and a count where it stands behind `Transfinite ... =` or in `Layers{ }`. Sizes are divided by the
+factor, counts multiplied. Ratios of neighbouring cells (`Using Progression`) are taken to the power 1/factor, since twice
+as many cells of the same ratio would refine one end alone.
+"""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Dict, List, Sequence, Tuple
+
+from ..base.errors import InputError
+from ..base.files import read_text
+
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+CONSTANTS = re.compile(r"DefineConstant\s*\[(.*?)\]\s*;", re.DOTALL)
+CONSTANT = re.compile(rf"(\w+)\s*=\s*(?:\{{\s*)?({NUMBER})")
+SIZES = (
+    re.compile(r"Point\s*\([^)]*\)\s*=\s*\{[^{},]*,[^{},]*,[^{},]*,([^{}]*)\}"),
+    re.compile(r"Mesh\.(?:MeshSize|CharacteristicLength)(?:Max|Min|Factor)\s*=\s*([^;]*);"),
+    re.compile(r"(?:MeshSize|Characteristic Length)\s*\{[^}]*\}\s*=\s*([^;]*);"),
+)
+COUNTS = (
+    re.compile(r"Transfinite\s+(?:Curve|Line)\s*\{[^}]*\}\s*=\s*([^;]*?)(?:Using|;)"),
+    re.compile(r"Layers\s*\{\s*([^}]*)\}"),
+)
+PROGRESSION = re.compile(rf"Using\s+Progression\s+({NUMBER})")
+ELSEWHERE = re.compile(r"\b(?:Include|Merge)\b")
+
+
+@dataclass(frozen=True)
+class GeoSizes:
+    """Constants of a script with their values."""
+
+    script: Path
+    sizes: Dict[str, float]
+    counts: Dict[str, float]
+    graded: bool  # has ratios of neighbouring cells
+
+    def settings(self, factor: float, given: Dict[str, float]) -> Dict[str, float]:
+        """Of a mesh finer by `factor`; `given`: values other than the script's."""
+        found = dict(given)
+        for name, value in self.sizes.items():
+            found[name] = given.get(name, value) / factor
+        for name, value in self.counts.items():
+            found[name] = max(1, round(given.get(name, value) * factor))
+        return found
+
+
+def read_sizes(script: Path) -> GeoSizes:
+    """Raises InputError where the script has no constant that says how fine it is."""
+    text = without_comments(read_text(script, "give a gmsh script that is there", "give a gmsh script"))
+    constants: Dict[str, float] = {}
+    for block in CONSTANTS.findall(text):
+        constants.update((name, float(value)) for name, value in CONSTANT.findall(block))
+    sizes, counts = (_used(text, constants, patterns) for patterns in (SIZES, COUNTS))
+    both = sorted(set(sizes) & set(counts))
+    if both:
+        raise InputError(script, both[0], "is both a size and a count of cells", "give each a constant of its own")
+    if not sizes and not counts:
+        problem = "has no constant that says how fine its mesh is"
+        remedy = "give it one, DefineConstant[ size = 0.5 ]; with Mesh.MeshSizeMax = size; and let nothing else decide"
+        raise InputError(script, "DefineConstant", problem, remedy)
+    graded = bool(PROGRESSION.search(text)) and bool(counts)
+    if graded and ELSEWHERE.search(text):
+        problem = "has ratios of cells and takes in other files"
+        raise InputError(script, "Using Progression", problem, "put all of it into one script")
+    return GeoSizes(script, sizes, counts, graded)
+
+
+def _used(text: str, constants: Dict[str, float], patterns: Sequence["re.Pattern[str]"]) -> Dict[str, float]:
+    words: List[str] = []
+    for pattern in patterns:
+        for expression in pattern.findall(text):
+            words += re.findall(r"[A-Za-z_]\w*", expression)
+    return {name: value for name, value in constants.items() if name in words}
+
+
+def without_comments(text: str) -> str:
+    return re.sub(r"/\*.*?\*/", " ", re.sub(r"//[^\n]*", "", text), flags=re.DOTALL)
+
+
+def graded_text(script: Path, factor: float) -> Tuple[str, bool]:
+    """The script with its ratios of neighbouring cells for so many times the cells; whether it has any."""
+    text = read_text(script, "give a gmsh script that is there", "give a gmsh script")
+
+    def softer(match: "re.Match[str]") -> str:
+        return f"Using Progression {float(match[1]) ** (1 / factor):.12g}"
+
+    changed = PROGRESSION.sub(softer, text)
+    return changed, changed != text

@@ -1,0 +1,245 @@
+"""Meshes of a family: how the user's own mesh is made, and the words that make one finer or coarser by a factor.
+
+| own mesh | of a family by |
+|---|---|
+| `geo SCRIPT` | constants of the script that are sizes or counts (geo_sizes.py) |
+| `artery ...` | its sizes and numbers of cells (artery_sizes.py); `--for`, `--level` and `--error` by the numbers that they come to |
+| several commands, `geo ... | thicken ...` | what each of them has of sizes (chain_sizes.py) |
+| a mesh file | `fsi-mesh refine`, finer only |
+"""
+
+import math
+import shlex
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+
+from ..base.errors import InputError
+from ..base.files import is_file, replacing
+from ..gallery.mesh_chain import MARK, READ, SCRIPT, commands_of, links, with_places
+from ..gallery.scene import Scene, read_scene
+from ..study.study_file import StudyMesh
+from .artery_sizes import artery_words, cells_of, waves_of, with_numbers
+from .chain_sizes import Command, apart, sized
+from .geo_sizes import GeoSizes, graded_text, read_sizes
+
+HALVES = 2.0  # all that fsi-mesh refine makes
+RATIOS = (1.5, 2.0, 1.4, 1.6, 1.75)  # between members
+MADE_OF = ("lumen", "thicken", "refine")  # commands that take the file of the one before
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """How a mesh is made, with the counts that must stay whole."""
+
+    command: str
+    words: Tuple[str, ...]  # behind the command; a .geo by its full path
+    geo: Optional[GeoSizes] = None
+    given: Mapping[str, float] = None  # type: ignore[assignment]  # of --set
+    file: Optional[Path] = None  # of command "refine"
+    chain: Tuple[Command, ...] = ()  # of command "chain"
+
+    @property
+    def coarsens(self) -> bool:
+        return self.command != "refine"
+
+    @property
+    def adapts(self) -> bool:
+        """Whether meshes are made from runs on others (adapting.py)."""
+        return False
+
+    def ratio(self, levels: Sequence[int]) -> float:
+        """Between meshes at `levels`, powers of it."""
+        return ratio_for(self.counts, levels) if self.coarsens else HALVES
+
+    @property
+    def counts(self) -> List[float]:
+        if self.geo is not None:
+            return [self.given.get(name, value) for name, value in self.geo.counts.items()]
+        if self.chain:
+            return [count for command in self.chain for count in command.counts]
+        return cells_of(self.words)
+
+    def mesh(self, factor: float, folder: Path, case: str) -> Optional[StudyMesh]:
+        """Of the mesh finer by `factor`; None: the case's own file as it stands."""
+        name = f"{case[:40]}-x{factor:.4g}"
+        if self.chain:
+            words = chained([command.finer(factor, folder) for command in self.chain])
+            return StudyMesh(name, f"{factor:.3g} times as fine", tuple(words[1:]), words[0])
+        if self.command == "geo":
+            return StudyMesh(name, f"{factor:.3g} times as fine", tuple(self.geo_words(factor, folder)), "geo")
+        if self.command == "refine":
+            halves = (str(self.file), "--times", str(round(math.log2(factor))))
+            return None if factor == 1 else StudyMesh(name, f"{factor:.3g} times as fine", halves, "refine")
+        return StudyMesh(name, f"{factor:.3g} times as fine", tuple(artery_words(self.words, factor)), "artery")
+
+    def unrefined(self, sizes: Sequence[float], folder: Path) -> Dict[str, int]:
+        """Layers of a wall with as many elements in meshes of all these sizes, relative to the case's, by name."""
+        layers = [sized(command.finer(1 / size, folder), "").elements for command in self.chain for size in sizes]
+        kept: Dict[str, int] = {}
+        for command in self.chain:
+            for name, number in command.elements.items():
+                if all(one.get(name, number) == number for one in layers):
+                    kept[name] = number
+        return kept
+
+    def geo_words(self, factor: float, folder: Path) -> List[str]:
+        assert self.geo is not None
+        script = self.geo.script
+        if self.geo.graded and factor != 1:
+            text, _ = graded_text(script, factor)
+            script = folder / "meshes" / f"{self.geo.script.stem}-x{factor:.4g}.geo"
+            script.parent.mkdir(parents=True, exist_ok=True)
+            with replacing(script) as temporary:
+                temporary.write_text(text, encoding="utf-8")
+        words = [str(script), *_without_set(self.words)]
+        for name, value in self.geo.settings(factor, dict(self.given)).items():
+            words += ["--set", f"{name}={value:.10g}"]
+        return words
+
+
+@dataclass(frozen=True)
+class Script(Command):
+    """`geo` as one command of a chain."""
+
+    recipe: Recipe
+
+    @property
+    def counts(self) -> List[float]:
+        return self.recipe.counts
+
+    def finer(self, factor: float, folder: Path) -> List[str]:
+        return ["geo", *self.recipe.geo_words(factor, folder)]
+
+
+def chained(commands: Sequence[Sequence[str]]) -> List[str]:
+    """Their words, with marks between."""
+    return [word for number, words in enumerate(commands) for word in ([MARK] if number else []) + list(words)]
+
+
+def ratio_for(counts: Sequence[float], levels: Sequence[int]) -> float:
+    """Between meshes: the first of RATIOS that leaves whole numbers of cells whole at `levels`, powers of the ratio; where
+    none does, that which rounds them least. Rounded counts make meshes that are no multiples of each other."""
+
+    def rounding(ratio: float) -> float:
+        wanted = [c * ratio**k for c in counts for k in levels]
+        return max((abs(max(1, round(w)) / w - 1) for w in wanted), default=0.0)
+
+    return min(RATIOS, key=lambda ratio: (round(rounding(ratio), 2), RATIOS.index(ratio)))
+
+
+def find_recipe(case: Path, entries: Mapping[str, Any], named: Optional[str], mesh_maker: Path) -> Recipe:
+    """By --mesh, the scene of the gallery, the case's level or error, or its mesh file. Raises InputError."""
+    element, geometry = str(entries.get("element", "p2p1")), str(entries.get("geometry", "3d"))
+    section = entries.get("mesh", {})
+    if named is not None:
+        return _recipe(_split(named), Path("."), "--mesh", mesh_maker)
+    if is_file(case.parent / "scene.py") and case.parent.name == case.stem:
+        return recipe_of_scene(read_scene(case.parent), mesh_maker)
+    if "level" in section or "error" in section:
+        words = ["artery", *(["--axisymmetric"] if geometry == "axisymmetric" else [])]
+        if "error" in section:
+            words += ["--for", element, "--error", str(section["error"]), "--waves", waves_of(entries)]
+        else:
+            words += ["--level", str(section["level"]), *(["--order", "2"] if element == "p2p1" else [])]
+        return _recipe(words, case.parent, str(case), mesh_maker)
+    file = case.parent / str(section.get("file", ""))
+    script = file.with_suffix(".geo")
+    if is_file(script):
+        return _recipe(
+            ["geo", script.name, *(["--order", "2"] if element == "p2p1" else [])], case.parent, "", mesh_maker
+        )
+    if not is_file(file):
+        remedy = 'make it, or say how it is made: --mesh "geo SCRIPT.geo", --mesh "lumen SURFACE.stl ... | thicken ..."'
+        raise InputError(case, "mesh.file", f"there is no file {file}", remedy)
+    return Recipe("refine", (), file=file)
+
+
+def _split(text: str) -> List[str]:
+    try:
+        return shlex.split(text)
+    except ValueError as error:
+        raise InputError("", "--mesh", f"cannot be read: {error}", "close all quotation marks") from None
+
+
+def recipe_of_scene(scene: Scene, mesh_maker: Path, quick: bool = False) -> Recipe:
+    """Of the mesh that a scene of the gallery names."""
+    return _recipe(scene.mesh_words(quick), scene.folder, str(scene.folder / "scene.py"), mesh_maker)
+
+
+def _recipe(words: Sequence[str], folder: Path, source: str, mesh_maker: Path) -> Recipe:
+    if MARK in words or (words and words[0] in ("lumen", "thicken")):
+        return _chain(words, folder, source)
+    if not words or words[0] not in ("geo", "artery"):
+        what = words[0] if words else ""
+        problem = f"'{what}' makes no family of meshes"
+        raise InputError(source, "", problem, "give the words of fsi-mesh geo or fsi-mesh artery, without -o")
+    if words[0] == "geo":
+        return _geo(words, folder, source)
+    return Recipe("artery", tuple(with_numbers(list(words[1:]), mesh_maker)), given={})
+
+
+def _chain(words: Sequence[str], folder: Path, source: str) -> Recipe:
+    links(words, Path("mesh.msh"), source)  # raises where the order is wrong
+    named = [apart(command) for command in commands_of(words)]
+    found: List[Command] = []
+    for number, command in enumerate(named):
+        for word in command:
+            if word in ("-o", "--output"):
+                raise InputError(source, f"{command[0]} {word}", "names a file", "leave it out: each mesh gets its own")
+            if word.endswith(READ) and not is_file(folder / word):
+                raise InputError(source, f"{command[0]} {word}", "there is no such file", "give one that is there")
+        full = with_places(command, folder.resolve())
+        if command[0] == "geo":
+            found.append(Script(tuple(full), _geo(command, folder, source)))
+        elif command[0] in MADE_OF if number else command[0] == "lumen" or command[0].endswith(SCRIPT):
+            found.append(sized(full, source))
+        else:
+            raise _without_sizes(command, number, folder, source)
+    if not any(command[0] in ("geo", "lumen") for command in named):
+        raise _without_sizes(named[-1], 1, folder, source)
+    return Recipe("chain", tuple(words), given={}, chain=tuple(found))
+
+
+def _without_sizes(command: Sequence[str], number: int, folder: Path, source: str) -> InputError:
+    """A command that makes no meshes of several sizes where it stands."""
+    remedy = 'write "geo SCRIPT.geo | thicken ..." or "lumen SURFACE.stl --edges-per-diameter N | thicken ..."'
+    if command[0] != "thicken":
+        return InputError(source, "", f"'{command[0]}' makes no family of meshes", remedy)
+    lumen = next((word for word in command if word.endswith(".msh")), None)
+    if lumen is None:
+        problem = "the lumen is filled from a surface whose triangles stay, so that it has no size that can be changed"
+        return InputError(source, "thicken", problem, remedy)
+    script = Path(lumen).with_suffix(".geo")
+    if is_file(folder / script):
+        remedy = f'write "geo {script} | thicken ...", without {lumen}'
+    return InputError(source, "thicken", "the lumen is a mesh, which has no size that can be changed", remedy)
+
+
+def _geo(words: Sequence[str], folder: Path, source: str) -> Recipe:
+    place = next((i for i, word in enumerate(words) if word.endswith(".geo")), None)
+    if place is None:
+        raise InputError(source, "", "names no script .geo", 'write "geo SCRIPT.geo"')
+    script = (folder / words[place]).resolve()
+    others = [word for i, word in enumerate(words) if i not in (0, place)]
+    return Recipe("geo", tuple(others), read_sizes(script), _given(others))
+
+
+def _given(words: Sequence[str]) -> Dict[str, float]:
+    """name=number of each --set."""
+    found = {}
+    for i, word in enumerate(words):
+        text = word[len("--set=") :] if word.startswith("--set=") else words[i + 1] if word == "--set" else ""
+        name, mark, value = text.partition("=")
+        if mark:
+            found[name] = float(value)
+    return found
+
+
+def _without_set(words: Sequence[str]) -> List[str]:
+    kept, skip = [], False
+    for word in words:
+        if not skip and word != "--set" and not word.startswith("--set="):
+            kept.append(word)
+        skip = word == "--set"
+    return kept

@@ -1,0 +1,164 @@
+"""What is settled before a family is run: its members, the samples it is judged by, whether it fits the budget."""
+
+import argparse
+from pathlib import Path
+from typing import List, Sequence
+
+from ..base.errors import InputError
+from ..gallery.mesh_chain import READ
+from ..starting.duration import duration
+from .adapting import Adapted, about_adapted
+from .artery_sizes import keeps_short_waves
+from .family import CaseFacts, Member, members, mesh_ratio
+from .making import Maker
+from .mesh_family import Recipe
+from .quantities import curves_of
+from .direction import OUTSIDE
+from .results import FamilyRuns, Judged
+from .standard import standard_points
+
+STAYS = (
+    "Curved surfaces stay where the mesh file has them, however fine the elements become: what the vessel's shape is off by is in "
+    "no bar. It is where the meshes are made of the shape: "
+)
+SHAPE = STAYS + '--mesh "geo SCRIPT.geo".'
+ADAPTED = STAYS + "by the commands of --mesh, without --adapt."
+SURFACE = "The vessel is the smoothed surface: what that is off by, and what its smoothing and its triangles leave, is in no bar."
+TRIED = 0.25  # of the budget, that a member may take before the family is known to fit
+PRINTED = (SHAPE, ADAPTED, SURFACE)  # with the bars, not only in the report
+
+
+def plan(recipe: Recipe, facts: CaseFacts, options: argparse.Namespace) -> List[Member]:
+    ratio = mesh_ratio(recipe, options.levels, not options.coarser)
+    if recipe.adapts and options.coarser:
+        raise InputError("", "--adapt", "makes finer meshes only", "leave --coarser out")
+    if not recipe.coarsens and options.coarser:
+        problem = "a mesh file alone has no coarser ones"
+        raise InputError(facts.path, "mesh.file", problem, 'say how it is made: --mesh "geo SCRIPT.geo"')
+    levels = options.levels if recipe.coarsens or recipe.adapts else 3
+    return members(recipe, facts, ratio, levels, not options.coarser)
+
+
+OWN = Member(1.0, 1.0)
+
+
+def sample(maker: Maker, start: Member = OWN) -> Member:
+    """Where the case asks for no samples and has none by itself, standard ones, and says which. `start`: the member to run first;
+    gives it back, or the user's own where it fails. Raises InputError where that fails, too, or has no fields to choose by.
+    """
+    maker.run([start])
+    run = next(iter(maker.families.values())).runs[start]
+    if not run.done and start != OWN:
+        maker.note(f"begins with the case's own settings, for the coarser run is missing: {run.message or run.status}")
+        return sample(maker)
+    if curves_of(run.folder):
+        return start
+    points = standard_points(run.folder)
+    if not points:
+        facts = maker.requests.facts
+        raise InputError(
+            facts.path, "output", "samples nothing", "ask for a point: [output.points] with NAME = [x, y, z]"
+        )
+    maker.begin_again(points)
+    places = "; ".join(f"{key.rpartition('.')[2]} = {value}" for key, value in points.items())
+    maker.note(f"the case samples nothing; points are taken where most happens at its end: {places}")
+    return start
+
+
+def within_budget(options: argparse.Namespace, maker: Maker, family: Sequence[Member]) -> Sequence[Member]:
+    """The family, or one without members finer than the case where that does not fit. Raises InputError where neither does."""
+    budget = 60 * options.budget
+    maker.run([member for member in family if member.is_own])
+    if maker.seconds + maker.predicted(family) <= budget:
+        return family
+    requests = maker.requests
+    _try_out(maker, family, budget)
+    whole = maker.seconds + maker.predicted(family)
+    if whole <= budget:
+        return family
+    if requests.recipe.coarsens and not options.coarser:
+        options.coarser = True
+        cheaper = plan(requests.recipe, requests.facts, options)
+        if maker.seconds + maker.predicted(cheaper) <= budget:
+            maker.note(f"no member is finer than the case: with them the family would take about {duration(whole)}")
+            return cheaper
+        whole = maker.seconds + maker.predicted(cheaper)
+    problem = f"{options.budget:g} min are too short: the cheapest family takes about {duration(whole)}"
+    raise InputError("", "--budget", problem, f"give {whole / 60:.2g} or more, or a coarser case")
+
+
+def _try_out(maker: Maker, family: Sequence[Member], budget: float) -> None:
+    """Runs members of other meshes, from the cheapest, while one is predicted to take little of the budget: how seconds grow
+    with the mesh is measured, not assumed, before a family is refused."""
+    for member in sorted((m for m in family if m.step == 1 and not (m.looser or m.other)), key=lambda m: -m.mesh):
+        if maker.predicted([member]) > TRIED * budget or maker.seconds + maker.predicted([member]) > budget:
+            return
+        maker.run([member])
+
+
+def tell_damped(maker: Maker) -> None:
+    """That mesh.error is for other steps than the case's, where the case says so itself: runs of the family are made with the mesh
+    as a file, so that no driver does."""
+    entries = maker.requests.facts.entries
+    mesh = entries.get("mesh", {})
+    if "error" in mesh and mesh.get("waves") == "damped" and keeps_short_waves(entries):
+        maker.note(
+            f"mesh.error = {mesh['error']} is for damped waves, of euler and 1/8 ms; the case's steps keep waves that this mesh "
+            "does not resolve: without mesh.waves it is one that does"
+        )
+
+
+def tell_mesh(maker: Maker, recipe: Recipe) -> None:
+    """What the family's meshes come from, where nobody has said it."""
+    tell_damped(maker)
+    if isinstance(recipe, Adapted):
+        maker.notes.append(about_adapted(recipe))
+        maker.notes += [] if recipe.remakes else [ADAPTED if recipe.base.chain else SHAPE]
+        return
+    if recipe.command == "refine":
+        maker.notes.append(
+            f"Meshes: {recipe.file} and what fsi-mesh refine makes of it; none is coarser than the case's own."
+        )
+        maker.notes.append(SHAPE)
+        return
+    if recipe.chain:
+        maker.notes.append(
+            f"Meshes: fsi-mesh {shown(recipe.words)}; of each command what it has of sizes, finer and coarser."
+        )
+        maker.notes += [] if recipe.words[0] == "geo" else [SURFACE]
+        return
+    words = [recipe.geo.script.name] if recipe.geo is not None else []
+    maker.notes.append(f"Meshes: fsi-mesh {' '.join([recipe.command, *words, *recipe.words])}, finer and coarser.")
+
+
+def shown(words: Sequence[str]) -> str:
+    """Files by their last names."""
+    return " ".join(Path(word).name if word.endswith(READ) else word for word in words)
+
+
+def tell_unpaid(maker: Maker, judged: Sequence[Judged]) -> None:
+    """Which curves further adaptation has not brought nearer to each other: their meshes are adapted to something else."""
+    if not isinstance(maker.requests.recipe, Adapted):
+        return
+    curves = [one for one in judged if one.quantity.whole is not None and not one.quantity.whole.largest]
+    unpaid = sorted(
+        {one.quantity.curve for one in curves if one.bar.mesh.state == OUTSIDE and not one.bar.mesh.lacking}
+    )
+    if unpaid:
+        maker.note(
+            f"the last adaptation has not paid for {', '.join(unpaid)}: they changed by as much as by the one before. The coarser "
+            "mesh is as good for these; fsi-mesh adapt --of velocity, displacement or pressure makes one for that quantity"
+        )
+
+
+def tell_unrefined(maker: Maker, families: Sequence[FamilyRuns]) -> Sequence[str]:
+    """That layers of the wall have as many elements in all meshes of the family; empty where none has."""
+    sizes = sorted({member.mesh for family in families for member in family.done})
+    kept = maker.requests.recipe.unrefined(sizes, maker.requests.folder) if len(sizes) > 1 else {}
+    if not kept:
+        return []
+    layers = ", ".join(f"{name}: {number}" for name, number in kept.items())
+    return [
+        f"Elements through the wall's layers are as many in all meshes ({layers}): what these leave is in no bar. It is where a "
+        "layer has two or more, --layer NAME=THICKNESS:2."
+    ]

@@ -1,0 +1,303 @@
+"""What is verified of a run: numbers read from all that the case samples, each with the largest value of the curve that it
+is of, which its error is relative to.
+
+| of a curve over time | of a line |
+|---|---|
+| the curve: norm of its error | the line over time: the same |
+| the largest error at any time | anywhere, at any time |
+| - | the line, and anywhere on it, at the end and at times asked for |
+| largest and smallest value, by a parabola through the three levels about it where the curve is smooth | the same over all points |
+| value at the end, and at times asked for | L2 norm along the line at these times |
+| L2 norm over time | L2 norm over line and time |
+| mean and swing over the last period, where the case has one | - |
+"""
+
+import functools
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
+
+import numpy as np
+
+from ..base.files import is_file
+from ..results.fields import read_fields
+from ..results.units import split_unit
+from ..runs.samples import LINES, PLANES, POINTS, Samples, read_samples
+from .curve_norms import CurveNorm, Stretch, norm_on, stretch_of
+
+TABLES = (POINTS, LINES, PLANES, "openings.csv", "surfaces.csv", "centerline_pressure.csv", "wall_displacement.csv")
+WITHOUT_NAMES = {"centerline_pressure.csv": "centre line", "wall_displacement.csv": "inner wall", "flow.csv": "tube"}
+SKIPPED = ("step",)  # columns that are no results
+PRIMARY = ("displacement", "velocity", "pressure")  # fields that are solved for: samples have them, at any place
+SEEN = 2e-5  # relative to the largest of all curves with the unit: what is smaller is zero but for round-off
+ONE_SIDED = 0.02  # an extreme that is smaller than this part of the other is none
+SMOOTH = 2.5  # times the bend one level beside over that at the largest, which is 0.41 at least of 8 levels a period
+AT_REST = 0.01  # of the largest value: an error of a line that is below this at a time is relative to that
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A column of a sample over time; of lines at several points."""
+
+    name: str  # "tip: displacement y"
+    unit: str
+    times: np.ndarray  # ms, (levels,)
+    values: np.ndarray  # (levels, points)
+    s: np.ndarray  # mm along the line, (points,)
+    derived: bool = False  # of a field that is made of gradients of what is solved for
+
+    @property
+    def largest(self) -> float:
+        return float(np.nanmax(np.abs(self.values))) if self.values.size else 0.0
+
+    @property
+    def is_pressure(self) -> bool:
+        """Or of the order of one: stresses, forces, gradients of what is solved for."""
+        words = self.name.rpartition(": ")[2]
+        return self.derived or any(word in words for word in ("pressure", "stress", "force"))
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """`of` reads it from a member's curve of the same name."""
+
+    name: str
+    curve: str
+    unit: str
+    is_pressure: bool
+    scale: float
+    of: Callable[[Curve], float]
+    is_extreme: bool = False
+    whole: Optional[Stretch] = None  # the curve itself, whose error has a norm; `of` is then that of the curve
+    held_by: Optional[Stretch] = None  # the curve's error that this number's cannot exceed
+    is_norm: bool = False
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What is asked for beside the usual numbers."""
+
+    times: Tuple[float, ...] = ()  # ms
+    period: Optional[float] = None  # ms
+    static: bool = False  # no curve over time: the last level alone counts
+
+
+def curves_of(folder: Path) -> Dict[str, Curve]:
+    """Of a finished run, by name. Raises InputError for tables that cannot be read."""
+    found: Dict[str, Curve] = {}
+    tables = list(TABLES) + ([] if is_file(folder / "openings.csv") else ["flow.csv"])
+    for table in tables:
+        if is_file(folder / table):
+            for sample, samples in read_samples(folder / table).items():
+                for curve in _curves(sample or WITHOUT_NAMES.get(table, table), samples):
+                    found.setdefault(curve.name, curve)
+    for curve in _derived(folder):
+        found.setdefault(curve.name, curve)
+    return found
+
+
+def _curves(sample: str, samples: Samples) -> Iterator[Curve]:
+    for column, values in samples.values.items():
+        if column in SKIPPED:
+            continue
+        points = ~np.isnan(values).any(axis=0)
+        if not points.any():
+            continue
+        name, unit = split_unit(column)
+        s = samples.places.get("s_mm", samples.places.get("z_mm", np.zeros(values.shape[1])))
+        yield Curve(f"{sample}: {name.replace('_', ' ')}", unit, samples.times, values[:, points], s[points])
+
+
+def _derived(folder: Path) -> Iterator[Curve]:
+    """The largest of each derived field in the whole medium, at the levels of fields.h5."""
+    for medium, fields in read_fields(folder).items():
+        for field in fields.names:
+            if field.startswith(PRIMARY) or "indicator" in field or not len(fields.times_of(field)):
+                continue
+            times = fields.times_of(field)
+            sizes = []
+            for time in times:
+                values = np.asarray(fields.at(float(time), field), dtype=float)
+                flat = values if values.ndim == 1 else np.sqrt(np.sum(values.reshape(len(values), -1) ** 2, axis=1))
+                sizes.append(float(np.nanmax(np.abs(flat))) if np.isfinite(flat).any() else 0.0)
+            name = f"{medium}: largest {field.replace('_', ' ')}"
+            yield Curve(
+                name, fields.units.get(field, ""), np.asarray(times), np.asarray(sizes)[:, None], np.zeros(1), True
+            )
+
+
+def quantities_of(curves: Mapping[str, Curve], asked: Asked) -> List[Quantity]:
+    """Those of the user's own run, which decides which extremes there are."""
+    sizes: Dict[str, float] = {}
+    for curve in curves.values():
+        sizes[curve.unit] = max(sizes.get(curve.unit, 0.0), curve.largest)
+    found: List[Quantity] = []
+    for curve in curves.values():
+        if curve.largest > SEEN * sizes[curve.unit] and curve.largest > 0:
+            found += _of_curve(curve, asked)
+    return found
+
+
+def norm_of(curve: Curve, stretch: Stretch) -> CurveNorm:
+    """Of differences from this curve, the user's own."""
+    return norm_on(curve.times, curve.s, stretch)
+
+
+def on(grid: Curve, curve: Curve, stretch: Stretch) -> np.ndarray:
+    """A member's curve at the levels and points of the user's own, (levels * points,)."""
+    return stretch_of(curve.times, curve.s, curve.values, (grid.times, grid.s), stretch)
+
+
+def _of_curve(curve: Curve, asked: Asked) -> List[Quantity]:
+    line = curve.values.shape[1] > 1
+    end = float(curve.times[-1])
+    if asked.static or len(curve.times) < 3:
+        return [*_whole(curve, end, " at the end"), *_at_end(curve)]
+    times = [time for time in asked.times if curve.times[0] <= time < end]
+    found = _whole(curve)
+    if line:
+        found += [one for time in times for one in _whole(curve, time, f" at {time:g} ms")]
+        found += _whole(curve, end, " at the end")
+    found += [*_extremes(curve), *_at_end(curve)[:1], _number(curve, "L2 norm", _l2, Stretch(False), is_norm=True)]
+    for time in times:
+        at = Stretch(False, time) if line else Stretch(True)
+        name = f"L2 norm at {time:g} ms" if line else f"at {time:g} ms"
+        found.append(_number(curve, name, functools.partial(_at, time=time), at, line))
+    if asked.period is not None and not line and asked.period <= end * (1 + 1e-9):
+        last, anywhere = end - asked.period, Stretch(True)
+        found.append(_number(curve, "mean of the last period", lambda c: _mean(c, last), anywhere))
+        found.append(_number(curve, "swing of the last period", lambda c: _swing(c, last), anywhere, extreme=True))
+    return found
+
+
+def _number(
+    curve: Curve,
+    what: str,
+    of: Callable[[Curve], float],
+    held_by: Stretch,
+    is_norm: bool = False,
+    extreme: bool = False,
+) -> Quantity:
+    name = f"{curve.name}, {what}"
+    return Quantity(name, curve.name, curve.unit, curve.is_pressure, curve.largest, of, extreme, None, held_by, is_norm)
+
+
+def size_of(curve: Curve, stretch: Stretch) -> float:
+    """What its error is relative to."""
+    return max(norm_of(curve, stretch)(on(curve, curve, stretch)), AT_REST * curve.largest)
+
+
+def _whole(curve: Curve, time: Optional[float] = None, when: str = "") -> List[Quantity]:
+    """The error of the curve itself: its norm, and the largest. A point has none at a single time."""
+    line = curve.values.shape[1] > 1
+    if time is not None and not line:
+        return []
+    names = (f"line{when or ' over time'}", f"anywhere{when}") if line else ("curve", "at any time")
+    found = []
+    for name, largest in zip(names, (False, True)):
+        stretch = Stretch(largest, time)
+        found.append(
+            Quantity(
+                f"{curve.name}, {name}",
+                curve.name,
+                curve.unit,
+                curve.is_pressure,
+                size_of(curve, stretch),
+                lambda c, stretch=stretch: norm_of(c, stretch)(on(c, c, stretch)),  # type: ignore[misc]
+                largest and time is None,
+                stretch,
+            )
+        )
+    return found
+
+
+def _extremes(curve: Curve) -> Iterator[Quantity]:
+    most, least = float(np.max(curve.values)), float(np.min(curve.values))
+    if most > ONE_SIDED * curve.largest:
+        yield _number(curve, "largest", lambda c: _extreme(c, 1.0), Stretch(True), extreme=True)
+    if least < -ONE_SIDED * curve.largest:
+        yield _number(curve, "smallest", lambda c: _extreme(c, -1.0), Stretch(True), extreme=True)
+
+
+def _at_end(curve: Curve) -> List[Quantity]:
+    end = float(curve.times[-1])
+    if curve.values.shape[1] > 1:
+        norm = _number(curve, "L2 norm at the end", lambda c: _at(c, end), Stretch(False, end), True)
+        return [norm, _number(curve, "largest at the end", _largest_at_end, Stretch(True, end))]
+    return [_number(curve, "at the end", lambda c: _at(c, float(c.times[-1])), Stretch(True))]
+
+
+def _extreme(curve: Curve, sign: float) -> float:
+    """Of all points at once; between levels by a parabola, so that it does not jump with the step."""
+    y = np.max(sign * curve.values, axis=1)
+    return sign * peak(curve.times, y)
+
+
+def peak(t: np.ndarray, y: np.ndarray) -> float:
+    """The largest value, between levels by the parabola through the largest and its neighbours as far as the curve bends
+    there as it does one level before and behind: where it jumps or has a kink no parabola passes through it, and the
+    largest value itself counts."""
+    i = int(np.argmax(y))
+    if i == 0 or i == len(y) - 1:
+        return float(y[i])
+    bend = _bend(t, y, i)
+    if bend >= 0:
+        return float(y[i])
+    beside = [_bend(t, y, j) / bend for j in (i - 1, i + 1) if 0 < j < len(y) - 1]
+    smooth = min(1.0, SMOOTH * max(0.0, min(beside, default=0.0)))
+    slope = float((y[i] - y[i - 1]) / (t[i] - t[i - 1])) + bend * float(t[i] - t[i - 1])  # at the largest
+    return float(y[i]) - smooth * slope**2 / (4 * bend)
+
+
+def _bend(t: np.ndarray, y: np.ndarray, i: int) -> float:
+    """Half of the second derivative of the parabola through three levels."""
+    first, second = (y[i] - y[i - 1]) / (t[i] - t[i - 1]), (y[i + 1] - y[i]) / (t[i + 1] - t[i])
+    return float((second - first) / (t[i + 1] - t[i - 1]))
+
+
+def _at(curve: Curve, time: float) -> float:
+    """At a point the value, along a line its L2 norm."""
+    row = np.array([np.interp(time, curve.times, column) for column in curve.values.T])
+    return float(row[0]) if len(row) == 1 else _norm(curve.s, row)
+
+
+def _largest_at_end(curve: Curve) -> float:
+    row = curve.values[-1]
+    return float(row[int(np.argmax(np.abs(row)))])
+
+
+def _norm(x: np.ndarray, y: np.ndarray) -> float:
+    """(integral of y^2 over the length)^(1/2) by the trapezoidal rule, over the length's root: the unit stays."""
+    length = float(x[-1] - x[0])
+    if length <= 0:
+        return float(np.sqrt(np.mean(y**2)))
+    return float(np.sqrt(np.sum(0.5 * (y[1:] ** 2 + y[:-1] ** 2) * np.diff(x)) / length))
+
+
+def _l2(curve: Curve) -> float:
+    if curve.values.shape[1] > 1:
+        return _norm(curve.times, np.array([_norm(curve.s, row) for row in curve.values]))
+    return _norm(curve.times, curve.values[:, 0])
+
+
+def _window(curve: Curve, begin: float) -> Tuple[np.ndarray, np.ndarray]:
+    """Times and values from `begin` on, which gets a level of its own."""
+    after = curve.times > begin + 1e-9 * abs(curve.times[-1])
+    start = np.interp(begin, curve.times, curve.values[:, 0])
+    return np.append(begin, curve.times[after]), np.append(start, curve.values[after, 0])
+
+
+def _mean(curve: Curve, begin: float) -> float:
+    t, y = _window(curve, begin)
+    return float(np.sum(0.5 * (y[1:] + y[:-1]) * np.diff(t)) / (t[-1] - t[0]))
+
+
+def _swing(curve: Curve, begin: float) -> float:
+    """Half of the way from the smallest to the largest."""
+    t, y = _window(curve, begin)
+    return 0.5 * (peak(t, y) + peak(t, -y))
+
+
+def chosen(quantities: Sequence[Quantity], names: Sequence[str]) -> List[Quantity]:
+    """Those whose name holds one of `names`; all where none is given."""
+    return [q for q in quantities if not names or any(name.lower() in q.name.lower() for name in names)]

@@ -1,0 +1,1 @@
+"""What pictures of several kinds need: logarithmic axes, names at points."""

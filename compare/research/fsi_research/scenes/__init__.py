@@ -1,0 +1,1 @@
+"""Kind `scenes`: scenes of the gallery by both drivers, side by side."""
