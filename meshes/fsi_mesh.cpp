@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/memory.hpp"
 #include "base/standard_streams.hpp"
 #include "base/version.hpp"
 #include "meshes/adapt_command.hpp"

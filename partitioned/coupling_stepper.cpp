@@ -10,7 +10,7 @@
 #include "algebra/vector_operations.hpp"
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
-#include "partitioned/interface/interface_problem.hpp"
+#include "partitioned/interface/coupling_pass.hpp"
 #include "partitioned/scheme_choice.hpp"
 #include "system/level_check.hpp"
 #include "system/step_change.hpp"
@@ -19,7 +19,7 @@ namespace fsi {
 
 template <int n>
 CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup,
-                                    const CouplingScheme& scheme, std::unique_ptr<InterfaceProblem<n>> problem)
+                                    const CouplingScheme& scheme, std::unique_ptr<CouplingPass<n>> problem)
     : scene_(scene),
       loads_(loads),
       options_(setup.partitioned),
@@ -192,8 +192,7 @@ std::string CouplingStepper<n>::another_way() {
 }
 
 template <int n>
-void CouplingStepper<n>::go_on_by(std::unique_ptr<InterfaceProblem<n>> problem,
-                                  std::unique_ptr<Accelerator> accelerator) {
+void CouplingStepper<n>::go_on_by(std::unique_ptr<CouplingPass<n>> problem, std::unique_ptr<Accelerator> accelerator) {
   problem->cost = problem_->cost;
   problem_ = std::move(problem);
   accelerator_ = std::move(accelerator);
@@ -213,19 +212,19 @@ double CouplingStepper<n>::change_since(const State& state, const StepData& data
 }
 
 template <int n>
-void CouplingStepper<n>::keep(Memory& memory) {
-  problem_->keep(memory);
-  accelerator_->keep(memory);
+void CouplingStepper<n>::keep(RestartArchive& archive) {
+  problem_->keep(archive);
+  accelerator_->keep(archive);
   double starts_far = starts_far_ ? 1 : 0;
-  memory.number_if_there("starts_far", starts_far);
+  archive.number_if_there("starts_far", starts_far);
   starts_far_ = starts_far != 0;
-  memory.number_if_there("interface_period", period_);
+  archive.number_if_there("interface_period", period_);
 }
 
 template <int n>
-void CouplingStepper<n>::keep_jump(Memory& memory) {
+void CouplingStepper<n>::keep_jump(RestartArchive& archive) {
   double jumped = after_jump_ ? 1 : 0;
-  memory.number_if_there("after_jump", jumped);
+  archive.number_if_there("after_jump", jumped);
   after_jump_ = jumped != 0;
 }
 

@@ -18,7 +18,7 @@
 namespace fsi {
 
 template <int n>
-class InterfaceProblem;
+class CouplingPass;
 struct Pass;
 struct PassAccuracy;
 class PassFailure;
@@ -31,7 +31,7 @@ class CouplingStepper : public Stepper {
   /// \param scheme   must outlive this
   /// \param problem  what a pass does
   CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme,
-                  std::unique_ptr<InterfaceProblem<n>> problem);
+                  std::unique_ptr<CouplingPass<n>> problem);
   ~CouplingStepper() override;
 
   std::optional<CouplingMethod> coupling_method() const override;
@@ -45,7 +45,7 @@ class CouplingStepper : public Stepper {
   /// and is the one that the next begins with.
   virtual void finish_step(const State& state);
 
-  void keep(Memory& memory) override;
+  void keep(RestartArchive& archive) override;
 
  protected:
   /// The last pass of a stage that succeeded.
@@ -99,11 +99,11 @@ class CouplingStepper : public Stepper {
   double change_since(const State& state, const StepData& data, const GoodPass& good) const;
 
   /// From here on other passes, and another accelerator of them.
-  void go_on_by(std::unique_ptr<InterfaceProblem<n>> problem, std::unique_ptr<Accelerator> accelerator);
+  void go_on_by(std::unique_ptr<CouplingPass<n>> problem, std::unique_ptr<Accelerator> accelerator);
 
   Scene<n>& scene() const { return scene_; }
   const InterfaceSpace& space() const { return space_; }
-  InterfaceProblem<n>& problem() const { return *problem_; }
+  CouplingPass<n>& problem() const { return *problem_; }
   const CouplingScheme& scheme() const { return scheme_; }
   CouplingReport& coupling() { return coupling_; }
   const CouplingReport& coupling() const { return coupling_; }
@@ -113,7 +113,7 @@ class CouplingStepper : public Stepper {
   /// Whether the load has jumped before the step, or nothing was before it.
   bool after_jump() const { return after_jump_; }
   /// For a scheme that goes by after_jump(), which a restart must know.
-  void keep_jump(Memory& memory);
+  void keep_jump(RestartArchive& archive);
   void add_choice(StepperChoice choice) { choices_.push_back(std::move(choice)); }
 
  private:
@@ -163,7 +163,7 @@ class CouplingStepper : public Stepper {
   InterfaceSpace space_;
   std::vector<double> fluid_volumes_, wall_volumes_;  ///< of the nodes, mm^3
   std::unique_ptr<Accelerator> accelerator_;
-  std::unique_ptr<InterfaceProblem<n>> problem_;
+  std::unique_ptr<CouplingPass<n>> problem_;
   CouplingReport coupling_;
   DivergenceMonitor monitor_;  ///< of the step's passes
   bool after_jump_ = true;     ///< the load has jumped before the step, or nothing was before it

@@ -16,8 +16,8 @@
 #include "algebra/factorisation_memory.hpp"
 #include "algebra/panel_matrix.hpp"
 #include "algebra/single_cholesky.hpp"
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/memory.hpp"
 
 namespace fsi {
 

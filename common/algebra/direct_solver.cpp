@@ -12,8 +12,8 @@
 
 #include "algebra/factorisation_memory.hpp"
 #include "algebra/single_factors.hpp"
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/memory.hpp"
 
 namespace fsi {
 

@@ -70,13 +70,13 @@ void SingleFactors::solve(const std::vector<double>& b, double tolerance, std::v
   const double demanded = tolerance * norm(b);
   double last = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most_corrections; ++k) {
-    find_lack(b, x, lack_);
-    const double left = norm(lack_);
+    compute_residual(b, x, residual_);
+    const double left = norm(residual_);
     if (k > 0 && !(left < last))  // no correction it was
       for (std::size_t i = 0; i < x.size(); ++i) x[i] -= correction_[i];
     if (!(left > demanded) || !(left < 0.5 * last)) return;  // the latter: all that is left is rounding
     last = left;
-    solve_once(lack_, correction_);
+    solve_once(residual_, correction_);
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += correction_[i];
   }
 }
@@ -84,21 +84,21 @@ void SingleFactors::solve(const std::vector<double>& b, double tolerance, std::v
 bool SingleFactors::serve() const {
   const std::vector<double> ones(y_.size(), 1.0), zero(y_.size(), 0.0);
   std::vector<double> b, x;
-  find_lack(zero, ones, b);  // -A times ones
+  compute_residual(zero, ones, b);  // -A times ones
   solve_once(b, x);
-  find_lack(b, x, lack_);
+  compute_residual(b, x, residual_);
   double error = 0;
   for (const double value : x) error += (value + 1) * (value + 1);
-  return norm(lack_) <= largest_error * norm(b) && std::sqrt(error) <= largest_error * norm(ones);
+  return norm(residual_) <= largest_error * norm(b) && std::sqrt(error) <= largest_error * norm(ones);
 }
 
-void SingleFactors::find_lack(const std::vector<double>& b, const std::vector<double>& x,
-                              std::vector<double>& lack) const {
-  lack.resize(b.size());
+void SingleFactors::compute_residual(const std::vector<double>& b, const std::vector<double>& x,
+                                     std::vector<double>& residual) const {
+  residual.resize(b.size());
   for (int i = 0; i < rows_.size(); ++i) {
     double sum = 0;
     for (std::int64_t k = rows_.offsets[i]; k < rows_.offsets[i + 1]; ++k) sum += rows_.values[k] * x[rows_.rows[k]];
-    lack[i] = b[i] - sum;
+    residual[i] = b[i] - sum;
   }
 }
 

@@ -36,7 +36,8 @@ class SingleFactors {
 
  private:
   void solve_once(const std::vector<double>& b, std::vector<double>& x) const;
-  void find_lack(const std::vector<double>& b, const std::vector<double>& x, std::vector<double>& lack) const;
+  void compute_residual(const std::vector<double>& b, const std::vector<double>& x,
+                        std::vector<double>& residual) const;
 
   CompactColumns<double> rows_;  ///< of A: its transpose by columns
   PanelMatrix lower_, upper_;    ///< U = D upper_^T
@@ -44,7 +45,7 @@ class SingleFactors {
   std::vector<int> row_order_, column_order_;
   std::vector<double> row_scale_;  ///< in the order of the factors
   mutable std::vector<float> y_;
-  mutable std::vector<double> lack_, correction_;
+  mutable std::vector<double> residual_, correction_;
 };
 
 }  // namespace fsi

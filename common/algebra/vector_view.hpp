@@ -18,8 +18,8 @@ class VectorView {
   VectorView(std::vector<Value>& whole) : data_(whole.data()), size_(whole.size()) {}
   template <class U = T, class = std::enable_if_t<std::is_const_v<U>>>
   VectorView(const std::vector<Value>& whole) : data_(whole.data()), size_(whole.size()) {}
-  template <class U = T, class = std::enable_if_t<std::is_const_v<U>>>
-  VectorView(VectorView<Value> other) : data_(other.data()), size_(other.size()) {}
+  template <class U, class = std::enable_if_t<std::is_same_v<const U, T>>>
+  VectorView(VectorView<U> other) : data_(other.data()), size_(other.size()) {}
 
   T* data() const { return data_; }
   std::size_t size() const { return size_; }

@@ -17,8 +17,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "base/available_memory.hpp"
 #include "base/begin_again.hpp"
-#include "base/memory.hpp"
 
 namespace {
 

@@ -193,17 +193,17 @@ double CondensedIteration<n>::quick_residual(const std::vector<double>& b, doubl
                                              const ProductAtRest& product_at_rest) {
   if (!product_at_rest || tolerance < quick_from || (extension_ && extension_->iterates()))
     return std::numeric_limits<double>::infinity();
-  layout_.take(b, lack_);
+  layout_.take(b, flow_residual_);
   product_at_rest(solution_, right_);
-  axpy(-1, right_, lack_);
+  axpy(-1, right_, flow_residual_);
   if (shape_derivatives_) {
     fsi::multiply(*blocks_.shape_derivatives, mesh_, fluid_rows_);
     jacobian_times_x_.assign(b.size(), 0.0);
     add_to_system(blocks_.numbering.fluid_rows, fluid_rows_, jacobian_times_x_);
     layout_.take(jacobian_times_x_, right_);
-    axpy(-1, right_, lack_);
+    axpy(-1, right_, flow_residual_);
   }
-  return norm(lack_) / norm_b;
+  return norm(flow_residual_) / norm_b;
 }
 
 template <int n>

@@ -96,7 +96,7 @@ class CondensedIteration {
   int extension_version_ = 0;       ///< of the operator that it was made of
   bool shape_derivatives_ = false;  ///< they are not all zero (as they are at rest)
   std::vector<double> right_, solution_, residual_, jacobian_times_x_, correction_;
-  std::vector<double> lack_;  ///< of velocities and pressures
+  std::vector<double> flow_residual_;  ///< of velocities and pressures
   std::vector<double> mesh_, mesh_right_, fluid_rows_;
 };
 

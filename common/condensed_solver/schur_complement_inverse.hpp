@@ -6,8 +6,8 @@
 
 #include "algebra/cholesky_solver.hpp"
 #include "algebra/csr_matrix.hpp"
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/memory.hpp"
 #include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
 
 namespace fsi {

@@ -33,15 +33,15 @@ CellErrors MeanErrors::mean(std::size_t cells) const {
   return errors;
 }
 
-void MeanErrors::keep(Memory& memory, ArrayKind kind) {
-  if (!memory.recalls() && !begun_) return;
-  if (!memory.wants({"times", "integral"})) {
-    memory.warn("the mean of the error indicator begins anew: the earlier run had none");
+void MeanErrors::keep(RestartArchive& archive, ArrayKind kind) {
+  if (!archive.recalls() && !begun_) return;
+  if (!archive.wants({"times", "integral"})) {
+    archive.warn("the mean of the error indicator begins anew: the earlier run had none");
     return;
   }
   std::vector<double> times{start_, time_};
-  memory.array("times", ArrayKind::alike, times, {times.size()});
-  memory.array("integral", kind, integral_);
+  archive.array("times", ArrayKind::alike, times, {times.size()});
+  archive.array("integral", kind, integral_);
   begun_ = true;
   start_ = times[0];
   time_ = times[1];

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "derived/error_indicator.hpp"
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 
 namespace fsi {
 
@@ -22,7 +22,7 @@ class MeanErrors {
 
   /// What a restart needs to go on bit for bit. Where the earlier run had none, the mean begins anew, which is said.
   /// \param kind  ArrayKind::fluid_cells or wall_cells
-  void keep(Memory& memory, ArrayKind kind);
+  void keep(RestartArchive& archive, ArrayKind kind);
 
  private:
   bool begun_ = false;

@@ -190,26 +190,26 @@ void PeriodComparison::share(const Communicator& processes) {
     for (double& value : *part) value = processes.largest(value);
 }
 
-void PeriodComparison::keep(Memory& memory) {
-  if (!memory.recalls() && !begun_) return;
+void PeriodComparison::keep(RestartArchive& archive) {
+  if (!archive.recalls() && !begun_) return;
   const auto columns = static_cast<std::size_t>(phases);
   std::vector<double> clock{period_, time_, before_.weight, behind_.weight};
   std::vector<double> extremes;
   for (const auto* part : {&extremes_.difference, &extremes_.range, &extremes_.size})
     extremes.insert(extremes.end(), part->begin(), part->end());
-  const bool kept = memory.wants({"phase_clock"});
-  if (kept) memory.array("phase_clock", ArrayKind::alike, clock, {clock.size()});
+  const bool kept = archive.wants({"phase_clock"});
+  if (kept) archive.array("phase_clock", ArrayKind::alike, clock, {clock.size()});
   if (!kept || clock[0] != period_)
-    return memory.warn("periods are compared anew: the earlier run had no such comparison of this period");
+    return archive.warn("periods are compared anew: the earlier run had no such comparison of this period");
   begun_ = true;
   time_ = clock[1];
   before_.weight = clock[2];
   behind_.weight = clock[3];
-  memory.integer("passed", passed_, count_range);
-  memory.integer("known", known_, {0, 2 * phases, true});
-  memory.integer("means", means_, {0, 2, true});
+  archive.integer("passed", passed_, count_range);
+  archive.integer("known", known_, {0, 2 * phases, true});
+  archive.integer("means", means_, {0, 2, true});
   const auto alike = [&](const char* name, std::vector<double>& values, std::size_t length) {
-    memory.array(name, ArrayKind::alike, values, {length});
+    archive.array(name, ArrayKind::alike, values, {length});
   };
   alike("extremes", extremes, extremes.size());
   for (std::size_t q = 0; q < 3; ++q) {
@@ -227,13 +227,13 @@ void PeriodComparison::keep(Memory& memory) {
   alike("mean_change", mean_change_.scalars, scalars);
   alike("least", least_, scalars);
   alike("most", most_, scalars);
-  if (memory.recalls() ? !memory.wants({"displacement", "vectors"}) : now_.displacement.empty()) return;
-  memory.array("displacement", ArrayKind::interface, now_.displacement);
-  memory.array("vectors", ArrayKind::interface_columns, at_phases_.vectors, {{}, columns});
-  memory.array("before_displacement", ArrayKind::interface, before_.sum.vectors);
-  memory.array("behind_displacement", ArrayKind::interface, behind_.sum.vectors);
-  memory.array("mean_displacement", ArrayKind::interface, mean_.vectors);
-  memory.array("mean_displacement_change", ArrayKind::interface, mean_change_.vectors);
+  if (archive.recalls() ? !archive.wants({"displacement", "vectors"}) : now_.displacement.empty()) return;
+  archive.array("displacement", ArrayKind::interface, now_.displacement);
+  archive.array("vectors", ArrayKind::interface_columns, at_phases_.vectors, {{}, columns});
+  archive.array("before_displacement", ArrayKind::interface, before_.sum.vectors);
+  archive.array("behind_displacement", ArrayKind::interface, behind_.sum.vectors);
+  archive.array("mean_displacement", ArrayKind::interface, mean_.vectors);
+  archive.array("mean_displacement_change", ArrayKind::interface, mean_change_.vectors);
 }
 
 }  // namespace fsi

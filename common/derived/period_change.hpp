@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "parallel/communicator.hpp"
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 
 namespace fsi {
 
@@ -75,7 +75,7 @@ class PeriodComparison {
   void share(const Communicator& processes);
   /// What a restart needs to go on bit for bit. An earlier run without, or of another period, does not serve: then periods
   /// are compared from there on, which is said.
-  void keep(Memory& memory);
+  void keep(RestartArchive& archive);
 
  private:
   /// Numbers of openings, pressures before flows, and of the displacement.

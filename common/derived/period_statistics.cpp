@@ -73,26 +73,26 @@ void PeriodStatistics::finish(double time) {
   std::fill(magnitude_.begin(), magnitude_.end(), 0.0);
 }
 
-void PeriodStatistics::keep(Memory& memory) {
-  if (!memory.recalls() && !begun_) return;
+void PeriodStatistics::keep(RestartArchive& archive) {
+  if (!archive.recalls() && !begun_) return;
   std::vector<double> times{period_, time_, periods_, start_, until_};
-  const bool kept = memory.wants({"times", "now", "integral", "magnitude"});
-  if (kept) memory.array("times", ArrayKind::alike, times, {times.size()});
+  const bool kept = archive.wants({"times", "now", "integral", "magnitude"});
+  if (kept) archive.array("times", ArrayKind::alike, times, {times.size()});
   if (!kept || times[0] != period_)
-    return memory.warn("the statistics begin anew: the earlier run had none of this period");
+    return archive.warn("the statistics begin anew: the earlier run had none of this period");
   begun_ = true;
   time_ = times[1];
   periods_ = times[2];
   start_ = times[3];
   until_ = times[4];
-  memory.array("now", ArrayKind::shear_vectors, now_);
-  memory.array("integral", ArrayKind::shear_vectors, integral_);
-  memory.array("magnitude", ArrayKind::shear_scalars, magnitude_);
-  if (memory.recalls() ? !memory.wants({"mean", "oscillation", "residence"}) : !last_) return;
-  if (memory.recalls()) last_.emplace();
-  memory.array("mean", ArrayKind::shear_scalars, last_->mean);
-  memory.array("oscillation", ArrayKind::shear_scalars, last_->oscillation);
-  memory.array("residence", ArrayKind::shear_scalars, last_->residence);
+  archive.array("now", ArrayKind::shear_vectors, now_);
+  archive.array("integral", ArrayKind::shear_vectors, integral_);
+  archive.array("magnitude", ArrayKind::shear_scalars, magnitude_);
+  if (archive.recalls() ? !archive.wants({"mean", "oscillation", "residence"}) : !last_) return;
+  if (archive.recalls()) last_.emplace();
+  archive.array("mean", ArrayKind::shear_scalars, last_->mean);
+  archive.array("oscillation", ArrayKind::shear_scalars, last_->oscillation);
+  archive.array("residence", ArrayKind::shear_scalars, last_->residence);
 }
 
 }  // namespace fsi

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 
 namespace fsi {
 
@@ -37,7 +37,7 @@ class PeriodStatistics {
 
   /// What a restart needs to go on bit for bit. An earlier run without, or of another period, does not serve: then the
   /// period that the restart falls into has none, which is said.
-  void keep(Memory& memory);
+  void keep(RestartArchive& archive);
 
  private:
   void accumulate(double duration, const std::vector<double>& from, const std::vector<double>& to);

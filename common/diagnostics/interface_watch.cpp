@@ -47,19 +47,19 @@ void InterfaceWatch<n>::weigh(const Balance& balance) {
   for (int a = 0; a < wall.node_count(); ++a)
     if (const int original = wall.original_of(a); original != a)
       for (int k = 0; k < n; ++k) wall_rows_[Mixed::vector(original, k)] += wall_rows_[Mixed::vector(a, k)];
-  std::vector<double> of_fluid(slip_.size()), lack(slip_.size());
-  for (std::size_t i = 0; i < lack.size(); ++i) {
+  std::vector<double> of_fluid(slip_.size()), unbalanced(slip_.size());
+  for (std::size_t i = 0; i < unbalanced.size(); ++i) {
     const InterfaceNode& node = scene_.interface[i / n];
     of_fluid[i] = fluid_rows_[Mixed::vector(node.fluid, static_cast<int>(i % n))];
-    lack[i] = of_fluid[i] + wall_rows_[Mixed::vector(node.wall, static_cast<int>(i % n))];
+    unbalanced[i] = of_fluid[i] + wall_rows_[Mixed::vector(node.wall, static_cast<int>(i % n))];
   }
   leave_free(of_fluid);
-  leave_free(lack);
+  leave_free(unbalanced);
   const double duration = balance.data.rates.step;
-  for (std::size_t i = 0; i < lack.size(); ++i) unbalanced_[i] += duration * lack[i];
+  for (std::size_t i = 0; i < unbalanced.size(); ++i) unbalanced_[i] += duration * unbalanced[i];
   weighed_ += 1;
   weighed_time_ += duration;
-  largest_traction_ = std::max(largest_traction_, root_mean_traction(lack));
+  largest_traction_ = std::max(largest_traction_, root_mean_traction(unbalanced));
   traction_ = std::max(traction_, root_mean_traction(of_fluid));
 }
 
@@ -78,18 +78,18 @@ InterfaceAgreement InterfaceWatch<n>::so_far() const {
 }
 
 template <int n>
-void InterfaceWatch<n>::keep(Memory& memory) {
-  if (!memory.wants({"slip", "start", "unbalanced", "weighed", "weighed_time", "separation", "motion",
-                     "largest_traction", "traction"}))
+void InterfaceWatch<n>::keep(RestartArchive& archive) {
+  if (!archive.wants({"slip", "start", "unbalanced", "weighed", "weighed_time", "separation", "motion",
+                      "largest_traction", "traction"}))
     return;
-  memory.array("slip", ArrayKind::interface, slip_);
-  memory.array("start", ArrayKind::interface, start_);
-  memory.array("unbalanced", ArrayKind::interface, unbalanced_);
-  memory.number("weighed", weighed_, count_range);
+  archive.array("slip", ArrayKind::interface, slip_);
+  archive.array("start", ArrayKind::interface, start_);
+  archive.array("unbalanced", ArrayKind::interface, unbalanced_);
+  archive.number("weighed", weighed_, count_range);
   for (auto [name, value] :
        {std::pair("weighed_time", &weighed_time_), std::pair("separation", &separation_), std::pair("motion", &motion_),
         std::pair("largest_traction", &largest_traction_), std::pair("traction", &traction_)})
-    memory.number(name, *value, {0});
+    archive.number(name, *value, {0});
 }
 
 template <int n>

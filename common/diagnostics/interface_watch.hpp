@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {
@@ -49,7 +49,7 @@ class InterfaceWatch {
 
   InterfaceAgreement so_far() const;
   /// What a restart needs.
-  void keep(Memory& memory);
+  void keep(RestartArchive& archive);
 
  private:
   double root_mean_square(const std::vector<double>& vectors) const;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "parallel/whole_order.hpp"
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 
 namespace fsi {
 

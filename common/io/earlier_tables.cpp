@@ -88,8 +88,9 @@ EarlierTables::EarlierTables(const fs::path& folder, const std::vector<ResultTab
   if (!fs::is_directory(folder, error))
     throw InputError(folder.string(), "", "is no folder", "give --restart the result folder of an earlier run");
   for (const ResultTable& table : wanted) {
-    if (table.lack && !fs::exists(folder / table.file, error))
-      throw InputError((folder / table.file).string(), table.lack->key, table.lack->problem, table.lack->remedy);
+    if (table.missing && !fs::exists(folder / table.file, error))
+      throw InputError((folder / table.file).string(), table.missing->key, table.missing->problem,
+                       table.missing->remedy);
     parts_.push_back(checked(table, steps));
   }
 }

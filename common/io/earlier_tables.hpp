@@ -20,7 +20,7 @@ struct EarlierSteps {
 
 /// The tables of an earlier run, checked row by row: what a restart takes over from them is what the run wrote up to its
 /// checkpoint, nothing missing, doubled or out of order, and every number finite. What stands behind these rows, of
-/// steps after the checkpoint, is left out, and so is a torn last line. Memory: a time per step.
+/// steps after the checkpoint, is left out, and so is a torn last line. RestartArchive: a time per step.
 class EarlierTables {
  public:
   /// Reads the tables `wanted` in `folder`, iterations.csv the first of them. \throws InputError naming file and line

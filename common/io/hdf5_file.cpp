@@ -102,7 +102,7 @@ Hdf5File Hdf5File::create_in_memory(const std::filesystem::path& shown_as, std::
   const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   constexpr bool backing_store = false;
   errno = 0;
-  // Memory grows by whole multiples of the second argument.
+  // RestartArchive grows by whole multiples of the second argument.
   if (H5Pset_fapl_core(access.id(), std::max<std::uint64_t>(size, 1 << 16), backing_store) < 0 ||
       (user_block > 0 && H5Pset_userblock(creation.id(), user_block) < 0))
     throw WriteError(shown_as, errno);

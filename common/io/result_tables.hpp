@@ -28,10 +28,10 @@ struct ResultTable {
   bool blanks = false;              ///< a value may not exist: an empty cell
   /// What to say where an earlier run that is gone on with has no such table: key of the case, problem, remedy. Empty: every
   /// run of the case has it.
-  struct Lack {
+  struct Missing {
     std::string key, problem, remedy;
   };
-  std::optional<Lack> lack{};
+  std::optional<Missing> missing{};
 
   std::size_t rows() const;  ///< for a level or a step
 };

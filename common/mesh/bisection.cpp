@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/memory.hpp"
+#include "base/available_memory.hpp"
 #include "mesh/child_cells.hpp"
 #include "mesh/for_each_mesh.hpp"
 

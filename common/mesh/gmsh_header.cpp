@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/memory.hpp"
 #include "mesh/gmsh_file.hpp"
 #include "mesh/gmsh_scanner.hpp"
 

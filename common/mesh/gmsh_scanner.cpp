@@ -10,9 +10,9 @@
 #include <fstream>
 #include <type_traits>
 
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
 #include "base/input_file.hpp"
-#include "base/memory.hpp"
 #include "mesh/gmsh_header.hpp"
 
 namespace fsi {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/memory.hpp"
 #include "mesh/cell_words.hpp"
 #include "mesh/child_cells.hpp"
 #include "mesh/facet_uses.hpp"

@@ -286,8 +286,8 @@ double HarmonicExtension<n>::residual(const std::vector<double>& right) const {
     if (!(group.solver.residual() > 0)) continue;
     for (const std::size_t offset : group.offset)
       for (const std::size_t entry : group.entry) {
-        const double lack = right[entry + offset] - rows_[entry + offset];
-        sum += lack * lack;
+        const double residual = right[entry + offset] - rows_[entry + offset];
+        sum += residual * residual;
       }
   }
   return std::sqrt(sum);

@@ -99,15 +99,15 @@ void TangentExtension<n>::solve_by_factors(const std::vector<double>& b, double 
   if (solver_.factorised()) return solver_.solve(columns_, b, x);
   cholesky_.solve(b, 1, x);
   if (cholesky_.reaches(tolerance)) return;
-  std::vector<double> lack(b.size()), correction;
+  std::vector<double> residual(b.size()), correction;
   double last = std::numeric_limits<double>::infinity();
   for (int k = 0; k < CholeskySolver::most_corrections; ++k) {
-    apply(x, lack);
-    for (std::size_t i = 0; i < b.size(); ++i) lack[i] = b[i] - lack[i];
-    const double left = norm(lack);
+    apply(x, residual);
+    for (std::size_t i = 0; i < b.size(); ++i) residual[i] = b[i] - residual[i];
+    const double left = norm(residual);
     if (left <= tolerance * norm(b) || !(left < 0.5 * last)) return;
     last = left;
-    cholesky_.solve(lack, 1, correction);
+    cholesky_.solve(residual, 1, correction);
     axpy(1, correction, x);
   }
 }

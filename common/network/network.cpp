@@ -115,13 +115,13 @@ double Network::lack_of_valves(const std::vector<NetworkElement::Equation>& equa
     const Element& element = elements_[e];
     if (!element.law->switches()) continue;
     const double resistance = element.law->resistance_of_residual();
-    const double lack = resistance * std::abs(equations[e].value);
+    const double imbalance = resistance * std::abs(equations[e].value);
     const double pressures = std::abs(pressure(element.from, state)) + std::abs(pressure(element.to, state));
     const double terms = std::abs(state.flows[e]) + std::abs(equations[e].by_drop) * pressures;
-    sum += lack * lack;
+    sum += imbalance * imbalance;
     rounded = rounded && std::abs(equations[e].value) <= rounding_of_valve * terms;
-    if (lack > largest) {
-      largest = lack;
+    if (imbalance > largest) {
+      largest = imbalance;
       worst = e;
     }
   }
@@ -139,7 +139,7 @@ NetworkState Network::solve_from(NetworkState state, const NetworkMoment& at, co
   auto now = equations(at, reference, state);
   std::vector<double> increment;
   bool rounded = true;
-  double lack = 0;
+  double imbalance = 0;
   for (int k = 0; k < most_iterations; ++k) {
     jacobian(now).solve(residual(now, state, inflows), increment);
     // After the first step all equations but those of valves hold. These alone say then how long a step may be.
@@ -147,8 +147,8 @@ NetworkState Network::solve_from(NetworkState state, const NetworkMoment& at, co
     NetworkState next = moved(increment, step);
     auto equations_there = equations(at, reference, next);
     std::size_t worst = 0;
-    double lack_there = lack_of_valves(equations_there, next, worst, rounded);
-    for (int halvings = 0; k > 0 && !rounded && !(lack_there <= (1 - least_decrease * step) * lack); ++halvings) {
+    double imbalance_there = lack_of_valves(equations_there, next, worst, rounded);
+    for (int halvings = 0; k > 0 && !rounded && !(imbalance_there <= (1 - least_decrease * step) * imbalance); ++halvings) {
       if (halvings == most_halvings) {
         state.settled = false;
         state.unsettled = worst;
@@ -157,12 +157,12 @@ NetworkState Network::solve_from(NetworkState state, const NetworkMoment& at, co
       step *= 0.5;
       next = moved(increment, step);
       equations_there = equations(at, reference, next);
-      lack_there = lack_of_valves(equations_there, next, worst, rounded);
+      imbalance_there = lack_of_valves(equations_there, next, worst, rounded);
     }
     state = std::move(next);
     state.unsettled = worst;
     now = std::move(equations_there);
-    lack = lack_there;
+    imbalance = imbalance_there;
     if (rounded && step == 1) return state;
   }
   state.settled = false;

@@ -78,8 +78,8 @@ class EnergyObserver : public Observer {
   std::vector<ResultTable> tables() const override {
     ResultTable table = table_of(energy_file, columns_, RowsPer::step);
     // With the energy balance switched off a run writes no such table, and may be continued alike.
-    table.lack = {"output.energy", "is wanted, but the earlier run wrote none",
-                  "continue with --set output.energy=false"};
+    table.missing = {"output.energy", "is wanted, but the earlier run wrote none",
+                     "continue with --set output.energy=false"};
     return {table};
   }
   bool wants_balances() const override { return true; }
@@ -109,12 +109,12 @@ Columns<EnergyRecord> energy_columns(const EnergyParts& parts) {
 }
 
 template <int n>
-std::unique_ptr<Observer> make_energy_observer(const Watched<n>& watched) {
+std::unique_ptr<Observer> make_energy_observer(const RunView<n>& watched) {
   if (!watched.setup.output.energy) return nullptr;
   return std::make_unique<EnergyObserver<n>>(watched.scene);
 }
 
-#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_energy_observer(const Watched<n>&);
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_energy_observer(const RunView<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "diagnostics/energy_record.hpp"
-#include "observers/watched.hpp"
+#include "observers/run_view.hpp"
 
 namespace fsi {
 
@@ -14,6 +14,6 @@ Columns<EnergyRecord> energy_columns(const EnergyParts& parts);
 
 /// The balance of energy of each step, docs/energy.md; null where the case wants none.
 template <int n>
-std::unique_ptr<Observer> make_energy_observer(const Watched<n>& watched);
+std::unique_ptr<Observer> make_energy_observer(const RunView<n>& watched);
 
 }  // namespace fsi

@@ -18,8 +18,8 @@ class ErrorObserver : public Observer {
     add(derived_.fluid_errors, level.time, level.now.fluid);
     add(derived_.wall_errors, level.time, level.now.wall);
   }
-  void keep(Memory& memory) override {
-    PrefixedMemory of_fluid("fluid.", memory), of_wall("wall.", memory);
+  void keep(RestartArchive& archive) override {
+    PrefixedArchive of_fluid("fluid.", archive), of_wall("wall.", archive);
     if (derived_.fluid_errors.indicator) derived_.fluid_errors.mean->keep(of_fluid, ArrayKind::fluid_cells);
     if (derived_.wall_errors.indicator) derived_.wall_errors.mean->keep(of_wall, ArrayKind::wall_cells);
   }
@@ -36,12 +36,12 @@ class ErrorObserver : public Observer {
 }  // namespace
 
 template <int n>
-std::unique_ptr<Observer> make_error_observer(const Watched<n>& watched) {
+std::unique_ptr<Observer> make_error_observer(const RunView<n>& watched) {
   if (!watched.derived.means_errors()) return nullptr;
   return std::make_unique<ErrorObserver<n>>(watched.derived, watched.scene.profile);
 }
 
-#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_error_observer(const Watched<n>&);
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_error_observer(const RunView<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

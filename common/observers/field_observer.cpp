@@ -21,7 +21,7 @@ constexpr const char* entries_name = "field_entries";  // written up to the last
 template <int n>
 class FieldObserver : public Observer {
  public:
-  explicit FieldObserver(const Watched<n>& watched) : watched_(watched) {}
+  explicit FieldObserver(const RunView<n>& watched) : watched_(watched) {}
 
   void begin(const State& state) override {
     const auto& [folder, from] = std::pair(watched_.folder, watched_.restarted_from);
@@ -40,10 +40,10 @@ class FieldObserver : public Observer {
     if (fields_->write(level) && level.time <= shown_until(watched_.scene, watched_.state)) ++entries_;
   }
   /// The fields of the earlier run, as far as this one goes on with them. \throws InputError
-  void keep(Memory& memory) override {
-    if (memory.recalls() ? memory.has(entries_name) : entries_ > 0)
-      memory.integer(entries_name, entries_, {0, 1e15, true});
-    if (!memory.recalls() || !writes_fields(watched_.setup)) return;
+  void keep(RestartArchive& archive) override {
+    if (archive.recalls() ? archive.has(entries_name) : entries_ > 0)
+      archive.integer(entries_name, entries_, {0, 1e15, true});
+    if (!archive.recalls() || !writes_fields(watched_.setup)) return;
     const auto& folder = watched_.restarted_from;
     const std::int64_t found = found_entries(folder);
     if (found < entries_)
@@ -64,7 +64,7 @@ class FieldObserver : public Observer {
     return found;
   }
 
-  Watched<n> watched_;
+  RunView<n> watched_;
   std::optional<FieldOutput<n>> fields_;
   std::int64_t entries_ = 0;  ///< of the levels shown so far
 };
@@ -72,11 +72,11 @@ class FieldObserver : public Observer {
 }  // namespace
 
 template <int n>
-std::unique_ptr<Observer> make_field_observer(const Watched<n>& watched) {
+std::unique_ptr<Observer> make_field_observer(const RunView<n>& watched) {
   return std::make_unique<FieldObserver<n>>(watched);
 }
 
-#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_field_observer(const Watched<n>&);
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_field_observer(const RunView<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -2,12 +2,12 @@
 
 #include <memory>
 
-#include "observers/watched.hpp"
+#include "observers/run_view.hpp"
 
 namespace fsi {
 
 /// Writes the fields of the levels that the case asks for, and knows how many there are.
 template <int n>
-std::unique_ptr<Observer> make_field_observer(const Watched<n>& watched);
+std::unique_ptr<Observer> make_field_observer(const RunView<n>& watched);
 
 }  // namespace fsi

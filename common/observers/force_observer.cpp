@@ -28,8 +28,8 @@ class ForceObserver : public Observer {
 
   std::vector<ResultTable> tables() const override {
     ResultTable table = table_of(surfaces_file, surface_columns(), RowsPer::within_step, "surface", forces_.names());
-    table.lack = {"output.surfaces", "are wanted, but the earlier run wrote none",
-                  "continue without output.surfaces and output.forces, or run from the start"};
+    table.missing = {"output.surfaces", "are wanted, but the earlier run wrote none",
+                     "continue without output.surfaces and output.forces, or run from the start"};
     return {table};
   }
   bool wants_balances() const override { return true; }
@@ -47,12 +47,12 @@ class ForceObserver : public Observer {
 }  // namespace
 
 template <int n>
-std::unique_ptr<Observer> make_force_observer(const Watched<n>& watched) {
+std::unique_ptr<Observer> make_force_observer(const RunView<n>& watched) {
   if (!watched.derived.forces) return nullptr;
   return std::make_unique<ForceObserver<n>>(*watched.derived.forces, watched.scene.profile);
 }
 
-#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_force_observer(const Watched<n>&);
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_force_observer(const RunView<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

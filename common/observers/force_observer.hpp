@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "observers/watched.hpp"
+#include "observers/run_view.hpp"
 
 namespace fsi {
 
@@ -10,6 +10,6 @@ inline constexpr const char* surfaces_file = "surfaces.csv";
 
 /// Forces of the fluid on the surfaces that a case names, at the balances of the steps; null where it names none.
 template <int n>
-std::unique_ptr<Observer> make_force_observer(const Watched<n>& watched);
+std::unique_ptr<Observer> make_force_observer(const RunView<n>& watched);
 
 }  // namespace fsi

@@ -17,7 +17,7 @@ constexpr double tolerable_share = 0.01;
 template <int n>
 class InterfaceObserver : public Observer {
  public:
-  explicit InterfaceObserver(const Watched<n>& watched)
+  explicit InterfaceObserver(const RunView<n>& watched)
       : voice_(watched.voice), watch_(watched.scene), partitioned_(watched.stepper.reports_coupling()) {}
 
   bool wants_balances() const override { return true; }
@@ -48,7 +48,7 @@ class InterfaceObserver : public Observer {
           "the fluid's traction; {}",
           found.lasting_traction, 100 * found.traction_share(), remedy));
   }
-  void keep(Memory& memory) override { watch_.keep(memory); }
+  void keep(RestartArchive& archive) override { watch_.keep(archive); }
   const char* phase() const override { return "interface watch"; }
 
  private:
@@ -66,7 +66,7 @@ class InterfaceObserver : public Observer {
     return found;
   }
 
-  Voice& voice_;
+  Messages& voice_;
   InterfaceWatch<n> watch_;
   bool partitioned_;
 };
@@ -74,12 +74,12 @@ class InterfaceObserver : public Observer {
 }  // namespace
 
 template <int n>
-std::unique_ptr<Observer> make_interface_observer(const Watched<n>& watched) {
+std::unique_ptr<Observer> make_interface_observer(const RunView<n>& watched) {
   if (!watched.scene.coupled() || watched.scene.is_static()) return nullptr;
   return std::make_unique<InterfaceObserver<n>>(watched);
 }
 
-#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_interface_observer(const Watched<n>&);
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_interface_observer(const RunView<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -48,12 +48,12 @@ class NetworkObserver : public Observer {
 }  // namespace
 
 template <int n>
-std::unique_ptr<Observer> make_network_observer(const Watched<n>& watched) {
+std::unique_ptr<Observer> make_network_observer(const RunView<n>& watched) {
   if (watched.scene.openings.joined().empty()) return nullptr;
   return std::make_unique<NetworkObserver<n>>(watched.scene);
 }
 
-#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_network_observer(const Watched<n>&);
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_network_observer(const RunView<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -68,7 +68,7 @@ std::vector<double> centre_line_part(const ObservationPoints& points, const std:
 template <int n>
 class Observables : public Observer {
  public:
-  explicit Observables(const Watched<n>& watched)
+  explicit Observables(const RunView<n>& watched)
       : scene_(watched.scene), points_(watched.points), samples_(points_.requested, scene_) {}
 
   std::vector<ResultTable> tables() const override {
@@ -143,7 +143,7 @@ class Observables : public Observer {
 }  // namespace
 
 template <int n>
-std::unique_ptr<Observer> make_observables(const Watched<n>& watched) {
+std::unique_ptr<Observer> make_observables(const RunView<n>& watched) {
   return std::make_unique<Observables<n>>(watched);
 }
 
@@ -156,7 +156,7 @@ std::vector<double> centre_line_pressure(const ObservationPoints& points, const 
 }
 
 #define FSI_INSTANTIATE(n)                                                                                   \
-  template std::unique_ptr<Observer> make_observables(const Watched<n>&);                                    \
+  template std::unique_ptr<Observer> make_observables(const RunView<n>&);                                    \
   template std::vector<double> centre_line_pressure<n>(const ObservationPoints&, const std::vector<double>&, \
                                                        const Communicator&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "observers/watched.hpp"
+#include "observers/run_view.hpp"
 
 namespace fsi {
 
@@ -17,7 +17,7 @@ inline constexpr const char* planes_file = "planes.csv";
 /// What tables show of each level: centre-line pressure, inner-wall displacement, flow, samples. Parts that a scene does not
 /// have cost nothing.
 template <int n>
-std::unique_ptr<Observer> make_observables(const Watched<n>& watched);
+std::unique_ptr<Observer> make_observables(const RunView<n>& watched);
 
 /// kPa, at the points of the centre line. For all processes together. \param fluid  (u, p)
 template <int n>

@@ -6,7 +6,7 @@
 
 #include "io/result_tables.hpp"
 #include "io/step_record.hpp"
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 #include "time/state.hpp"
 #include "time/stepper.hpp"
 
@@ -46,15 +46,15 @@ class Observer {
   virtual void end() {}
 
   /// What it needs to go on after a restart. The names get the watcher's own word before them (observers.cpp).
-  virtual void keep(Memory& /*memory*/) {}
+  virtual void keep(RestartArchive& /*archive*/) {}
   /// The phase of the profile that the seconds of after_step() count for; levels count as output.
   virtual const char* phase() const { return "output"; }
 };
 
 /// Where a watcher says what belongs into no table.
-class Voice {
+class Messages {
  public:
-  virtual ~Voice() = default;
+  virtual ~Messages() = default;
   /// To the user: a line on the console and in the log.
   virtual void warn(const std::string& said) = 0;
   /// The same of what is as it should be.

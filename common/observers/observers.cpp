@@ -27,7 +27,7 @@ template <int n>
 struct Kind {
   const char* word;                                              ///< before the names of what it keeps for a restart
   std::vector<const char*> files;                                ///< of the tables that it may fill
-  std::unique_ptr<Observer> (*make)(const Watched<n>& watched);  ///< null where the case does not ask for it
+  std::unique_ptr<Observer> (*make)(const RunView<n>& watched);  ///< null where the case does not ask for it
 };
 
 /// All there are, in the order in which they look. A new one is a row here.
@@ -54,7 +54,7 @@ const std::vector<Kind<n>>& kinds() {
 }  // namespace
 
 template <int n>
-Observers::Observers(const Watched<n>& watched) : profile_(watched.scene.profile) {
+Observers::Observers(const RunView<n>& watched) : profile_(watched.scene.profile) {
   for (const Kind<n>& kind : kinds<n>()) {
     auto observer = kind.make(watched);
     if (!observer) continue;
@@ -109,9 +109,9 @@ void Observers::end() const {
   for (const auto& [word, observer] : observers_) observer->end();
 }
 
-void Observers::keep(Memory& memory) const {
+void Observers::keep(RestartArchive& archive) const {
   for (const auto& [word, observer] : observers_) {
-    PrefixedMemory own(word, memory);
+    PrefixedArchive own(word, archive);
     observer->keep(own);
   }
 }
@@ -129,7 +129,7 @@ std::vector<std::string> words_of_observers() {
   return words;
 }
 
-#define FSI_INSTANTIATE(n) template Observers::Observers(const Watched<n>&);
+#define FSI_INSTANTIATE(n) template Observers::Observers(const RunView<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -8,7 +8,7 @@
 #include "io/earlier_tables.hpp"
 #include "io/result_folder.hpp"
 #include "observers/observer.hpp"
-#include "observers/watched.hpp"
+#include "observers/run_view.hpp"
 
 namespace fsi {
 
@@ -17,7 +17,7 @@ class Observers {
  public:
   /// Those that a case asks for.
   template <int n>
-  explicit Observers(const Watched<n>& watched);
+  explicit Observers(const RunView<n>& watched);
 
   /// iterations.csv first.
   const std::vector<ResultTable>& tables() const { return tables_; }
@@ -33,7 +33,7 @@ class Observers {
   /// Whether one of them has seen what the run was for.
   bool want_end() const;
   void end() const;
-  void keep(Memory& memory) const;
+  void keep(RestartArchive& archive) const;
 
  private:
   struct Entry {

@@ -54,7 +54,7 @@ class OpeningObserver : public Observer {
 }  // namespace
 
 template <int n>
-std::unique_ptr<Observer> make_opening_observer(const Watched<n>& watched) {
+std::unique_ptr<Observer> make_opening_observer(const RunView<n>& watched) {
   std::vector<std::size_t> openings;
   if (!watched.setup.openings.empty() && watched.scene.fluid) {
     const auto& open = watched.scene.fluid->open_boundaries();
@@ -65,7 +65,7 @@ std::unique_ptr<Observer> make_opening_observer(const Watched<n>& watched) {
   return std::make_unique<OpeningObserver<n>>(watched.scene, std::move(openings));
 }
 
-#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_opening_observer(const Watched<n>&);
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_opening_observer(const RunView<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

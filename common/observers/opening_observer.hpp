@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "observers/watched.hpp"
+#include "observers/run_view.hpp"
 
 namespace fsi {
 
@@ -10,6 +10,6 @@ inline constexpr const char* openings_file = "openings.csv";
 
 /// What openings.csv shows of a level, in cases with [[opening]]; null in others.
 template <int n>
-std::unique_ptr<Observer> make_opening_observer(const Watched<n>& watched);
+std::unique_ptr<Observer> make_opening_observer(const RunView<n>& watched);
 
 }  // namespace fsi

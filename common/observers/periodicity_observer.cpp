@@ -38,7 +38,7 @@ SlowestLaw slowest_law(const Case& setup) {
 template <int n>
 class PeriodicityObserver : public Observer {
  public:
-  PeriodicityObserver(const Watched<n>& watched, std::vector<std::size_t> openings)
+  PeriodicityObserver(const RunView<n>& watched, std::vector<std::size_t> openings)
       : scene_(watched.scene),
         voice_(watched.voice),
         openings_(std::move(openings)),
@@ -98,10 +98,10 @@ class PeriodicityObserver : public Observer {
         standing.more_periods ? fmt::format(", about {} periods later", *standing.more_periods) : ""));
   }
 
-  void keep(Memory& memory) override {
-    if (!memory.recalls()) comparison_.share(scene_.processes());
-    comparison_.keep(memory);
-    if (!memory.wants({"period_changes"})) return;
+  void keep(RestartArchive& archive) override {
+    if (!archive.recalls()) comparison_.share(scene_.processes());
+    comparison_.keep(archive);
+    if (!archive.wants({"period_changes"})) return;
     std::vector<double> numbers;
     for (const PeriodChange& c : changes_) {
       numbers.insert(numbers.end(), {c.end, c.pressure, c.flow, c.displacement});
@@ -109,7 +109,7 @@ class PeriodicityObserver : public Observer {
       // A memory holds finite numbers only.
       for (const double left : c.contraction) numbers.push_back(std::isnan(left) ? unknown : left);
     }
-    memory.array("period_changes", ArrayKind::alike, numbers);
+    archive.array("period_changes", ArrayKind::alike, numbers);
     changes_.clear();
     for (std::size_t i = 0; i + numbers_of_change <= numbers.size(); i += numbers_of_change) {
       PeriodChange c{numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]};
@@ -186,7 +186,7 @@ class PeriodicityObserver : public Observer {
   }
 
   const Scene<n>& scene_;
-  Voice& voice_;
+  Messages& voice_;
   std::vector<std::size_t> openings_;  ///< numbers of those that the mesh has
   double period_;
   bool start_given_;
@@ -200,7 +200,7 @@ class PeriodicityObserver : public Observer {
 }  // namespace
 
 template <int n>
-std::unique_ptr<Observer> make_periodicity_observer(const Watched<n>& watched) {
+std::unique_ptr<Observer> make_periodicity_observer(const RunView<n>& watched) {
   if (!watched.setup.time || !watched.setup.time->periodic_change) return nullptr;
   std::vector<std::size_t> openings;
   const auto& open = watched.scene.fluid->open_boundaries();
@@ -209,7 +209,7 @@ std::unique_ptr<Observer> make_periodicity_observer(const Watched<n>& watched) {
   return std::make_unique<PeriodicityObserver<n>>(watched, std::move(openings));
 }
 
-#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_periodicity_observer(const Watched<n>&);
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_periodicity_observer(const RunView<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

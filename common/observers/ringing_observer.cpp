@@ -15,7 +15,7 @@ namespace {
 template <int n>
 class RingingObserver : public Observer {
  public:
-  explicit RingingObserver(const Watched<n>& watched) : watched_(watched), monitor_(watched.scene_time) {}
+  explicit RingingObserver(const RunView<n>& watched) : watched_(watched), monitor_(watched.scene_time) {}
 
   std::vector<TableRows> after_step(const FinishedStep& step) override {
     const State& state = step.state;
@@ -41,7 +41,7 @@ class RingingObserver : public Observer {
     if (first) watched_.voice.warn(said);
   }
 
-  Watched<n> watched_;
+  RunView<n> watched_;
   RingingMonitor monitor_;
   double amplitude_ = 0;         ///< kPa, the largest so far
   double largest_pressure_ = 0;  ///< kPa, on the centre line so far
@@ -51,12 +51,12 @@ class RingingObserver : public Observer {
 }  // namespace
 
 template <int n>
-std::unique_ptr<Observer> make_ringing_observer(const Watched<n>& watched) {
+std::unique_ptr<Observer> make_ringing_observer(const RunView<n>& watched) {
   if (watched.scene.is_static() || watched.points.centre_line.empty()) return nullptr;
   return std::make_unique<RingingObserver<n>>(watched);
 }
 
-#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_ringing_observer(const Watched<n>&);
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_ringing_observer(const RunView<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -2,13 +2,13 @@
 
 #include <memory>
 
-#include "observers/watched.hpp"
+#include "observers/run_view.hpp"
 
 namespace fsi {
 
 /// Names a pressure that alternates from step to step, once, and keeps the largest of it in the summary. Null in statics and
 /// where there is no centre line.
 template <int n>
-std::unique_ptr<Observer> make_ringing_observer(const Watched<n>& watched);
+std::unique_ptr<Observer> make_ringing_observer(const RunView<n>& watched);
 
 }  // namespace fsi

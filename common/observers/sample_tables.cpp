@@ -12,8 +12,8 @@ namespace fsi {
 namespace {
 
 /// What to say where an earlier run has no such table.
-const ResultTable::Lack no_samples{"output", "its samples are wanted, but the earlier run wrote none",
-                                   "continue without them, or run from the start"};
+const ResultTable::Missing no_samples{"output", "its samples are wanted, but the earlier run wrote none",
+                                      "continue without them, or run from the start"};
 
 /// Interpolated vectors as vectors of space.
 template <class Layout, std::size_t n>
@@ -31,7 +31,7 @@ ResultTable begun(const char* file, const char* header, std::vector<Measure> mea
   ResultTable table{file, header};
   table.measures = std::move(measures);
   table.blanks = true;
-  table.lack = no_samples;
+  table.missing = no_samples;
   return table;
 }
 

@@ -15,7 +15,7 @@ class StatisticsObserver : public Observer {
     const auto measured = profile_.phase("wall shear stress");
     derived_.statistics->add(level.time, derived_.shear->at_nodes(level.now));
   }
-  void keep(Memory& memory) override { derived_.statistics->keep(memory); }
+  void keep(RestartArchive& archive) override { derived_.statistics->keep(archive); }
 
  private:
   DerivedQuantities<n>& derived_;
@@ -25,12 +25,12 @@ class StatisticsObserver : public Observer {
 }  // namespace
 
 template <int n>
-std::unique_ptr<Observer> make_statistics_observer(const Watched<n>& watched) {
+std::unique_ptr<Observer> make_statistics_observer(const RunView<n>& watched) {
   if (!watched.derived.statistics) return nullptr;
   return std::make_unique<StatisticsObserver<n>>(watched.derived, watched.scene.profile);
 }
 
-#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_statistics_observer(const Watched<n>&);
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_statistics_observer(const RunView<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -2,12 +2,12 @@
 
 #include <memory>
 
-#include "observers/watched.hpp"
+#include "observers/run_view.hpp"
 
 namespace fsi {
 
 /// Takes the wall shear stress of each level into the averages over periods, which fields show; null where a case wants none.
 template <int n>
-std::unique_ptr<Observer> make_statistics_observer(const Watched<n>& watched);
+std::unique_ptr<Observer> make_statistics_observer(const RunView<n>& watched);
 
 }  // namespace fsi

@@ -72,11 +72,11 @@ class StepObserver : public Observer {
 }  // namespace
 
 template <int n>
-std::unique_ptr<Observer> make_step_observer(const Watched<n>& watched) {
+std::unique_ptr<Observer> make_step_observer(const RunView<n>& watched) {
   return std::make_unique<StepObserver>(watched.stepper.reports_coupling());
 }
 
-#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_step_observer(const Watched<n>&);
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_step_observer(const RunView<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -31,7 +31,7 @@ struct LayerRecord {
 template <int n>
 class WallObserver : public Observer {
  public:
-  explicit WallObserver(const Watched<n>& watched)
+  explicit WallObserver(const RunView<n>& watched)
       : voice_(watched.voice), scene_(watched.scene), layers_(scene_.layer_names.size()) {}
 
   std::vector<TableRows> after_step(const FinishedStep& step) override {
@@ -108,7 +108,7 @@ class WallObserver : public Observer {
     voice_.note("wall_deformation", all);
   }
 
-  Voice& voice_;
+  Messages& voice_;
   const Scene<n>& scene_;
   std::vector<LayerRecord> layers_;
 };
@@ -116,12 +116,12 @@ class WallObserver : public Observer {
 }  // namespace
 
 template <int n>
-std::unique_ptr<Observer> make_wall_observer(const Watched<n>& watched) {
+std::unique_ptr<Observer> make_wall_observer(const RunView<n>& watched) {
   if (!watched.scene.wall) return nullptr;
   return std::make_unique<WallObserver<n>>(watched);
 }
 
-#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_wall_observer(const Watched<n>&);
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_wall_observer(const RunView<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

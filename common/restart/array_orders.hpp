@@ -7,7 +7,7 @@
 
 #include "io/checkpoint.hpp"
 #include "scene/scene.hpp"
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 
 namespace fsi {
 

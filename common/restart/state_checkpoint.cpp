@@ -26,23 +26,23 @@ constexpr const char* since_jump = "since_jump";
 constexpr const char* from_another_folder = "restart from a folder as its run has left it, or run from the start";
 
 /// As long as it is: the scene says so.
-void keep_sized(const std::string& name, ArrayKind kind, std::vector<double>& values, Memory& memory) {
-  memory.array(name, kind, values, {values.size()});
+void keep_sized(const std::string& name, ArrayKind kind, std::vector<double>& values, RestartArchive& archive) {
+  archive.array(name, kind, values, {values.size()});
 }
 
 /// \param branches  whether there are Maxwell branches in the scene
-void keep_fields(const std::string& name, Solution& fields, bool branches, Memory& memory) {
-  keep_sized(name + ".mesh", ArrayKind::mesh, fields.mesh, memory);
-  keep_sized(name + ".flow", ArrayKind::flow, fields.fluid, memory);
-  keep_sized(name + ".wall", ArrayKind::wall, fields.wall, memory);
-  if (!fields.openings.empty()) keep_sized(name + ".windkessel", ArrayKind::opening_values, fields.openings, memory);
-  if (branches) keep_sized(name + ".branches", ArrayKind::wall_branches, fields.branches, memory);
+void keep_fields(const std::string& name, Solution& fields, bool branches, RestartArchive& archive) {
+  keep_sized(name + ".mesh", ArrayKind::mesh, fields.mesh, archive);
+  keep_sized(name + ".flow", ArrayKind::flow, fields.fluid, archive);
+  keep_sized(name + ".wall", ArrayKind::wall, fields.wall, archive);
+  if (!fields.openings.empty()) keep_sized(name + ".windkessel", ArrayKind::opening_values, fields.openings, archive);
+  if (branches) keep_sized(name + ".branches", ArrayKind::wall_branches, fields.branches, archive);
 }
 
 template <std::size_t count>
-void keep_times(const char* name, std::array<double, count>& times, Memory& memory) {
+void keep_times(const char* name, std::array<double, count>& times, RestartArchive& archive) {
   std::vector<double> numbers(times.begin(), times.end());
-  keep_sized(name, ArrayKind::alike, numbers, memory);
+  keep_sized(name, ArrayKind::alike, numbers, archive);
   std::copy(numbers.begin(), numbers.end(), times.begin());
 }
 
@@ -57,11 +57,11 @@ struct StepNumbers {
   std::vector<double> stretches, inserted;  ///< three for each
   std::int64_t told = 0;                    ///< by iterations.csv
 
-  void keep(Memory& memory) {
-    memory.array(stretches_name, ArrayKind::alike, stretches);
-    if (memory.recalls() ? memory.has(inserted_until) : told > 0) memory.integer(inserted_until, told, count_range);
-    if (memory.recalls() ? memory.has(insertions_name) : !inserted.empty())
-      memory.array(insertions_name, ArrayKind::alike, inserted);
+  void keep(RestartArchive& archive) {
+    archive.array(stretches_name, ArrayKind::alike, stretches);
+    if (archive.recalls() ? archive.has(inserted_until) : told > 0) archive.integer(inserted_until, told, count_range);
+    if (archive.recalls() ? archive.has(insertions_name) : !inserted.empty())
+      archive.array(insertions_name, ArrayKind::alike, inserted);
   }
 };
 
@@ -120,33 +120,33 @@ std::vector<Insertion> stored_insertions(const fs::path& file, const StepNumbers
 
 }  // namespace
 
-void keep(State& state, Memory& memory) {
-  keep_times(level_times, state.times, memory);
+void keep(State& state, RestartArchive& archive) {
+  keep_times(level_times, state.times, archive);
   for (std::size_t level = 0; level < state.before.size(); ++level)
-    keep_fields(fmt::format("level{}", level), state.before[level], state.has_branches, memory);
-  keep_sized("wall_velocity", ArrayKind::wall_vectors, state.wall_velocity, memory);
-  keep_sized("wall_acceleration", ArrayKind::wall_vectors, state.wall_acceleration, memory);
+    keep_fields(fmt::format("level{}", level), state.before[level], state.has_branches, archive);
+  keep_sized("wall_velocity", ArrayKind::wall_vectors, state.wall_velocity, archive);
+  keep_sized("wall_acceleration", ArrayKind::wall_vectors, state.wall_acceleration, archive);
   if (!state.has_balances()) return;  // backward Euler has no more
-  keep_times(balance_times, state.balance_times, memory);
+  keep_times(balance_times, state.balance_times, archive);
   std::vector<double> counts{static_cast<double>(state.since_jump), static_cast<double>(state.balances_since_jump)};
-  memory.array(since_jump, ArrayKind::alike, counts, {counts.size(), {}, counts.size(), count_range});
+  archive.array(since_jump, ArrayKind::alike, counts, {counts.size(), {}, counts.size(), count_range});
   state.since_jump = static_cast<int>(counts[0]);
   state.balances_since_jump = static_cast<int>(counts[1]);
   for (std::size_t k = 0; k < state.balances.size(); ++k)
-    keep_fields(fmt::format("balance{}", k), state.balances[k], state.has_branches, memory);
-  keep_sized("wall_velocity_before", ArrayKind::wall_vectors, state.wall_velocity_before, memory);
-  keep_fields("rate", state.rate, state.has_branches && !state.rate.wall.empty(), memory);
-  keep_sized("rate.wall_velocity", ArrayKind::wall_vectors, state.velocity_rate, memory);
-  keep_sized("rate.loads", ArrayKind::alike, state.load_rates, memory);
+    keep_fields(fmt::format("balance{}", k), state.balances[k], state.has_branches, archive);
+  keep_sized("wall_velocity_before", ArrayKind::wall_vectors, state.wall_velocity_before, archive);
+  keep_fields("rate", state.rate, state.has_branches && !state.rate.wall.empty(), archive);
+  keep_sized("rate.wall_velocity", ArrayKind::wall_vectors, state.velocity_rate, archive);
+  keep_sized("rate.loads", ArrayKind::alike, state.load_rates, archive);
 }
 
-void recall(const Checkpoint& head, RecalledMemory& memory, State& state) {
-  const fs::path& file = memory.file();
+void recall(const Checkpoint& head, RecalledArchive& archive, State& state) {
+  const fs::path& file = archive.file();
   if (!std::isfinite(head.time)) refuse_entry(file, "time", "is not finite");
   if (head.step < 1 || static_cast<double>(head.step) > count_range.most)
     refuse_entry(file, "step", fmt::format("is {}, not from 1 to {}", head.step, count_range.most));
   if (!(head.time > 0)) refuse_entry(file, "time", fmt::format("is {:g}, not positive", head.time));
-  keep(state, memory);
+  keep(state, archive);
   state.step = static_cast<int>(head.step);
   state.time = head.time;
   if (state.has_balances()) {
@@ -159,7 +159,7 @@ void recall(const Checkpoint& head, RecalledMemory& memory, State& state) {
   state.now = state.before[0];
 }
 
-void write_down_steps(const TimeAxis& axis, const State& state, Memory& memory) {
+void write_down_steps(const TimeAxis& axis, const State& state, RestartArchive& archive) {
   StepNumbers steps;
   // An adaptive step that found no solution leaves a plan from its own end on.
   for (const Stretch& stretch : axis.stretches())
@@ -176,11 +176,11 @@ void write_down_steps(const TimeAxis& axis, const State& state, Memory& memory) 
   for (std::size_t i = told; i < insertions.size(); ++i)
     steps.inserted.insert(steps.inserted.end(),
                           {static_cast<double>(insertions[i].step), insertions[i].end, insertions[i].length});
-  steps.keep(memory);
+  steps.keep(archive);
 }
 
-StoredSteps recall_steps(RecalledMemory& memory, const State& state, const std::vector<double>& ends) {
-  const fs::path& file = memory.file();
+StoredSteps recall_steps(RecalledArchive& archive, const State& state, const std::vector<double>& ends) {
+  const fs::path& file = archive.file();
   for (std::size_t k = 0; k < state.times.size(); ++k) {
     const int step = state.step - static_cast<int>(k);
     const double end = step > 0 ? ends.at(step - 1) : 0;
@@ -191,7 +191,7 @@ StoredSteps recall_steps(RecalledMemory& memory, const State& state, const std::
           from_another_folder);
   }
   StepNumbers stored;
-  stored.keep(memory);
+  stored.keep(archive);
   StoredSteps steps{stored_stretches(file, stored.stretches, state), stored_insertions(file, stored, state, ends)};
   // Adaptive steps are all inserted, the last one with its own length.
   const auto last = static_cast<std::size_t>(state.step);
@@ -201,10 +201,10 @@ StoredSteps recall_steps(RecalledMemory& memory, const State& state, const std::
   return steps;
 }
 
-void keep(TableDigests& digests, Memory& memory) {
+void keep(TableDigests& digests, RestartArchive& archive) {
   for (auto entry = digests.begin(); entry != digests.end();) {
-    const bool wanted = memory.wants({entry->first});
-    if (wanted) memory.array(entry->first, ArrayKind::alike, entry->second);
+    const bool wanted = archive.wants({entry->first});
+    if (wanted) archive.array(entry->first, ArrayKind::alike, entry->second);
     entry = wanted ? std::next(entry) : digests.erase(entry);
   }
 }

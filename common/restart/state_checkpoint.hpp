@@ -5,35 +5,35 @@
 
 #include "io/checkpoint.hpp"
 #include "io/table_digest.hpp"
-#include "restart/recalled_memory.hpp"
+#include "restart/recalled_archive.hpp"
 #include "scene/time_axis.hpp"
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 #include "time/state.hpp"
 
 namespace fsi {
 
 /// Goes over the finished levels of a state and what its time scheme keeps besides. Where the memory recalls, the state
 /// comes at rest, for the sizes.
-void keep(State& state, Memory& memory);
+void keep(State& state, RestartArchive& archive);
 
 /// A state from a checkpoint, with step and time. Nothing is believed: times are in order, counts in their range.
 /// \param state  comes at rest \throws InputError naming the file and what is wrong there
-void recall(const Checkpoint& head, RecalledMemory& memory, State& state);
+void recall(const Checkpoint& head, RecalledArchive& archive, State& state);
 
 /// The steps that led to a checkpoint.
 struct StoredSteps {
   std::vector<Stretch> stretches;
   std::vector<Insertion> insertions;  ///< those that were not planned
 };
-void write_down_steps(const TimeAxis& axis, const State& state, Memory& memory);
+void write_down_steps(const TimeAxis& axis, const State& state, RestartArchive& archive);
 /// Holds them against the recorded ends of steps, as well as the times of the state's levels.
 /// \param ends  of the steps 1 to the last, as iterations.csv has them
 /// \throws InputError naming the file when they do not fit
-StoredSteps recall_steps(RecalledMemory& memory, const State& state, const std::vector<double>& ends);
+StoredSteps recall_steps(RecalledArchive& archive, const State& state, const std::vector<double>& ends);
 
 /// What tables hold at the checkpoint, by their files. Recalling, those that are there already are looked for; what the
 /// checkpoint does not know of goes.
-void keep(TableDigests& digests, Memory& memory);
+void keep(TableDigests& digests, RestartArchive& archive);
 
 /// Refuses a checkpoint behind the end of the run (ms; in statics 1). \throws InputError
 void require_not_beyond(const std::filesystem::path& file, const State& state, double end);

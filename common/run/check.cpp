@@ -8,8 +8,8 @@
 #include <map>
 #include <vector>
 
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/memory.hpp"
 #include "base/profile.hpp"
 #include "base/standard_streams.hpp"
 #include "base/stopwatch.hpp"
@@ -21,11 +21,11 @@
 #include "run/case_description.hpp"
 #include "run/console.hpp"
 #include "run/loading_report.hpp"
-#include "run/march.hpp"
 #include "run/prestress.hpp"
 #include "run/process_summary.hpp"
 #include "run/process_threads.hpp"
 #include "run/program.hpp"
+#include "run/step_controller.hpp"
 #include "scene/time_scheme.hpp"
 
 namespace fsi {
@@ -110,7 +110,7 @@ struct Trial {
 };
 
 template <int n>
-Trial try_steps(March<n>& march, const Scene<n>& scene, const Loads& loads) {
+Trial try_steps(StepController<n>& march, const Scene<n>& scene, const Loads& loads) {
   Trial trial;
   State state = scene.at_rest();
   try {
@@ -168,7 +168,7 @@ int check_case(const std::string& program, const CommandLine& line, const Case& 
   Loads loads(setup);
   const auto stepper = make_stepper.make(scene, loads, setup);
   require_resolvable(setup, scene);
-  March<n> march(setup, scene, *stepper, loads, [&lines](const std::string& said) {
+  StepController<n> march(setup, scene, *stepper, loads, [&lines](const std::string& said) {
     lines.push_back({"step tried", said});
   });
   if (setup.time) {

@@ -2,9 +2,9 @@
 
 #include <optional>
 
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
 #include "base/idle_cores.hpp"
-#include "base/memory.hpp"
 #include "base/standard_streams.hpp"
 #include "base/threads.hpp"
 #include "case/case_reader.hpp"

@@ -6,8 +6,8 @@
 #include <new>
 #include <string>
 
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/memory.hpp"
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
 #include "parallel/communicator.hpp"

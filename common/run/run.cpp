@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/memory.hpp"
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
 #include "base/stop_request.hpp"
@@ -17,6 +17,7 @@
 #include "observers/field_output.hpp"
 #include "observers/observers.hpp"
 #include "run/announcement.hpp"
+#include "run/extra_final_step.hpp"
 #include "run/interruption.hpp"
 #include "run/prestress.hpp"
 #include "run/program.hpp"
@@ -24,7 +25,6 @@
 #include "run/run_account.hpp"
 #include "run/run_checkpoints.hpp"
 #include "run/run_parts.hpp"
-#include "run/step_beyond.hpp"
 #include "scene/time_scheme.hpp"
 #include "time/balance.hpp"
 
@@ -56,7 +56,7 @@ StepRecord record_of(const StepReport& report, const State& state, double second
 }
 
 template <int n>
-Watched<n> watched(RunParts<n>& parts) {
+RunView<n> watched(RunParts<n>& parts) {
   auto& loaded = parts.loaded;
   return {parts.setup,        parts.scene,       parts.loads,
           *parts.stepper,     parts.state,       parts.scene.is_static() ? 0 : scene_time(parts.setup, parts.scene),
@@ -213,7 +213,7 @@ class Run {
         fmt::format("a step behind the end settles the pressures of t = {:g} ms, and is not kept", state().time));
     parts_.stepper->keep_balances(false);
     try {
-      const StepBeyond beyond = step_beyond(parts_.setup, state(), parts_.loads, parts_.march);
+      const ExtraFinalStep beyond = extra_final_step(parts_.setup, state(), parts_.loads, parts_.march);
       account = {{"outer_iterations", beyond.report.outer_iterations},
                  {"newton_iterations", beyond.report.newton_iterations},
                  {"linear_iterations", beyond.report.linear_iterations},

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/memory.hpp"
+#include "base/available_memory.hpp"
 #include "base/threads.hpp"
 #include "base/version.hpp"
 #include "fem/dimensions.hpp"

@@ -39,18 +39,18 @@ RunCheckpoints<n>::RunCheckpoints(RunParts<n>& parts, const Observers& observers
       pace_({parts.setup.output.checkpoint_every, parts.setup.output.checkpoint_seconds}) {}
 
 template <int n>
-void RunCheckpoints<n>::keep_method(Memory& memory) {
-  PrefixedMemory marching(of_march, memory), stepping(of_stepper, memory);
+void RunCheckpoints<n>::keep_method(RestartArchive& archive) {
+  PrefixedArchive marching(of_march, archive), stepping(of_stepper, archive);
   parts_.march.keep(marching);
   parts_.stepper->keep(stepping);
 }
 
 /// A scheme that was chosen for the steps of the run so far stays, since the state is its own.
 template <int n>
-void RunCheckpoints<n>::keep_scheme(Memory& memory) {
+void RunCheckpoints<n>::keep_scheme(RestartArchive& archive) {
   if (parts_.scene.is_static()) return;
   std::int64_t number = time_schemes().at(parts_.scheme).number;
-  if (memory.wants({scheme_name})) memory.integer(scheme_name, number);
+  if (archive.wants({scheme_name})) archive.integer(scheme_name, number);
   if (parts_.setup.time->scheme || number == time_schemes().at(parts_.scheme).number) return;
   std::string kept = parts_.scheme;
   for (const auto* chosen : {scheme_for_short_steps, scheme_for_long_steps})
@@ -60,14 +60,14 @@ void RunCheckpoints<n>::keep_scheme(Memory& memory) {
 
 template <int n>
 Checkpoint RunCheckpoints<n>::of_now() {
-  WrittenMemory memory;
-  PrefixedMemory of_digests(of_tables, memory);
-  keep_scheme(memory);
-  keep(parts_.state, memory);
-  write_down_steps(parts_.loads.axis(), parts_.state, memory);
+  WrittenArchive archive;
+  PrefixedArchive of_digests(of_tables, archive);
+  keep_scheme(archive);
+  keep(parts_.state, archive);
+  write_down_steps(parts_.loads.axis(), parts_.state, archive);
   keep(digests_, of_digests);
-  observers_.keep(memory);
-  keep_method(memory);
+  observers_.keep(archive);
+  keep_method(archive);
   Checkpoint checkpoint;
   checkpoint.program = parts_.program;
   checkpoint.case_hash = parts_.case_hash;
@@ -75,10 +75,10 @@ Checkpoint RunCheckpoints<n>::of_now() {
   checkpoint.mesh_hash = parts_.loaded.mesh.hash;
   checkpoint.step = parts_.state.step;
   checkpoint.time = parts_.state.time;
-  checkpoint.arrays = std::move(memory.arrays);
-  checkpoint.kinds = std::move(memory.kinds);
-  checkpoint.integers = std::move(memory.integers);
-  checkpoint.reals = std::move(memory.numbers);
+  checkpoint.arrays = std::move(archive.arrays);
+  checkpoint.kinds = std::move(archive.kinds);
+  checkpoint.integers = std::move(archive.integers);
+  checkpoint.reals = std::move(archive.numbers);
   return checkpoint;
 }
 
@@ -133,33 +133,33 @@ std::optional<EarlierTables> RunCheckpoints<n>::recall() {
   const Checkpoint& head = reader.head();
   require_same_run(file, head, parts_.program, parts_.case_hash, parts_.loaded.mesh.hash, difference_to(head));
   const State rest = parts_.scene.at_rest();
-  RecalledMemory memory(
+  RecalledArchive archive(
       file, head,
       {reader.arrays(),
        [&](const std::string& name, ArrayKind kind) { return reader.array(name, parts_.orders.of(kind)); },
        [&](ArrayKind kind) { return parts_.orders.length(kind, rest); }},
       parts_.processes);
-  keep_scheme(memory);
-  fsi::recall(head, memory, state);
+  keep_scheme(archive);
+  fsi::recall(head, archive, state);
   require_not_beyond(file, state, parts_.setup.time ? parts_.setup.time->end : 1);
   EarlierSteps past{head.step, state.time, state.step - (parts_.lagging() ? 1 : 0), {}};
   for (const ResultTable& table : observers_.tables()) past.digests[table.file];
-  PrefixedMemory of_digests(of_tables, memory);
+  PrefixedArchive of_digests(of_tables, archive);
   keep(past.digests, of_digests);
   EarlierTables earlier(parts_.line.restart, observers_.tables(), past);
-  StoredSteps steps = recall_steps(memory, state, earlier.times());
-  observers_.keep(memory);  // rows may show what a watcher remembers
+  StoredSteps steps = recall_steps(archive, state, earlier.times());
+  observers_.keep(archive);  // rows may show what a watcher remembers
   if (past.levels > 0) observers_.require_same(parts_.shown_level(), earlier);
 
   const Stretch before = steps.stretches.back();
   if (parts_.loads.axis().go_on(std::move(steps.stretches), state.step, state.time, std::move(steps.insertions))) {
-    memory.change_step();
+    archive.change_step();
     step_change_ = text_of_change(before);
   }
-  keep_method(memory);
-  if (const auto left = memory.require_all_known(others()); !left.empty())
+  keep_method(archive);
+  if (const auto left = archive.require_all_known(others()); !left.empty())
     left_aside_ = fmt::format("of the checkpoint, what the methods of this run do not use: {}", fmt::join(left, ", "));
-  warnings_ = memory.warnings();
+  warnings_ = archive.warnings();
   if (in_place(parts_.line)) saved_ = state.step;
   return earlier;
 }

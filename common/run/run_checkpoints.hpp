@@ -9,7 +9,7 @@
 #include "io/table_digest.hpp"
 #include "observers/observers.hpp"
 #include "restart/checkpoint_pace.hpp"
-#include "restart/recalled_memory.hpp"
+#include "restart/recalled_archive.hpp"
 #include "run/run_parts.hpp"
 
 namespace fsi {
@@ -47,8 +47,8 @@ class RunCheckpoints {
   Checkpoint of_now();
   void write(const Checkpoint& checkpoint) const;
   /// What march and stepper keep.
-  void keep_method(Memory& memory);
-  void keep_scheme(Memory& memory);
+  void keep_method(RestartArchive& archive);
+  void keep_scheme(RestartArchive& archive);
   std::string difference_to(const Checkpoint& head) const;
   std::string text_of_change(const Stretch& before) const;
 

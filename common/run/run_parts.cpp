@@ -1,7 +1,7 @@
 #include "run/run_parts.hpp"
 
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/memory.hpp"
 #include "base/threads.hpp"
 #include "case/case_hash.hpp"
 #include "fem/dimensions.hpp"

@@ -14,10 +14,10 @@
 #include "run/driver.hpp"
 #include "run/load_scene.hpp"
 #include "run/loading_report.hpp"
-#include "run/march.hpp"
 #include "run/process_summary.hpp"
 #include "run/process_threads.hpp"
-#include "run/run_voice.hpp"
+#include "run/run_messages.hpp"
+#include "run/step_controller.hpp"
 #include "scene/loads.hpp"
 #include "system/work_unit.hpp"
 
@@ -60,8 +60,8 @@ struct RunParts {
   ArrayOrders<n> orders;
   Loads loads;
   std::unique_ptr<Stepper> stepper;
-  RunVoice voice;
-  March<n> march;
+  RunMessages voice;
+  StepController<n> march;
   std::string scheme;  ///< in time; empty in statics
   State state;
 

@@ -28,7 +28,7 @@ constexpr std::size_t most_openings = 100000;
 constexpr double way_tolerance = 1e-4;  // of solutions that only lead to others
 
 /// All of it, or nothing. \returns whether there is such a point
-bool keep(const std::string& name, LinearisationPoint& point, Memory& memory) {
+bool keep(const std::string& name, LinearisationPoint& point, RestartArchive& archive) {
   Solution& now = point.now;
   StepRates& rates = point.rates;
   const std::pair<const char*, double*> numbers[] = {{".step", &rates.step},
@@ -36,66 +36,66 @@ bool keep(const std::string& name, LinearisationPoint& point, Memory& memory) {
                                                      {".flow_factor", &rates.fluid_factor},
                                                      {".acceleration_factor", &rates.acceleration_factor},
                                                      {".wall_pressure", &point.wall_pressure}};
-  if (!memory.wants({name + ".step", name + ".mesh", name + ".flow", name + ".wall", name + ".mesh_reference",
-                     name + ".flow_reference"}))
+  if (!archive.wants({name + ".step", name + ".mesh", name + ".flow", name + ".wall", name + ".mesh_reference",
+                      name + ".flow_reference"}))
     return false;
-  for (const auto& [part, number] : numbers) memory.number(name + part, *number);
-  memory.array(name + ".mesh", ArrayKind::mesh, now.mesh);
-  memory.array(name + ".flow", ArrayKind::flow, now.fluid);
-  memory.array(name + ".wall", ArrayKind::wall, now.wall);
-  memory.array(name + ".mesh_reference", ArrayKind::mesh, rates.mesh_reference);
-  memory.array(name + ".flow_reference", ArrayKind::flow, rates.fluid_reference);
+  for (const auto& [part, number] : numbers) archive.number(name + part, *number);
+  archive.array(name + ".mesh", ArrayKind::mesh, now.mesh);
+  archive.array(name + ".flow", ArrayKind::flow, now.fluid);
+  archive.array(name + ".wall", ArrayKind::wall, now.wall);
+  archive.array(name + ".mesh_reference", ArrayKind::mesh, rates.mesh_reference);
+  archive.array(name + ".flow_reference", ArrayKind::flow, rates.fluid_reference);
   const auto if_any = [&](const char* part, ArrayKind kind, std::vector<double>& values, const ArrayRule& rule = {}) {
-    if (memory.recalls() ? memory.has(name + part) : !values.empty()) memory.array(name + part, kind, values, rule);
+    if (archive.recalls() ? archive.has(name + part) : !values.empty()) archive.array(name + part, kind, values, rule);
   };
   // Whether there are such is known to all processes, also to those without nodes of the wall.
   const auto if_there = [&](bool there, const char* part, ArrayKind kind, std::vector<double>& values) {
-    if (memory.recalls() ? memory.has(name + part) : there) memory.array(name + part, kind, values);
+    if (archive.recalls() ? archive.has(name + part) : there) archive.array(name + part, kind, values);
   };
   if_there(point.viscous_wall, ".wall_reference", ArrayKind::wall, rates.wall_reference);
   // Earlier programs had no such lag, and wrote none.
-  if (memory.recalls() ? memory.has(name + ".strain_lag") : point.viscous_wall)
-    memory.number(name + ".strain_lag", rates.strain_lag);
+  if (archive.recalls() ? archive.has(name + ".strain_lag") : point.viscous_wall)
+    archive.number(name + ".strain_lag", rates.strain_lag);
   if_there(point.branches, ".branches_reference", ArrayKind::wall_branches, rates.branches_reference);
   if_any(".support_loads", ArrayKind::support_loads, point.support_loads);
   if_any(".opening_pressures", ArrayKind::alike, point.opening_pressures, {{}, {}, most_openings});
   if (point.opening_pressures.empty()) return true;
   if_any(".windkessels", ArrayKind::opening_values, rates.openings_reference);
   if_any(".opening_values", ArrayKind::opening_values, now.openings);
-  if (memory.recalls() ? memory.has(name + ".time") : !rates.openings_reference.empty())
-    memory.number(name + ".time", rates.time);  // on which what a network joins depends
+  if (archive.recalls() ? archive.has(name + ".time") : !rates.openings_reference.empty())
+    archive.number(name + ".time", rates.time);  // on which what a network joins depends
   return true;
 }
 
 }  // namespace
 
 template <int n>
-void keep_linearisation(const std::string& name, System<n>& system, Memory& memory,
+void keep_linearisation(const std::string& name, System<n>& system, RestartArchive& archive,
                         const std::function<void(const StepRates&)>& prepare) {
   LinearisationPoint point;
-  if (!memory.recalls()) {
+  if (!archive.recalls()) {
     if (!system.linearised()) return;
     point = system.linearisation_point();
-    keep(name, point, memory);
-  } else if (keep(name, point, memory) && !memory.step_changed()) {
+    keep(name, point, archive);
+  } else if (keep(name, point, archive) && !archive.step_changed()) {
     if (prepare) prepare(point.rates);
     system.linearise_at(point);
   }
 }
 
 template <int n>
-NewtonMarch<n>::NewtonMarch(Scene<n>& scene, const Loads& loads, NewtonOptions options)
+NewtonStepperBase<n>::NewtonStepperBase(Scene<n>& scene, const Loads& loads, NewtonOptions options)
     : scene_(scene), loads_(loads), options_(std::move(options)) {}
 
 template <int n>
-std::vector<StepperChoice> NewtonMarch<n>::stopping() const {
+std::vector<StepperChoice> NewtonStepperBase<n>::stopping() const {
   if (options_.error_tolerance == 0) return {};
   return {{"newton.error_tolerance", fmt::format("{:g}", options_.error_tolerance),
            "a step is solved when its error is estimated to be that part of what the step changes"}};
 }
 
 template <int n>
-StepReport NewtonMarch<n>::advance(State& state) {
+StepReport NewtonStepperBase<n>::advance(State& state) {
   try {
     return advance_all_stages(state);
   } catch (const ConvergenceError&) {
@@ -105,7 +105,7 @@ StepReport NewtonMarch<n>::advance(State& state) {
 }
 
 template <int n>
-StepReport NewtonMarch<n>::advance_all_stages(State& state) {
+StepReport NewtonStepperBase<n>::advance_all_stages(State& state) {
   report_ = {};
   const int stages = scene_.integrator->stages(state);
   for (int stage = 0; stage < stages; ++stage) {
@@ -127,7 +127,7 @@ StepReport NewtonMarch<n>::advance_all_stages(State& state) {
 }
 
 template <int n>
-void NewtonMarch<n>::advance_stage(State& state, StepData& data) {
+void NewtonStepperBase<n>::advance_stage(State& state, StepData& data) {
   NewtonReport solved = solve(state, data, scene_.predictor);
   if (!solved.converged && scene_.predictor > 0 && state.step > 0) {
     // The extrapolated start can be the culprit, after a jump of the load for example.
@@ -158,7 +158,7 @@ void NewtonMarch<n>::advance_stage(State& state, StepData& data) {
 }
 
 template <int n>
-std::string NewtonMarch<n>::remedy(const NewtonReport& failed) const {
+std::string NewtonStepperBase<n>::remedy(const NewtonReport& failed) const {
   std::string text = scene_.is_static() ? "more static.load_steps or a smaller load" : "a smaller time.step or load";
   if (options_.mode != NewtonMode::full) text += ", or newton.mode = \"full\"";
   if (failed.count() >= options_.max_iterations) text += ", or a larger newton.max_iterations";
@@ -166,13 +166,13 @@ std::string NewtonMarch<n>::remedy(const NewtonReport& failed) const {
 }
 
 template <int n>
-NewtonReport NewtonMarch<n>::solve(State& state, StepData& data, int predictor) {
+NewtonReport NewtonStepperBase<n>::solve(State& state, StepData& data, int predictor) {
   scene_.integrator->predict(state, predictor, data);
   return solve_from_there(state, data, options_);
 }
 
 template <int n>
-NewtonReport NewtonMarch<n>::solve_slowly(State& state, StepData& data) {
+NewtonReport NewtonStepperBase<n>::solve_slowly(State& state, StepData& data) {
   scene_.integrator->predict(state, 0, data);
   NewtonReport solved;
   const StepWalk walk = walk_to_step(state.now, [&](double share) {
@@ -200,7 +200,7 @@ NewtonReport NewtonMarch<n>::solve_slowly(State& state, StepData& data) {
 }
 
 template <int n>
-NewtonReport NewtonMarch<n>::solve_from_there(State& state, StepData& data, const NewtonOptions& options) {
+NewtonReport NewtonStepperBase<n>::solve_from_there(State& state, StepData& data, const NewtonOptions& options) {
   scene_.impose_conditions(state.now);
   scene_.impose_inflows(state, data);
   scene_.impose_interface(state, data.rates);
@@ -227,7 +227,8 @@ NewtonReport NewtonMarch<n>::solve_from_there(State& state, StepData& data, cons
 template <int n>
 NewtonStepper<n>::NewtonStepper(Scene<n>& scene, const Loads& loads, NewtonOptions options, Numbering numbering,
                                 const LinearSolverFactory<n>& make_solver)
-    : NewtonMarch<n>(scene, loads, std::move(options)), system_("coupled", scene, std::move(numbering), make_solver) {}
+    : NewtonStepperBase<n>(scene, loads, std::move(options)),
+      system_("coupled", scene, std::move(numbering), make_solver) {}
 
 template <int n>
 std::optional<CouplingMethod> NewtonStepper<n>::coupling_method() const {
@@ -251,14 +252,14 @@ NewtonProblem& NewtonStepper<n>::equations(State& state, StepData& data) {
 }
 
 template <int n>
-void NewtonStepper<n>::keep(Memory& memory) {
-  if (this->options().mode != NewtonMode::full || memory.recalls()) keep_linearisation("kept", system_, memory);
+void NewtonStepper<n>::keep(RestartArchive& archive) {
+  if (this->options().mode != NewtonMode::full || archive.recalls()) keep_linearisation("kept", system_, archive);
 }
 
-#define FSI_INSTANTIATE(n)                                                           \
-  template void keep_linearisation<n>(const std::string&, System<n>&, Memory&,       \
-                                      const std::function<void(const StepRates&)>&); \
-  template class NewtonMarch<n>;                                                     \
+#define FSI_INSTANTIATE(n)                                                             \
+  template void keep_linearisation<n>(const std::string&, System<n>&, RestartArchive&, \
+                                      const std::function<void(const StepRates&)>&);   \
+  template class NewtonStepperBase<n>;                                                 \
   template class NewtonStepper<n>;
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 

@@ -17,18 +17,18 @@ void append_history(const NewtonReport& report, std::vector<std::string>& lines,
 /// The point that a system's Jacobian was made at, if there is one; recalling, the system is linearised there again.
 /// \param prepare  called before that
 template <int n>
-void keep_linearisation(const std::string& name, System<n>& system, Memory& memory,
+void keep_linearisation(const std::string& name, System<n>& system, RestartArchive& archive,
                         const std::function<void(const StepRates&)>& prepare = {});
 
 /// Advances a scene by Newton's method, whatever its equations are to that.
 template <int n>
-class NewtonMarch : public Stepper {
+class NewtonStepperBase : public Stepper {
  public:
   /// If it persists, a step in time that Newton's method does not reach is walked to from shorter ones (walk_to_step()).
   StepReport advance(State& state) override;
 
  protected:
-  NewtonMarch(Scene<n>& scene, const Loads& loads, NewtonOptions options);
+  NewtonStepperBase(Scene<n>& scene, const Loads& loads, NewtonOptions options);
 
   /// The equations of a step, or of one stage of it; state.now holds the first guess.
   virtual NewtonProblem& equations(State& state, StepData& data) = 0;
@@ -65,7 +65,7 @@ class NewtonMarch : public Stepper {
 /// Advances a whole scene at once: the monolithic method for fluid and wall, and the only one there is for a scene with
 /// one of them.
 template <int n>
-class NewtonStepper : public NewtonMarch<n> {
+class NewtonStepper : public NewtonStepperBase<n> {
  public:
   /// \param numbering  of the whole scene
   NewtonStepper(Scene<n>& scene, const Loads& loads, NewtonOptions options, Numbering numbering,
@@ -76,7 +76,7 @@ class NewtonStepper : public NewtonMarch<n> {
   std::vector<StepperChoice> choices() const override;
   std::optional<CouplingMethod> coupling_method() const override;
   MatrixValues matrix_values() const override { return {system_.fluid_values(), system_.wall_values()}; }
-  void keep(Memory& memory) override;
+  void keep(RestartArchive& archive) override;
   void forget() override { system_.forget_jacobian(); }
 
  private:

@@ -146,9 +146,9 @@ void ErrorEstimate<n>::accept(const StepData& data) {
 }
 
 template <int n>
-void ErrorEstimate<n>::keep(Memory& memory) {
+void ErrorEstimate<n>::keep(RestartArchive& archive) {
   std::vector<double> numbers{static_cast<double>(since_jump_), scale_.displacement, scale_.velocity, scale_.pressure};
-  memory.array("estimate", ArrayKind::alike, numbers, {4});
+  archive.array("estimate", ArrayKind::alike, numbers, {4});
   since_jump_ = static_cast<int>(numbers[0]);
   scale_ = {numbers[1], numbers[2], numbers[3]};
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "time/error_terms.hpp"
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 #include "time/state.hpp"
 #include "time/step_data.hpp"
 
@@ -43,7 +43,7 @@ class ErrorEstimate {
   void accept(const StepData& data);
 
   /// For a restart.
-  void keep(Memory& memory);
+  void keep(RestartArchive& archive);
 
  private:
   struct Norms {

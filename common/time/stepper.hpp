@@ -6,7 +6,7 @@
 
 #include "base/finite.hpp"
 #include "time/level_energy.hpp"
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 #include "time/state.hpp"
 #include "time/step_data.hpp"
 #include "wall/wall_deformation.hpp"
@@ -103,7 +103,7 @@ class Stepper {
   virtual std::optional<CouplingMethod> coupling_method() const { return std::nullopt; }
   virtual MatrixValues matrix_values() const { return {}; }
   /// What it needs of the steps before besides the state.
-  virtual void keep(Memory& memory) = 0;
+  virtual void keep(RestartArchive& archive) = 0;
 
  protected:
   /// Of a step whose last stage is solved. \throws ConvergenceError when the solution of a stage is not finite

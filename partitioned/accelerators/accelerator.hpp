@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 
 namespace fsi {
 
@@ -37,7 +37,7 @@ class Accelerator {
   /// alone.
   virtual bool allows_change() const { return true; }
   /// What is kept from one step to the next, for a restart that goes on bit for bit.
-  virtual void keep(Memory& /*memory*/) {}
+  virtual void keep(RestartArchive& /*archive*/) {}
 };
 
 }  // namespace fsi

@@ -125,19 +125,19 @@ void AffineMap::clear() {
   before_.clear();
 }
 
-void AffineMap::keep(Memory& memory, const std::string& name) {
-  before_.keep(memory, name + ".before");
-  if (memory.recalls()) pairs_ = next_ = 0;
-  if (!memory.wants({name + ".pairs", name + ".next", name + ".v", name + ".w"})) return;
+void AffineMap::keep(RestartArchive& archive, const std::string& name) {
+  before_.keep(archive, name + ".before");
+  if (archive.recalls()) pairs_ = next_ = 0;
+  if (!archive.wants({name + ".pairs", name + ".next", name + ".v", name + ".w"})) return;
   auto pairs = static_cast<double>(pairs_), next = static_cast<double>(next_);
-  memory.number(name + ".pairs", pairs, count_range);
-  memory.number(name + ".next", next, count_range);
+  archive.number(name + ".pairs", pairs, count_range);
+  archive.number(name + ".next", next, count_range);
   const auto count = static_cast<std::size_t>(pairs);
   std::vector<double> v(v_.begin(), v_.begin() + static_cast<std::ptrdiff_t>(pairs_ * size_));
   std::vector<double> w(w_.begin(), w_.begin() + static_cast<std::ptrdiff_t>(pairs_ * size_));
-  memory.array(name + ".v", ArrayKind::interface_columns, v, {{}, count});
-  memory.array(name + ".w", ArrayKind::interface_columns, w, {{}, count});
-  if (!memory.recalls() || count == 0) return;
+  archive.array(name + ".v", ArrayKind::interface_columns, v, {{}, count});
+  archive.array(name + ".w", ArrayKind::interface_columns, w, {{}, count});
+  if (!archive.recalls() || count == 0) return;
   size_ = v.size() / count;
   pairs_ = std::min(count, most_);
   next_ = pairs_ < most_ ? pairs_ : std::min(static_cast<std::size_t>(next), most_ - 1);

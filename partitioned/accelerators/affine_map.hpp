@@ -6,7 +6,7 @@
 
 #include "partitioned/accelerators/low_rank_map.hpp"
 #include "partitioned/interface_space.hpp"
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 
 namespace fsi {
 
@@ -40,7 +40,7 @@ class AffineMap {
   /// What corrections are made of: pairs and rank of L.
   int columns() const { return static_cast<int>(pairs_ + before_.rank()); }
 
-  void keep(Memory& memory, const std::string& name);
+  void keep(RestartArchive& archive, const std::string& name);
 
  private:
   using Columns = std::vector<double>;  ///< of as many numbers as an interface vector, one behind the other

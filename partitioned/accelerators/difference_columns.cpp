@@ -46,9 +46,9 @@ const FilteredQr& DifferenceColumns::factorise() {
   return *qr_;
 }
 
-void DifferenceColumns::keep(Memory& memory, const std::string& name) {
-  if (memory.recalls()) clear();
-  if (!memory.wants({name + ".age", name + ".v", name + ".w"})) return;
+void DifferenceColumns::keep(RestartArchive& archive, const std::string& name) {
+  if (archive.recalls()) clear();
+  if (!archive.wants({name + ".age", name + ".v", name + ".w"})) return;
   std::vector<double> v, w, age;
   for (const Column& column : columns_) {
     v.insert(v.end(), column.v.begin(), column.v.end());
@@ -57,10 +57,10 @@ void DifferenceColumns::keep(Memory& memory, const std::string& name) {
   }
   ArrayRule ages;
   ages.each = count_range;
-  memory.array(name + ".age", ArrayKind::alike, age, ages);
-  memory.array(name + ".v", ArrayKind::interface_columns, v, {{}, age.size()});
-  memory.array(name + ".w", ArrayKind::interface_columns, w, {{}, age.size()});
-  if (!memory.recalls()) return;
+  archive.array(name + ".age", ArrayKind::alike, age, ages);
+  archive.array(name + ".v", ArrayKind::interface_columns, v, {{}, age.size()});
+  archive.array(name + ".w", ArrayKind::interface_columns, w, {{}, age.size()});
+  if (!archive.recalls()) return;
   const auto size = static_cast<std::ptrdiff_t>(age.empty() ? 0 : v.size() / age.size());
   for (std::size_t j = 0; j < age.size(); ++j) {
     const auto from = static_cast<std::ptrdiff_t>(j) * size;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "partitioned/accelerators/filtered_qr.hpp"
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 
 namespace fsi {
 
@@ -41,7 +41,7 @@ class DifferenceColumns {
   std::size_t size() const { return columns_.size(); }
   const Column& operator[](std::size_t j) const { return columns_[j]; }
 
-  void keep(Memory& memory, const std::string& name);
+  void keep(RestartArchive& archive, const std::string& name);
 
  private:
   std::size_t most_;

@@ -73,10 +73,10 @@ void IqnIls::accept(const std::vector<double>& x, const std::vector<double>& r) 
   columns_.finish();
 }
 
-void IqnIls::keep(Memory& memory) {
-  columns_.keep(memory, "iqn_ils");
-  before_.keep(memory, "iqn_ils.before");
-  memory.count_if_there("iqn_ils.before.age", before_age_);
+void IqnIls::keep(RestartArchive& archive) {
+  columns_.keep(archive, "iqn_ils");
+  before_.keep(archive, "iqn_ils.before");
+  archive.count_if_there("iqn_ils.before.age", before_age_);
 }
 
 }  // namespace fsi

@@ -33,7 +33,7 @@ class IqnIls : public Accelerator {
   void abandon() override { columns_.abandon(); }
   void change(bool longer) override;
   AcceleratorStatus status() const override { return status_; }
-  void keep(Memory& memory) override;
+  void keep(RestartArchive& archive) override;
 
  private:
   void add_difference(const std::vector<double>& x, const std::vector<double>& r);

@@ -69,8 +69,8 @@ void IqnImvj::accept(const std::vector<double>& x, const std::vector<double>& r)
     jacobian_.truncate(static_cast<std::size_t>(options_.columns + 1) / 2, LowRankMap::truncation);
 }
 
-void IqnImvj::keep(Memory& memory) {
-  jacobian_.keep(memory, "iqn_imvj");
+void IqnImvj::keep(RestartArchive& archive) {
+  jacobian_.keep(archive, "iqn_imvj");
 }
 
 }  // namespace fsi

@@ -23,7 +23,7 @@ class IqnImvj : public Accelerator {
   void correct(std::vector<double>& x, const std::vector<double>& r) override;
   void accept(const std::vector<double>& x, const std::vector<double>& r) override;
   AcceleratorStatus status() const override { return status_; }
-  void keep(Memory& memory) override;
+  void keep(RestartArchive& archive) override;
 
  private:
   std::vector<double> old_jacobian_times(const std::vector<double>& r) const;

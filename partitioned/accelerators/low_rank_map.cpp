@@ -102,18 +102,18 @@ void LowRankMap::truncate(std::size_t rank, double tolerance) {
   b_ = columns_of(right);
 }
 
-void LowRankMap::keep(Memory& memory, const std::string& name) {
-  if (memory.recalls()) clear();
-  if (!memory.wants({name + ".rank", name + ".a", name + ".b"})) return;
+void LowRankMap::keep(RestartArchive& archive, const std::string& name) {
+  if (archive.recalls()) clear();
+  if (!archive.wants({name + ".rank", name + ".a", name + ".b"})) return;
   std::vector<double> a, b;
   for (const auto& column : a_) a.insert(a.end(), column.begin(), column.end());
   for (const auto& column : b_) b.insert(b.end(), column.begin(), column.end());
   auto rank = static_cast<double>(a_.size());
-  memory.number(name + ".rank", rank, count_range);
+  archive.number(name + ".rank", rank, count_range);
   const auto columns = static_cast<std::size_t>(rank);
-  memory.array(name + ".a", ArrayKind::interface_columns, a, {{}, columns});
-  memory.array(name + ".b", ArrayKind::interface_columns, b, {{}, columns});
-  if (!memory.recalls() || columns == 0) return;
+  archive.array(name + ".a", ArrayKind::interface_columns, a, {{}, columns});
+  archive.array(name + ".b", ArrayKind::interface_columns, b, {{}, columns});
+  if (!archive.recalls() || columns == 0) return;
   const auto size = static_cast<std::ptrdiff_t>(a.size() / columns);
   for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(columns); ++i)
     add({a.begin() + i * size, a.begin() + (i + 1) * size}, {b.begin() + i * size, b.begin() + (i + 1) * size});

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "partitioned/interface_space.hpp"
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 
 namespace fsi {
 
@@ -26,7 +26,7 @@ class LowRankMap {
   /// largest left out (the restart RS-SVD of [Scheufele2017]).
   void truncate(std::size_t rank, double tolerance);
 
-  void keep(Memory& memory, const std::string& name);
+  void keep(RestartArchive& archive, const std::string& name);
 
   const std::vector<std::vector<double>>& left() const { return a_; }
   const std::vector<std::vector<double>>& right() const { return b_; }

@@ -116,8 +116,8 @@ void NewtonKrylov::probe(std::vector<double>& x) {
   axpy(-beta_ * std::min(1.0, probe_length / length), p_.back(), x);
 }
 
-void NewtonKrylov::keep(Memory& memory) {
-  columns_.keep(memory, "newton_krylov");
+void NewtonKrylov::keep(RestartArchive& archive) {
+  columns_.keep(archive, "newton_krylov");
 }
 
 /// y = argmin |beta e_1 + H y|; returns the minimum. By Givens rotations, anew for each column: H is tiny.

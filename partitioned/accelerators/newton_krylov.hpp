@@ -35,7 +35,7 @@ class NewtonKrylov : public Accelerator {
   void aim(double residual) override { aim_ = residual; }
   AcceleratorStatus status() const override { return {0, static_cast<int>(h_.size())}; }
   bool allows_change() const override { return at_base_; }
-  void keep(Memory& memory) override;
+  void keep(RestartArchive& archive) override;
 
  private:
   void begin(const std::vector<double>& x, const std::vector<double>& r);

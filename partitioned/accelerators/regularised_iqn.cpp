@@ -102,9 +102,9 @@ void RegularisedIqn::accept(const std::vector<double>& x, const std::vector<doub
   add_difference(x, r);
 }
 
-void RegularisedIqn::keep(Memory& memory) {
-  if (memory.recalls()) drop(v_.size());
-  if (!memory.wants({"regularised_iqn.age", "regularised_iqn.v", "regularised_iqn.w"})) return;
+void RegularisedIqn::keep(RestartArchive& archive) {
+  if (archive.recalls()) drop(v_.size());
+  if (!archive.wants({"regularised_iqn.age", "regularised_iqn.v", "regularised_iqn.w"})) return;
   std::vector<double> v, w, age(age_.begin(), age_.end());
   for (std::size_t j = 0; j < v_.size(); ++j) {
     v.insert(v.end(), v_[j].begin(), v_[j].end());
@@ -112,10 +112,10 @@ void RegularisedIqn::keep(Memory& memory) {
   }
   ArrayRule ages;
   ages.each = count_range;
-  memory.array("regularised_iqn.age", ArrayKind::alike, age, ages);
-  memory.array("regularised_iqn.v", ArrayKind::interface_columns, v, {{}, age.size()});
-  memory.array("regularised_iqn.w", ArrayKind::interface_columns, w, {{}, age.size()});
-  if (!memory.recalls() || age.empty()) return;
+  archive.array("regularised_iqn.age", ArrayKind::alike, age, ages);
+  archive.array("regularised_iqn.v", ArrayKind::interface_columns, v, {{}, age.size()});
+  archive.array("regularised_iqn.w", ArrayKind::interface_columns, w, {{}, age.size()});
+  if (!archive.recalls() || age.empty()) return;
   const auto size = static_cast<std::ptrdiff_t>(v.size() / age.size());
   for (std::size_t j = 0; j < age.size(); ++j) {
     const auto from = static_cast<std::ptrdiff_t>(j) * size;

@@ -27,7 +27,7 @@ class RegularisedIqn : public Accelerator {
   void abandon() override;
   void change(bool longer) override;
   AcceleratorStatus status() const override { return status_; }
-  void keep(Memory& memory) override;
+  void keep(RestartArchive& archive) override;
 
  private:
   void add_difference(const std::vector<double>& x, const std::vector<double>& r);

@@ -39,8 +39,8 @@ void AitkenRelaxation::correct(std::vector<double>& x, const std::vector<double>
   axpy(factor_, r, x);
 }
 
-void AitkenRelaxation::keep(Memory& memory) {
-  memory.number_if_there("relaxation", factor_);
+void AitkenRelaxation::keep(RestartArchive& archive) {
+  archive.number_if_there("relaxation", factor_);
 }
 
 }  // namespace fsi

@@ -34,7 +34,7 @@ class AitkenRelaxation : public Accelerator {
   void correct(std::vector<double>& x, const std::vector<double>& r) override;
   void abandon() override { factor_ = start_; }
   AcceleratorStatus status() const override { return {factor_, 0}; }
-  void keep(Memory& memory) override;
+  void keep(RestartArchive& archive) override;
 
  private:
   InterfaceSpace space_;

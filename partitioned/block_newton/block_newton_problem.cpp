@@ -434,13 +434,13 @@ double BlockNewtonProblem<n>::rounding() {
 }
 
 template <int n>
-void BlockNewtonProblem<n>::keep(Memory& memory) {
-  memory.number_if_there("block_newton.stiffness", stiffness_);
-  memory.number_if_there("block_newton.period", period_);
-  keep_linearisation("wall", wall_, memory);
-  keep_linearisation("fluid", fluid_, memory,
+void BlockNewtonProblem<n>::keep(RestartArchive& archive) {
+  archive.number_if_there("block_newton.stiffness", stiffness_);
+  archive.number_if_there("block_newton.period", period_);
+  keep_linearisation("wall", wall_, archive);
+  keep_linearisation("fluid", fluid_, archive,
                      [this](const StepRates& rates) { robin_.impedance = impedance_of(rates); });
-  map_.keep(memory, "block_newton");
+  map_.keep(archive, "block_newton");
 }
 
 #define FSI_INSTANTIATE(n) template class BlockNewtonProblem<n>;

@@ -77,7 +77,7 @@ class BlockNewtonProblem : public NewtonProblem {
   std::string linear_decision() const { return wall_.solver().decides(); }
   /// Pairs and rank that corrections of the datum are made of.
   int columns() const { return map_.columns(); }
-  void keep(Memory& memory);
+  void keep(RestartArchive& archive);
 
   BlockNewtonCost cost;  ///< of the step; its owner sets it back
 

@@ -21,7 +21,7 @@ NewtonOptions newton_options(const Case& setup) {
 template <int n>
 BlockNewtonStepper<n>::BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup,
                                           const CouplingScheme& scheme)
-    : NewtonMarch<n>(scene, loads, newton_options(setup)),
+    : NewtonStepperBase<n>(scene, loads, newton_options(setup)),
       stiffness_(robin_stiffness(setup, scene)),
       choices_{{"partitioned.scheme", std::string(scheme.name),
                 fmt::format("{}; its Robin condition is {:g} times the membrane's, as {}",
@@ -44,7 +44,7 @@ std::optional<CouplingMethod> BlockNewtonStepper<n>::coupling_method() const {
 template <int n>
 StepReport BlockNewtonStepper<n>::advance(State& state) {
   problem_.cost = {};
-  return NewtonMarch<n>::advance(state);
+  return NewtonStepperBase<n>::advance(state);
 }
 
 template <int n>

@@ -13,7 +13,7 @@ namespace fsi {
 /// Advances fluid and wall by Newton's method for both, its linear systems solved by passes between the two: coupling of
 /// the kind "block", which needs the Jacobians of both media.
 template <int n>
-class BlockNewtonStepper : public NewtonMarch<n> {
+class BlockNewtonStepper : public NewtonStepperBase<n> {
  public:
   BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme);
 
@@ -24,7 +24,7 @@ class BlockNewtonStepper : public NewtonMarch<n> {
     return {problem_.fluid().fluid_values(), problem_.wall().wall_values()};
   }
   StepReport advance(State& state) override;
-  void keep(Memory& memory) override { problem_.keep(memory); }
+  void keep(RestartArchive& archive) override { problem_.keep(archive); }
 
  private:
   NewtonProblem& equations(State& state, StepData& data) override;

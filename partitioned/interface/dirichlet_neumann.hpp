@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "algebra/vector_operations.hpp"
-#include "partitioned/interface/interface_problem.hpp"
+#include "partitioned/interface/coupling_pass.hpp"
 
 namespace fsi {
 
@@ -11,8 +11,8 @@ namespace fsi {
 /// u = (d - d^(n-1)) / dt on the interface; the fluid's interface residual as load on the wall; the wall's answer d~;
 /// r = d~ - d.
 template <int n>
-class DirichletNeumann : public InterfaceProblem<n> {
-  using Base = InterfaceProblem<n>;
+class DirichletNeumann : public CouplingPass<n> {
+  using Base = CouplingPass<n>;
   using Base::cost, Base::scene_, Base::state_, Base::data_;
 
  public:
@@ -57,9 +57,9 @@ class DirichletNeumann : public InterfaceProblem<n> {
     return pass;
   }
 
-  void keep(Memory& memory) override {
-    Base::keep(memory);
-    keep_linearisation("fluid", fluid_, memory);
+  void keep(RestartArchive& archive) override {
+    Base::keep(archive);
+    keep_linearisation("fluid", fluid_, archive);
   }
 
  private:

@@ -56,11 +56,11 @@ class InexactRobinNeumann : public RobinNeumann<n> {
     return true;
   }
 
-  void keep(Memory& memory) override {
+  void keep(RestartArchive& archive) override {
     double changed = changed_ ? 1 : 0;
-    memory.number_if_there("changed_coefficient", changed);
+    archive.number_if_there("changed_coefficient", changed);
     changed_ = changed != 0;
-    Base::keep(memory);
+    Base::keep(archive);
   }
 
   Pass pass(const std::vector<double>& x, const PassAccuracy& accuracy) override {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "algebra/vector_operations.hpp"
-#include "partitioned/interface/interface_problem.hpp"
+#include "partitioned/interface/coupling_pass.hpp"
 #include "partitioned/interface/membrane.hpp"
 #include "partitioned/medium_solvers.hpp"
 #include "time/predictor.hpp"
@@ -22,8 +22,8 @@ namespace fsi {
 /// x = d^(n-1) + dt g / c. The next datum is then x~ = x + (d~ - d_f), d_f being the displacement that the fluid gave
 /// the interface: r = d~ - d_f.
 template <int n>
-class RobinNeumann : public InterfaceProblem<n> {
-  using Base = InterfaceProblem<n>;
+class RobinNeumann : public CouplingPass<n> {
+  using Base = CouplingPass<n>;
 
  protected:
   using Base::cost, Base::scene_, Base::membrane_, Base::state_, Base::data_, Base::wall_;
@@ -104,14 +104,14 @@ class RobinNeumann : public InterfaceProblem<n> {
     stage_loads_.clear();
   }
 
-  void keep(Memory& memory) override {
-    Base::keep(memory);
-    memory.number_if_there("stiffening", stiffening_);
-    keep_linearisation("fluid", fluid_, memory,
+  void keep(RestartArchive& archive) override {
+    Base::keep(archive);
+    archive.number_if_there("stiffening", stiffening_);
+    keep_linearisation("fluid", fluid_, archive,
                        [this](const StepRates& rates) { robin_.impedance = impedance_of(rates); });
-    if (!memory.wants({"load0", "load1", "load2"})) return;
+    if (!archive.wants({"load0", "load1", "load2"})) return;
     for (std::size_t level = 0; level < loads_.size(); ++level)
-      memory.array("load" + std::to_string(level), ArrayKind::interface, loads_[level]);
+      archive.array("load" + std::to_string(level), ArrayKind::interface, loads_[level]);
   }
 
  protected:

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "algebra/vector_operations.hpp"
-#include "partitioned/interface/interface_problem.hpp"
+#include "partitioned/interface/coupling_pass.hpp"
 #include "partitioned/interface/robin_coefficient.hpp"
 
 namespace fsi {
@@ -26,8 +26,8 @@ struct RobinSides {
 /// Where a step is iterated, x is the datum v of the wall's condition, given as a displacement; a pass and its next datum are
 ///   W + c (w - v) = 0,   L = c (w - v),   F - L + c (u - w) = 0,   v~ = u - F/c,   r = period (v~ - v) = 2 period (u - w).
 template <int n>
-class RobinRobin : private RobinSides, public InterfaceProblem<n> {
-  using Base = InterfaceProblem<n>;
+class RobinRobin : private RobinSides, public CouplingPass<n> {
+  using Base = CouplingPass<n>;
 
  public:
   using Base::cost;
@@ -110,11 +110,11 @@ class RobinRobin : private RobinSides, public InterfaceProblem<n> {
   }
   double traction_gap() const override { return traction_gap_; }
 
-  void keep(Memory& memory) override {
-    Base::keep(memory);
-    keep_linearisation("fluid", fluid_, memory);
-    if (!memory.wants({"robin_traction"})) return;
-    memory.array("robin_traction", ArrayKind::interface, traction_);
+  void keep(RestartArchive& archive) override {
+    Base::keep(archive);
+    keep_linearisation("fluid", fluid_, archive);
+    if (!archive.wants({"robin_traction"})) return;
+    archive.array("robin_traction", ArrayKind::interface, traction_);
     known_ = true;
   }
 

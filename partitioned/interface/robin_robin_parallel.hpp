@@ -32,11 +32,11 @@ class RobinRobinParallel : public RobinRobin<n> {
     wall_velocity_ = next_velocity_;
   }
 
-  void keep(Memory& memory) override {
-    Base::keep(memory);
-    if (!memory.wants({"robin_load", "robin_velocity"})) return;
-    memory.array("robin_load", ArrayKind::interface, wall_load_);
-    memory.array("robin_velocity", ArrayKind::interface, wall_velocity_);
+  void keep(RestartArchive& archive) override {
+    Base::keep(archive);
+    if (!archive.wants({"robin_load", "robin_velocity"})) return;
+    archive.array("robin_load", ArrayKind::interface, wall_load_);
+    archive.array("robin_velocity", ArrayKind::interface, wall_velocity_);
   }
 
  protected:

@@ -8,7 +8,7 @@
 namespace fsi {
 
 template <int n>
-double added_mass(const Scene<n>& scene, InterfaceProblem<n>& problem, const InterfaceSpace& space, int order,
+double added_mass(const Scene<n>& scene, CouplingPass<n>& problem, const InterfaceSpace& space, int order,
                   const State& state, const StepData& data) {
   constexpr int passes = 5;           // modes are few and far apart: the longest wave's counts
   constexpr double amplitude = 1e-6;  // of the wall's thickness: the answer is linear
@@ -56,8 +56,8 @@ double added_mass(const Scene<n>& scene, InterfaceProblem<n>& problem, const Int
   return growth;
 }
 
-#define FSI_INSTANTIATE(n)                                                                                       \
-  template double added_mass<n>(const Scene<n>&, InterfaceProblem<n>&, const InterfaceSpace&, int, const State&, \
+#define FSI_INSTANTIATE(n)                                                                                   \
+  template double added_mass<n>(const Scene<n>&, CouplingPass<n>&, const InterfaceSpace&, int, const State&, \
                                 const StepData&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE

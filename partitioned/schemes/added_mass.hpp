@@ -1,6 +1,6 @@
 #pragma once
 
-#include "partitioned/interface/interface_problem.hpp"
+#include "partitioned/interface/coupling_pass.hpp"
 #include "partitioned/interface_space.hpp"
 
 namespace fsi {
@@ -9,7 +9,7 @@ namespace fsi {
 /// of the largest eigenvalue of d -> d~ at rest, by power iteration, an estimate from below. 0: no answer.
 /// \param order  of the extrapolated start
 template <int n>
-double added_mass(const Scene<n>& scene, InterfaceProblem<n>& problem, const InterfaceSpace& space, int order,
+double added_mass(const Scene<n>& scene, CouplingPass<n>& problem, const InterfaceSpace& space, int order,
                   const State& state, const StepData& data);
 
 }  // namespace fsi

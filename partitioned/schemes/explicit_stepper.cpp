@@ -32,9 +32,9 @@ void ExplicitStepper<n>::finish_step(const State& state) {
 }
 
 template <int n>
-void ExplicitStepper<n>::keep(Memory& memory) {
-  Base::keep(memory);
-  march_.keep(memory);
+void ExplicitStepper<n>::keep(RestartArchive& archive) {
+  Base::keep(archive);
+  march_.keep(archive);
 }
 
 template <int n>

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "partitioned/schemes/explicit_coupling_monitor.hpp"
 #include "partitioned/schemes/iterating_steppers.hpp"
-#include "partitioned/schemes/one_pass_march.hpp"
 
 namespace fsi {
 
@@ -23,7 +23,7 @@ class ExplicitStepper : public DirichletNeumannStepper<n> {
   bool can_retry() const override { return false; }
   std::string unchecked() const override { return march_.unchecked(); }
   void finish_step(const State& state) override;
-  void keep(Memory& memory) override;
+  void keep(RestartArchive& archive) override;
 
  private:
   /// Without iterations a step is its extrapolation, and the second order makes it unstable at three times the wall's mass
@@ -37,7 +37,7 @@ class ExplicitStepper : public DirichletNeumannStepper<n> {
   void take_back() override { march_ = before_; }
   std::string advice_without_answer() const override { return Base::scheme().advice; }
 
-  OnePassMarch march_, before_;  ///< of the steps; before the one in progress
+  ExplicitCouplingMonitor march_, before_;  ///< of the steps; before the one in progress
 };
 
 /// How a pass is named where a step is one.

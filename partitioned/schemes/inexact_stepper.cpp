@@ -75,11 +75,11 @@ std::optional<CouplingMethod> InexactStepper<n>::coupling_method() const {
 }
 
 template <int n>
-void InexactStepper<n>::keep(Memory& memory) {
-  if (memory.recalls() && memory.has("solved_passes") && !solves_) solve_media();
-  if (double solved = 1; solves_) memory.number("solved_passes", solved);
-  Base::keep(memory);
-  Base::keep_jump(memory);
+void InexactStepper<n>::keep(RestartArchive& archive) {
+  if (archive.recalls() && archive.has("solved_passes") && !solves_) solve_media();
+  if (double solved = 1; solves_) archive.number("solved_passes", solved);
+  Base::keep(archive);
+  Base::keep_jump(archive);
 }
 
 template <int n>

@@ -21,7 +21,7 @@ class InexactStepper : public CouplingStepper<n> {
   InexactStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme);
 
   std::optional<CouplingMethod> coupling_method() const override;
-  void keep(Memory& memory) override;
+  void keep(RestartArchive& archive) override;
 
  private:
   using GoodPass = typename Base::GoodPass;

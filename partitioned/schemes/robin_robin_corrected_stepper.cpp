@@ -63,9 +63,9 @@ void RobinRobinCorrectedStepper<n>::finish_step(const State& state) {
 }
 
 template <int n>
-void RobinRobinCorrectedStepper<n>::keep(Memory& memory) {
-  Base::keep(memory);
-  prediction_.keep(memory);
+void RobinRobinCorrectedStepper<n>::keep(RestartArchive& archive) {
+  Base::keep(archive);
+  prediction_.keep(archive);
 }
 
 #define FSI_INSTANTIATE(n) template class RobinRobinCorrectedStepper<n>;

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "partitioned/interface/robin_robin_corrected.hpp"
-#include "partitioned/schemes/prediction_march.hpp"
+#include "partitioned/schemes/predictor_stepper.hpp"
 #include "partitioned/schemes/robin_robin_stepper.hpp"
 
 namespace fsi {
@@ -18,7 +18,7 @@ class RobinRobinCorrectedStepper : public RobinRobinStepper<n> {
   RobinRobinCorrectedStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme);
 
   void finish_step(const State& state) override;
-  void keep(Memory& memory) override;
+  void keep(RestartArchive& archive) override;
 
  private:
   RobinRobinCorrectedStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme,
@@ -26,7 +26,7 @@ class RobinRobinCorrectedStepper : public RobinRobinStepper<n> {
   void begin_step(const State& state) override;
 
   RobinRobinCorrected<n>& corrected_;  ///< the problem
-  PredictionMarch<n> prediction_;
+  PredictorStepper<n> prediction_;
 };
 
 }  // namespace fsi

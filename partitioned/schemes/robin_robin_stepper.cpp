@@ -40,10 +40,10 @@ std::optional<CouplingMethod> RobinRobinStepper<n>::coupling_method() const {
 }
 
 template <int n>
-void RobinRobinStepper<n>::keep(Memory& memory) {
-  Base::keep(memory);
-  march_.keep(memory);
-  Base::keep_jump(memory);
+void RobinRobinStepper<n>::keep(RestartArchive& archive) {
+  Base::keep(archive);
+  march_.keep(archive);
+  Base::keep_jump(archive);
 }
 
 template <int n>

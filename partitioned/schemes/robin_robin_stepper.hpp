@@ -6,7 +6,7 @@
 
 #include "partitioned/coupling_stepper.hpp"
 #include "partitioned/interface/robin_robin.hpp"
-#include "partitioned/schemes/loose_march.hpp"
+#include "partitioned/schemes/splitting_error_monitor.hpp"
 
 namespace fsi {
 
@@ -29,7 +29,7 @@ class RobinRobinStepper : public CouplingStepper<n> {
 
   std::optional<CouplingMethod> coupling_method() const override;
   std::string unchecked() const override { return march_.unchecked(); }
-  void keep(Memory& memory) override;
+  void keep(RestartArchive& archive) override;
 
  protected:
   void begin_step(const State& state) override;
@@ -43,7 +43,7 @@ class RobinRobinStepper : public CouplingStepper<n> {
   std::string advice_without_answer() const override { return Base::scheme().advice; }
 
   const RobinRobin<n>& problem_;
-  LooseMarch march_, before_;  ///< of the steps; before the one in progress
+  SplittingErrorMonitor march_, before_;  ///< of the steps; before the one in progress
 };
 
 /// The same with data of the last step on both sides (interface/robin_robin_parallel.hpp).

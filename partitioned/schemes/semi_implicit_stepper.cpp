@@ -33,9 +33,9 @@ std::string SemiImplicitStepper<n>::unchecked() const {
 }
 
 template <int n>
-void SemiImplicitStepper<n>::keep(Memory& memory) {
-  Base::keep(memory);
-  memory.number_if_there("domain_gap", gap_);
+void SemiImplicitStepper<n>::keep(RestartArchive& archive) {
+  Base::keep(archive);
+  archive.number_if_there("domain_gap", gap_);
 }
 
 template <int n>

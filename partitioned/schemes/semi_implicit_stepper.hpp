@@ -17,7 +17,7 @@ class SemiImplicitStepper : public RobinNeumannStepper<n> {
 
   /// By how much the domain has missed the wall, where that is not small.
   std::string unchecked() const override;
-  void keep(Memory& memory) override;
+  void keep(RestartArchive& archive) override;
 
  private:
   /// Part of the vessel's radius up to which the fluid's domain may miss the wall (docs/coupling.md).

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/memory.hpp"
 #include "base/names.hpp"
 #include "math/pi.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "algebra/direct_solver.hpp"
-#include "base/memory.hpp"
+#include "base/available_memory.hpp"
 
 namespace fsi {
 namespace {

@@ -146,7 +146,7 @@ TEST(PeriodChange, GoesOnAfterARestart) {
   PeriodComparison before(period, 1, 2), after(period, 1, 2);
   int i = 0;
   for (; i * step < 1.3 * period; ++i) before.add(i * step, decaying(i * step));
-  auto memory = memory_of(before);
+  auto memory = archive_of(before);
   memory.turn();
   after.keep(memory);
   std::vector<PeriodChange> found;

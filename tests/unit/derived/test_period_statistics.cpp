@@ -97,25 +97,25 @@ TEST(PeriodStatistics, GoesOnFromItsMemoryBitForBit) {
     whole.add(0.1 * k, shear(0.1 * k));
     first.add(0.1 * k, shear(0.1 * k));
   }
-  WrittenMemory memory = memory_of(first);
-  second.keep(memory.turn());
+  WrittenArchive archive = archive_of(first);
+  second.keep(archive.turn());
   for (; k <= 40; ++k) {
     whole.add(0.1 * k, shear(0.1 * k));
     second.add(0.1 * k, shear(0.1 * k));
   }
-  EXPECT_EQ(memory_of(whole).arrays, memory_of(second).arrays);
+  EXPECT_EQ(archive_of(whole).arrays, archive_of(second).arrays);
 }
 
 TEST(PeriodStatistics, LeavesAMemoryOfAnotherPeriod) {
   PeriodStatistics s(1), other(2);
   s.add(0, {1, 0, 0});
   s.add(1, {1, 0, 0});
-  WrittenMemory memory = memory_of(s);
-  other.keep(memory.turn());
-  EXPECT_TRUE(memory_of(other).arrays.empty()) << "it begins anew";
-  WrittenMemory none;
+  WrittenArchive archive = archive_of(s);
+  other.keep(archive.turn());
+  EXPECT_TRUE(archive_of(other).arrays.empty()) << "it begins anew";
+  WrittenArchive none;
   s.keep(none.turn());
-  EXPECT_FALSE(memory_of(s).arrays.empty());
+  EXPECT_FALSE(archive_of(s).arrays.empty());
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ inline const ResultTable energy_table{
     {},
     {},
     false,
-    ResultTable::Lack{"output.energy", "is wanted, but the earlier run wrote none", "continue without"}};
+    ResultTable::Missing{"output.energy", "is wanted, but the earlier run wrote none", "continue without"}};
 inline ResultTable centre_table(std::vector<double> z) {
   return {"centerline_pressure.csv", "time_ms,z_mm,pressure_Pa", RowsPer::level, {}, std::move(z)};
 }

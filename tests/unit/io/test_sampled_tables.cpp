@@ -22,7 +22,7 @@ const ResultTable points{"points.csv",
                          {},
                          {Measure::pressure, Measure::velocity},
                          true,
-                         ResultTable::Lack{"output", "the earlier run wrote none", "continue without"}};
+                         ResultTable::Missing{"output", "the earlier run wrote none", "continue without"}};
 
 std::vector<ResultTable> tables_of(const ResultTable& sampled = points) {
   return {steps_table, flow_table, sampled};

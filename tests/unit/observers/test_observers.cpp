@@ -61,10 +61,10 @@ class CouplingStepper : public Stepper {
  public:
   StepReport advance(State& /*state*/) override { return {}; }
   bool reports_coupling() const override { return true; }
-  void keep(Memory& /*memory*/) override {}
+  void keep(RestartArchive& /*archive*/) override {}
 };
 
-class Silent : public Voice {
+class Silent : public Messages {
  public:
   void warn(const std::string& /*said*/) override {}
   void say(const std::string& /*said*/) override {}
@@ -75,7 +75,7 @@ class Watchers : public FolderTest {
  protected:
   Watchers() { setup_.output.energy = false; }
   Observers observers() {
-    return Observers(Watched<3>{
+    return Observers(RunView<3>{
         setup_, *scene_, loads_, stepper_, state_, 1.0, points_, derived_, grids_, shares_, folder_, {}, voice_});
   }
 

@@ -141,14 +141,14 @@ TYPED_TEST(QuasiNewton, GoesOnBitForBitFromItsMemory) {
   TypeParam accelerator{QuasiNewtonOptions{}}, restarted{QuasiNewtonOptions{}};
   auto x = zero(map);
   corrections(accelerator, map, x, 1e-6);
-  WrittenMemory memory = memory_of(accelerator);
-  restarted.keep(memory.turn());
+  WrittenArchive archive = archive_of(accelerator);
+  restarted.keep(archive.turn());
   const AddedMassMap next{12, 10.0, 0.3};
   auto y = x;
   corrections(accelerator, next, x, 1e-6);
   corrections(restarted, next, y, 1e-6);
   EXPECT_EQ(x, y);
-  const WrittenMemory a = memory_of(accelerator), b = memory_of(restarted);
+  const WrittenArchive a = archive_of(accelerator), b = archive_of(restarted);
   EXPECT_EQ(a.arrays, b.arrays);
   EXPECT_EQ(a.numbers, b.numbers);
 }
@@ -163,8 +163,8 @@ TYPED_TEST(QuasiNewton, KeepsItsMemoryBounded) {
     map.shift = 0.2 * step;
     EXPECT_LT(corrections(accelerator, map, x, 1e-6), 300);
     std::size_t numbers = 0;
-    const WrittenMemory memory = memory_of(accelerator);
-    for (const auto& [name, array] : memory.arrays) numbers += array.size();
+    const WrittenArchive archive = archive_of(accelerator);
+    for (const auto& [name, array] : archive.arrays) numbers += array.size();
     EXPECT_LE(numbers, 2u * 10 * 8 + 10);
   }
 }
@@ -206,7 +206,7 @@ TEST(IqnIls, AnAbandonedStepTeachesNothing) {
     for (double& value : r) value *= -1e3;
     accelerator.correct(x, r);
   }
-  const auto ages = [&] { return memory_of(accelerator).arrays.at("iqn_ils.age"); };
+  const auto ages = [&] { return archive_of(accelerator).arrays.at("iqn_ils.age"); };
   EXPECT_EQ(ages().front(), 0);
   accelerator.abandon();
   ASSERT_FALSE(ages().empty());
@@ -266,7 +266,7 @@ TEST(RegularisedIqn, ForgetsOldStepsAndAbandonedOnes) {
   RegularisedIqn accelerator(options);
   auto x = zero(map);
   corrections(accelerator, map, x, 1e-8);
-  const auto ages = [&] { return memory_of(accelerator).arrays.at("regularised_iqn.age"); };
+  const auto ages = [&] { return archive_of(accelerator).arrays.at("regularised_iqn.age"); };
   EXPECT_EQ(ages().size(), 5u) << "the limit";
   accelerator.start();
   for (int k = 0; k < 3; ++k) accelerator.correct(x, map.residual(x));
@@ -284,14 +284,14 @@ TEST(RegularisedIqn, GoesOnBitForBitFromItsMemory) {
   RegularisedIqn accelerator(options), restarted(options);
   auto x = zero(map);
   ASSERT_LT(corrections(accelerator, map, x, 1e-6), 200);
-  WrittenMemory memory = memory_of(accelerator);
-  restarted.keep(memory.turn());
+  WrittenArchive archive = archive_of(accelerator);
+  restarted.keep(archive.turn());
   const AddedMassMap next{12, 10.0, 0.3};
   auto y = x;
   corrections(accelerator, next, x, 1e-6);
   corrections(restarted, next, y, 1e-6);
   EXPECT_EQ(x, y);
-  EXPECT_EQ(memory_of(accelerator).arrays, memory_of(restarted).arrays);
+  EXPECT_EQ(archive_of(accelerator).arrays, archive_of(restarted).arrays);
 }
 
 TEST(NewtonKrylov, NeedsABaseAndADirectionPerDimensionOnALinearProblem) {
@@ -325,8 +325,8 @@ TEST(NewtonKrylov, GoesOnBitForBitFromItsMemory) {
   NewtonKrylov method(QuasiNewtonOptions{}), restarted(QuasiNewtonOptions{});
   auto x = zero(map);
   corrections(method, map, x, 1e-6);
-  WrittenMemory memory = memory_of(method);
-  restarted.keep(memory.turn());
+  WrittenArchive archive = archive_of(method);
+  restarted.keep(archive.turn());
   auto y = x;
   EXPECT_EQ(corrections(method, next, x, 1e-6), corrections(restarted, next, y, 1e-6));
   EXPECT_EQ(x, y);
@@ -422,9 +422,9 @@ TEST(AffineMap, GoesOnBitForBitFromItsMemory) {
   AffineMap method(5, 1e-2), restarted(5, 1e-2);
   AddedMassMap map{12};
   linear_corrections(method, map, zero(map), 1e-6);
-  WrittenMemory memory;
-  method.keep(memory, "map");
-  restarted.keep(memory.turn(), "map");
+  WrittenArchive archive;
+  method.keep(archive, "map");
+  restarted.keep(archive.turn(), "map");
   const std::vector<double> r = map.residual(zero(map));
   EXPECT_EQ(method.correction(r), restarted.correction(r));
   map.shift = 0.3;

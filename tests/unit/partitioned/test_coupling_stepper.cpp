@@ -48,7 +48,7 @@ class Coupled {
   StepReport advance(State& state) { return made_->advance(state); }
   const StepReport& report() const { return made_->report(); }
   std::string unchecked() const { return made_->unchecked(); }
-  void keep(Memory& memory) { made_->keep(memory); }
+  void keep(RestartArchive& archive) { made_->keep(archive); }
   void keep_balances(bool on) { made_->keep_balances(on); }
 
  private:
@@ -148,8 +148,8 @@ TEST_P(EachScheme, GoesOnBitForBitFromItsMemory) {
   State state = scene->at_rest();
   for (int n = 0; n < 3; ++n) stepper->advance(state);
   State copy = state;
-  WrittenMemory memory = memory_of(*stepper);
-  again->keep(memory.turn());
+  WrittenArchive archive = archive_of(*stepper);
+  again->keep(archive.turn());
   for (int n = 0; n < 2; ++n) {
     const auto first = stepper->advance(state), second = again->advance(copy);
     EXPECT_EQ(first.outer_iterations, second.outer_iterations);
@@ -304,8 +304,8 @@ TEST(CouplingStepper, ExplicitClaimsNothingBeforeItsCheckCanSpeak) {
     stepper.advance(state);
     EXPECT_EQ(stepper.unchecked().empty(), step >= VelocityGapMonitor::most_steps) << step;
     Coupled restarted(*scene, loads, setup);
-    WrittenMemory memory = memory_of(stepper);
-    restarted.keep(memory.turn());
+    WrittenArchive archive = archive_of(stepper);
+    restarted.keep(archive.turn());
     EXPECT_EQ(restarted.unchecked(), stepper.unchecked());
   }
 }
@@ -493,8 +493,8 @@ TEST(RobinRobin, SaysWhatItLeavesAndRestartsWithTheSameBits) {
     for (int step = 0; step < 3; ++step) stepper.advance(state);
     EXPECT_NE(stepper.unchecked().find("does not iterate"), std::string::npos);
     Coupled restarted(*scene, loads, setup);
-    WrittenMemory memory = memory_of(stepper);
-    restarted.keep(memory.turn());
+    WrittenArchive archive = archive_of(stepper);
+    restarted.keep(archive.turn());
     EXPECT_EQ(restarted.unchecked(), stepper.unchecked());
     State again = state;
     stepper.advance(state);
@@ -531,8 +531,8 @@ TEST(RobinRobin, MarchesThatIterateHaveTheirOwnJacobians) {
       once += of_single;
     }
     EXPECT_LE(twice, 2.3 * once) << time_scheme;
-    WrittenMemory memory = memory_of(stepper);
-    restarted.keep(memory.turn());
+    WrittenArchive archive = archive_of(stepper);
+    restarted.keep(archive.turn());
     State copy = state;
     for (int step = 0; step < 2; ++step)
       EXPECT_EQ(stepper.advance(state).newton_iterations, restarted.advance(copy).newton_iterations);
@@ -613,8 +613,8 @@ TEST(SemiImplicit, MediaAgreeOnTheExtrapolatedDomain) {
   EXPECT_NE(stepper.unchecked().find("of the vessel's radius"), std::string::npos)
       << "the step is as long as the pulse";
   Coupled restarted(*scene, loads, setup);
-  WrittenMemory memory = memory_of(stepper);
-  restarted.keep(memory.turn());
+  WrittenArchive archive = archive_of(stepper);
+  restarted.keep(archive.turn());
   EXPECT_EQ(restarted.unchecked(), stepper.unchecked());
   State again = state;
   stepper.advance(state);
@@ -771,7 +771,7 @@ TEST(CouplingStepper, GoesOnBySolvedPassesWhereInexactOnesWereGivenUp) {
   newton.tolerance = 1e-11;
   NewtonStepper<2> whole(*scene, loads, newton, number_scene(*scene));
   Coupled inexact(*other, loads, setup), solved(*other, loads, setup);
-  WrittenMemory given_up = memory_of(inexact);
+  WrittenArchive given_up = archive_of(inexact);
   EXPECT_EQ(given_up.numbers.count("solved_passes"), 0U);
   given_up.numbers["solved_passes"] = 1;
   solved.keep(given_up.turn());
@@ -782,7 +782,7 @@ TEST(CouplingStepper, GoesOnBySolvedPassesWhereInexactOnesWereGivenUp) {
     EXPECT_GT(report.newton_iterations, 3 * report.outer_iterations) << "inexact passes take about two";
     EXPECT_LT(norm(difference(a.now.wall, b.now.wall)), 1e-6 * norm(a.now.wall)) << "step " << step + 1;
   }
-  EXPECT_EQ(memory_of(solved).numbers.count("solved_passes"), 1U);
+  EXPECT_EQ(archive_of(solved).numbers.count("solved_passes"), 1U);
 }
 
 /// TR-BDF2 whose second stages meet a load that no wall bears, once `breaks` is set.
@@ -817,16 +817,16 @@ TEST(CouplingStepper, AFailedSecondStageLeavesNoTrace) {
   Coupled stepper(*scene, loads, setup);
   State state = scene->at_rest();
   stepper.advance(state);
-  const WrittenMemory before = memory_of(stepper);
+  const WrittenArchive before = archive_of(stepper);
   EXPECT_GT(largest(before.arrays.at("load1")), 0) << "of the first stage";
   breaks = true;
   EXPECT_THROW(stepper.advance(state), ConvergenceError);
   EXPECT_EQ(state.step, 1);
   for (const char* load : {"load0", "load1", "load2"})
-    EXPECT_EQ(memory_of(stepper).arrays.at(load), before.arrays.at(load));
+    EXPECT_EQ(archive_of(stepper).arrays.at(load), before.arrays.at(load));
   breaks = false;
   stepper.advance(state);
-  EXPECT_EQ(memory_of(stepper).arrays.at("load2"), before.arrays.at("load0"));
+  EXPECT_EQ(archive_of(stepper).arrays.at("load2"), before.arrays.at("load0"));
 }
 
 /// What an adaptive step does: the same stepper, after a step that did not converge, is asked again.
@@ -846,7 +846,7 @@ TEST(CouplingStepper, GoesOnAfterAStepThatFailed) {
     for (double& u : broken.before[0].fluid) u *= 1e6;
     for (double& u : broken.before[0].mesh) u *= 1e6;
     EXPECT_THROW(stepper.advance(broken), ConvergenceError) << scheme;
-    const WrittenMemory before = memory_of(undisturbed), after = memory_of(stepper);
+    const WrittenArchive before = archive_of(undisturbed), after = archive_of(stepper);
     for (const auto& [name, values] : before.arrays) {
       const bool is_kept =
           name.rfind("load", 0) == 0 || name.rfind("iqn", 0) == 0 || name.rfind("newton_krylov", 0) == 0;
@@ -869,14 +869,14 @@ TEST(CouplingStepper, KeepsDifferencesThroughAChangeOfStep) {
     Coupled stepper(*scene, loads, setup);
     State state = scene->at_rest();
     for (int n = 0; n < 4; ++n) stepper.advance(state);
-    const WrittenMemory memory = memory_of(stepper);
+    const WrittenArchive archive = archive_of(stepper);
     std::array<int, 2> passes{};
     for (const bool kept : {false, true}) {
       const auto fresh = build_scene<P2P1AxisymmetricTriangle>(shorter, short_artery());
       Loads finer(shorter);
       finer.axis().go_on(loads.axis().stretches(), state.step, state.time);
       Coupled next(*fresh, finer, shorter);
-      WrittenMemory known = memory;
+      WrittenArchive known = archive;
       if (!kept)
         for (const char* name : {"iqn_ils.age", "iqn_ils.v", "iqn_ils.w"}) known.arrays[name].clear();
       if (!kept) known.numbers["iqn_imvj.rank"] = 0;

@@ -210,8 +210,8 @@ TEST_P(SharedAccelerator, GoesOnFromItsMemory) {
   const auto of_whole = whole(options), of_parts = shared(options), restarted = shared(options);
   Vector x(size, 0.0);
   step(*of_whole, *of_parts, {size, 0.2}, x, 5);
-  WrittenMemory memory = memory_of(*of_parts);
-  restarted->keep(memory.turn());
+  WrittenArchive archive = archive_of(*of_parts);
+  restarted->keep(archive.turn());
   step(*of_whole, *restarted, {size, 0.2, 0.3}, x, 4);
 }
 

@@ -82,32 +82,32 @@ struct Keeper {
   std::vector<double> load = std::vector<double>(interface_values, 3),
                       columns = std::vector<double>(2 * interface_values, 4);
 
-  void keep(Memory& memory) {
-    memory.count_if_there("stepper.age", age);
-    memory.number("stepper.factor", factor);
-    memory.array("stepper.load", ArrayKind::interface, load);
-    memory.array("stepper.columns", ArrayKind::interface_columns, columns, {{}, 2});
+  void keep(RestartArchive& archive) {
+    archive.count_if_there("stepper.age", age);
+    archive.number("stepper.factor", factor);
+    archive.array("stepper.load", ArrayKind::interface, load);
+    archive.array("stepper.columns", ArrayKind::interface_columns, columns, {{}, 2});
   }
 };
 
 const std::vector<std::string> others{"stepper.", "table."};
 
 Checkpoint example(TimeAxis& axis) {
-  WrittenMemory memory;
+  WrittenArchive archive;
   State state = after_four_steps();
-  keep(state, memory);
-  write_down_steps(axis, state, memory);
-  Keeper().keep(memory);
+  keep(state, archive);
+  write_down_steps(axis, state, archive);
+  Keeper().keep(archive);
   TableDigests digests{{"flow.csv", {100, 1, 2}}};
-  PrefixedMemory of_tables("table.", memory);
+  PrefixedArchive of_tables("table.", archive);
   keep(digests, of_tables);
   Checkpoint checkpoint;
   checkpoint.step = state.step;
   checkpoint.time = state.time;
-  checkpoint.arrays = memory.arrays;
-  checkpoint.kinds = memory.kinds;
-  checkpoint.integers = memory.integers;
-  checkpoint.reals = memory.numbers;
+  checkpoint.arrays = archive.arrays;
+  checkpoint.kinds = archive.kinds;
+  checkpoint.integers = archive.integers;
+  checkpoint.reals = archive.numbers;
   return checkpoint;
 }
 
@@ -137,13 +137,13 @@ struct Recalled {
     for (const auto& [name, array] : checkpoint.arrays) arrays.names.push_back(name);
     arrays.read = [&](const std::string& name, ArrayKind) { return checkpoint.arrays.at(name); };
     arrays.length = length;
-    RecalledMemory memory(file, checkpoint, arrays);
-    recall(checkpoint, memory, state);
-    PrefixedMemory of_tables("table.", memory);
+    RecalledArchive archive(file, checkpoint, arrays);
+    recall(checkpoint, archive, state);
+    PrefixedArchive of_tables("table.", archive);
     keep(digests, of_tables);
-    steps = recall_steps(memory, state, ends);
-    keeper.keep(memory);
-    left = memory.require_all_known(others);
+    steps = recall_steps(archive, state, ends);
+    keeper.keep(archive);
+    left = archive.require_all_known(others);
   }
 };
 

@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "diagnostics/load_path.hpp"
 #include "fem/elements.hpp"
-#include "run/march.hpp"
+#include "run/step_controller.hpp"
 #include "support/element_meshes.hpp"
 #include "support/scenes.hpp"
 #include "support/supported_meshes.hpp"
@@ -58,7 +58,7 @@ class Answers : public Stepper {
     report_.strayed = strays_;
     return report_;
   }
-  void keep(Memory&) override {}
+  void keep(RestartArchive&) override {}
 
   std::vector<double> taken;
 
@@ -80,7 +80,7 @@ Marched march(PulledCube& cube, const Answers::Function& stretch, bool strays,
               std::vector<std::string>* said = nullptr) {
   Loads loads(cube.setup);
   Answers stepper(*cube.scene, loads, stretch, strays);
-  March<3> march(cube.setup, *cube.scene, stepper, loads, [said](const std::string& line) {
+  StepController<3> march(cube.setup, *cube.scene, stepper, loads, [said](const std::string& line) {
     if (said != nullptr) said->push_back(line);
   });
   State state = cube.scene->at_rest();

@@ -143,8 +143,8 @@ TEST(NewtonStepper, RecallsItsJacobianBitForBit) {
 
   const auto fresh = build_scene<P1Tetrahedron>(setup, mesh);
   NewtonStepper<3> restarted(*fresh, loads, options(), number_scene(*fresh));
-  WrittenMemory memory = memory_of(stepper);
-  restarted.keep(memory.turn());
+  WrittenArchive archive = archive_of(stepper);
+  restarted.keep(archive.turn());
   State copy = state;
   for (int n = 0; n < 2; ++n) {
     stepper.advance(state);

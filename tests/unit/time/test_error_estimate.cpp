@@ -61,8 +61,8 @@ TEST_F(Cubic, KnowsNothingOfARejectedStep) {
   step(5, false);
   state_ = before;
   ErrorEstimate<2> again({}, {2.0}, {2, 1.0 / 12, 0}, 5.0);
-  WrittenMemory memory = memory_of(estimate_);
-  again.keep(memory.turn());
+  WrittenArchive archive = archive_of(estimate_);
+  again.keep(archive.turn());
   estimate_ = again;
   EXPECT_LT(step(0.7).displacement, first.displacement);
 }

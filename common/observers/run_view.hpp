@@ -16,7 +16,7 @@ namespace fsi {
 
 /// What watchers are made from. All of it outlives them.
 template <int n>
-struct Watched {
+struct RunView {
   const Case& setup;
   const Scene<n>& scene;
   const Loads& loads;
@@ -29,7 +29,7 @@ struct Watched {
   const std::vector<GridShare>& grid_shares;  ///< of these grids, where processes share them out; else empty
   std::filesystem::path folder;               ///< of results
   std::filesystem::path restarted_from;       ///< result folder that the run continues; empty: a new run
-  Voice& voice;
+  Messages& voice;
 };
 
 /// Time of the last level that tables and fields of a run hold, ms: where pressures lag behind the levels, the last but one.

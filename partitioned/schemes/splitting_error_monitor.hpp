@@ -3,19 +3,19 @@
 #include <string>
 
 #include "partitioned/coupling_scheme.hpp"
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 
 namespace fsi {
 
 /// Adds up by how much fluid and wall differ on the interface in a march of a loosely coupled scheme, which is stable but
 /// leaves an error in each step.
-class LooseMarch {
+class SplittingErrorMonitor {
  public:
   /// Part of the interface's motion up to which the difference is small (docs/coupling.md).
   static constexpr double small = 0.1;
 
   /// \param scheme  must outlive this
-  explicit LooseMarch(const CouplingScheme& scheme) : scheme_(&scheme) {}
+  explicit SplittingErrorMonitor(const CouplingScheme& scheme) : scheme_(&scheme) {}
 
   /// \param gap  between wall and fluid in a step, |d~ - d|, mm \param movement  of the wall in it, mm
   void add(double gap, double movement) {
@@ -26,7 +26,7 @@ class LooseMarch {
   double gap() const;
   /// As Stepper::unchecked(): how large the difference is, where it is not small.
   std::string unchecked() const;
-  void keep(Memory& memory);
+  void keep(RestartArchive& archive);
 
  private:
   const CouplingScheme* scheme_;

@@ -37,18 +37,18 @@ struct PassAccuracy {
 /// One time step as an equation r(x) = 0 for an interface vector x, evaluated by one pass through the sub-problems. At
 /// its root fluid and wall have one displacement and their forces balance: the monolithic solution.
 template <int n>
-class InterfaceProblem {
+class CouplingPass {
  public:
   /// \param wall_impedance  joins the wall's equations (MediumSystem), and is made later; null: nothing
-  InterfaceProblem(Scene<n>& scene, const PartitionedData& options, const InterfaceImpedance* wall_impedance = nullptr)
-      : InterfaceProblem(scene, solver_factory(options), wall_impedance) {}
+  CouplingPass(Scene<n>& scene, const PartitionedData& options, const InterfaceImpedance* wall_impedance = nullptr)
+      : CouplingPass(scene, solver_factory(options), wall_impedance) {}
   /// \param wall_solver  of the wall's linearised equations
-  InterfaceProblem(Scene<n>& scene, const LinearSolverFactory<n>& wall_solver,
-                   const InterfaceImpedance* wall_impedance = nullptr)
+  CouplingPass(Scene<n>& scene, const LinearSolverFactory<n>& wall_solver,
+               const InterfaceImpedance* wall_impedance = nullptr)
       : scene_(scene),
         membrane_(membrane_of(scene)),
         wall_("wall", scene, number_wall(scene), wall_solver, SystemNorm::volumes, wall_impedance) {}
-  virtual ~InterfaceProblem() = default;
+  virtual ~CouplingPass() = default;
 
   /// Starts a step, or a stage of it: state.now holds the first guess of all fields.
   virtual void start(State& state, StepData& data) {
@@ -163,7 +163,7 @@ class InterfaceProblem {
     return force > 0 ? std::sqrt(gap / force) : 0.0;
   }
 
-  virtual void keep(Memory& memory) { keep_linearisation("wall", wall_, memory); }
+  virtual void keep(RestartArchive& archive) { keep_linearisation("wall", wall_, archive); }
 
   CouplingCost cost;  ///< of the step; the stepper sets it back
 

@@ -1,4 +1,4 @@
-#include "run/march.hpp"
+#include "run/step_controller.hpp"
 
 #include <fmt/format.h>
 
@@ -38,8 +38,9 @@ void require_resolvable(const Case& setup, const Scene<n>& scene) {
 }
 
 template <int n>
-March<n>::March(const Case& setup, const Scene<n>& scene, Stepper& stepper, Loads& loads,
-                std::function<void(const std::string&)> say, std::function<void(const std::string&)> warn)
+StepController<n>::StepController(const Case& setup, const Scene<n>& scene, Stepper& stepper, Loads& loads,
+                                  std::function<void(const std::string&)> say,
+                                  std::function<void(const std::string&)> warn)
     : setup_(setup), scene_(scene), stepper_(stepper), loads_(loads), say_(std::move(say)), warn_(std::move(warn)) {
   if (!warn_) warn_ = say_;
   // A step that may be halved is: quicker, and the message of one that fails comes sooner.
@@ -50,7 +51,7 @@ March<n>::March(const Case& setup, const Scene<n>& scene, Stepper& stepper, Load
 }
 
 template <int n>
-void March<n>::keep_scheme() {
+void StepController<n>::keep_scheme() {
   if (!loads_.axis().is_adaptive()) return;
   const TimeData& time = *setup_.time;
   const double swing = scene_time(setup_, scene_);
@@ -68,12 +69,12 @@ void March<n>::keep_scheme() {
 }
 
 template <int n>
-March<n>::~March() {
+StepController<n>::~StepController() {
   if (controller_) stepper_.judge_by(nullptr);
 }
 
 template <int n>
-bool March<n>::accepts(const State& state, const StepData& data) {
+bool StepController<n>::accepts(const State& state, const StepData& data) {
   errors_ = estimate_->of(state, data);
   const double error = errors_->largest() / setup_.time->tolerance;
   const double length = data.rates.step;
@@ -91,7 +92,7 @@ bool March<n>::accepts(const State& state, const StepData& data) {
 }
 
 template <int n>
-bool March<n>::shrink(int step, int failures) {
+bool StepController<n>::shrink(int step, int failures) {
   if (loads_.axis().is_static()) {
     const StaticData& data = setup_.static_load.value();
     const double shortest = std::exp2(-data.retries) / data.load_steps;
@@ -112,7 +113,7 @@ bool March<n>::shrink(int step, int failures) {
 }
 
 template <int n>
-std::string March<n>::doubt_about(const State& before, const State& after, const StepReport& report) const {
+std::string StepController<n>::doubt_about(const State& before, const State& after, const StepReport& report) const {
   if (!setup_.static_load->check_path || !scene_.wall) return {};
   if (stays(*scene_.wall, before.before[0].wall, after.before[0].wall)) return {};  // at rest: all else is rounding
   if (report.strayed) return "Newton's method did not go straight to it";
@@ -121,14 +122,14 @@ std::string March<n>::doubt_about(const State& before, const State& after, const
 }
 
 template <int n>
-bool March<n>::have_same_energy(const State& before, const State& one, const State& other) const {
+bool StepController<n>::have_same_energy(const State& before, const State& one, const State& other) const {
   const double a = load_path_energy(scene_, loads_, one.step, before, one).stored;
   const double b = load_path_energy(scene_, loads_, one.step, before, other).stored;
   return std::abs(a - b) <= same_energy * std::max(std::abs(a), std::abs(b));
 }
 
 template <int n>
-StepReport March<n>::load_step(State& state) {
+StepReport StepController<n>::load_step(State& state) {
   const State before = state;
   StepReport report = stepper_.advance(state);
   const std::string doubt = doubt_about(before, state, report);
@@ -172,7 +173,7 @@ StepReport March<n>::load_step(State& state) {
 }
 
 template <int n>
-StepReport March<n>::step(State& state) {
+StepReport StepController<n>::step(State& state) {
   const int step = state.step + 1;
   StepReport spent;  // by attempts that came to nothing
   spent.outer_iterations = 0;
@@ -217,15 +218,15 @@ StepReport March<n>::step(State& state) {
 }
 
 template <int n>
-void March<n>::keep(Memory& memory) {
+void StepController<n>::keep(RestartArchive& archive) {
   if (!controller_) return;
-  if (memory.wants({"controller"})) controller_->keep(memory);
-  if (memory.wants({"estimate"})) estimate_->keep(memory);
+  if (archive.wants({"controller"})) controller_->keep(archive);
+  if (archive.wants({"estimate"})) estimate_->keep(archive);
 }
 
 #define FSI_INSTANTIATE(n)                                           \
   template void require_resolvable<n>(const Case&, const Scene<n>&); \
-  template class March<n>;
+  template class StepController<n>;
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -9,7 +9,7 @@
 
 #include "io/checkpoint.hpp"
 #include "parallel/communicator.hpp"
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 
 namespace fsi {
 
@@ -22,11 +22,11 @@ struct StoredArrays {
 
 /// A memory that gives back what a checkpoint holds. Nothing is believed: every number is finite and in its range, every
 /// array as long as its kind or its owner says. For all processes together: where one of them refuses, all do.
-class RecalledMemory : public Memory {
+class RecalledArchive : public RestartArchive {
  public:
   /// \param file  of the checkpoint, for messages \param head  its numbers; must outlive this, as the processes
-  RecalledMemory(std::filesystem::path file, const Checkpoint& head, StoredArrays arrays,
-                 const Communicator& processes = Communicator::alone());
+  RecalledArchive(std::filesystem::path file, const Checkpoint& head, StoredArrays arrays,
+                  const Communicator& processes = Communicator::alone());
 
   const std::filesystem::path& file() const { return file_; }
   bool recalls() const override { return true; }

@@ -1,4 +1,4 @@
-#include "time/step_controller.hpp"
+#include "time/step_size_controller.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 /// Marches with steps whose error is (length / right)^order times the allowed one.
 struct March {
-  StepController controller;
+  StepSizeController controller;
   int order;
   int steps = 0, rejected = 0, changes = 0;
 
@@ -29,7 +29,7 @@ struct March {
   }
 };
 
-TEST(StepController, FindsTheLengthOfTheToleranceAndKeepsIt) {
+TEST(StepSizeController, FindsTheLengthOfTheToleranceAndKeepsIt) {
   for (const int order : {1, 2}) {
     March march({0.01, 1e-6, 10}, order);
     for (int i = 0; i < 100; ++i) march.step(1);
@@ -40,15 +40,15 @@ TEST(StepController, FindsTheLengthOfTheToleranceAndKeepsIt) {
   }
 }
 
-TEST(StepController, DoesNotChangeForSmallGains) {
+TEST(StepSizeController, DoesNotChangeForSmallGains) {
   March march({1, 1e-6, 10}, 2);
   for (int i = 0; i < 50; ++i) march.step(1.15 + 0.05 * std::sin(i));
   EXPECT_EQ(march.changes, 0);
   EXPECT_EQ(march.controller.wanted(), 1);
 }
 
-TEST(StepController, GrowsByTwoAtMostAndShrinksByFiveAtMost) {
-  StepController controller({1, 1e-6, 100}, 2);
+TEST(StepSizeController, GrowsByTwoAtMostAndShrinksByFiveAtMost) {
+  StepSizeController controller({1, 1e-6, 100}, 2);
   controller.accept(1, 1e-8);
   EXPECT_EQ(controller.wanted(), 2);
   EXPECT_TRUE(controller.reject(2, 1e8));
@@ -56,8 +56,8 @@ TEST(StepController, GrowsByTwoAtMostAndShrinksByFiveAtMost) {
   EXPECT_LE(controller.wanted(), 0.4);
 }
 
-TEST(StepController, DoesNotGrowInTheStepAfterARejectedOne) {
-  StepController controller({1, 1e-6, 100}, 2);
+TEST(StepSizeController, DoesNotGrowInTheStepAfterARejectedOne) {
+  StepSizeController controller({1, 1e-6, 100}, 2);
   EXPECT_TRUE(controller.reject(1, 4));
   const double wanted = controller.wanted();
   EXPECT_LT(wanted, 0.5);
@@ -67,8 +67,8 @@ TEST(StepController, DoesNotGrowInTheStepAfterARejectedOne) {
   EXPECT_GT(controller.wanted(), wanted);
 }
 
-TEST(StepController, KeepsItsLimits) {
-  StepController controller({1, 0.5, 2}, 2);
+TEST(StepSizeController, KeepsItsLimits) {
+  StepSizeController controller({1, 0.5, 2}, 2);
   controller.accept(1, 0);
   controller.accept(2, 0);
   EXPECT_EQ(controller.wanted(), 2);
@@ -77,8 +77,8 @@ TEST(StepController, KeepsItsLimits) {
   EXPECT_FALSE(controller.reject(0.5, 10));
 }
 
-TEST(StepController, GoesBelowTheSmallestForAStepWithoutSolutionAlone) {
-  StepController controller({1, 0.5, 2}, 2);
+TEST(StepSizeController, GoesBelowTheSmallestForAStepWithoutSolutionAlone) {
+  StepSizeController controller({1, 0.5, 2}, 2);
   controller.fail(0.5);
   EXPECT_EQ(controller.wanted(), 0.125);
   controller.accept(0.125);
@@ -86,25 +86,25 @@ TEST(StepController, GoesBelowTheSmallestForAStepWithoutSolutionAlone) {
   EXPECT_EQ(controller.wanted(), 0.5);
 }
 
-TEST(StepController, BeginsAnewAfterAJump) {
-  StepController controller({0.1, 1e-3, 2}, 2);
+TEST(StepSizeController, BeginsAnewAfterAJump) {
+  StepSizeController controller({0.1, 1e-3, 2}, 2);
   for (int i = 0; i < 5; ++i) controller.accept(controller.wanted(), 1e-6);
   EXPECT_GT(controller.wanted(), 1);
   controller.restart();
   EXPECT_EQ(controller.wanted(), 0.1);
 }
 
-TEST(StepController, AStepCutShortSaysNothingAboutTheLengthWanted) {
-  StepController controller({1, 1e-3, 2}, 2);
+TEST(StepSizeController, AStepCutShortSaysNothingAboutTheLengthWanted) {
+  StepSizeController controller({1, 1e-3, 2}, 2);
   controller.accept(0.1, 0.25 * 0.01);
   EXPECT_EQ(controller.wanted(), 1);
 }
 
-TEST(StepController, GoesOnFromItsMemory) {
-  StepController whole({0.1, 1e-3, 2}, 2), again = whole;
+TEST(StepSizeController, GoesOnFromItsMemory) {
+  StepSizeController whole({0.1, 1e-3, 2}, 2), again = whole;
   whole.accept(0.1, 0.02);
-  WrittenMemory memory = memory_of(whole);
-  again.keep(memory.turn());
+  WrittenArchive archive = archive_of(whole);
+  again.keep(archive.turn());
   for (const double error : {0.7, 0.3, 0.05}) {
     whole.accept(whole.wanted(), error);
     again.accept(again.wanted(), error);

@@ -1,4 +1,4 @@
-#include "time/step_controller.hpp"
+#include "time/step_size_controller.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,24 +17,24 @@ constexpr double of_failed_step = 0.25;  // what is left of the length of a step
 
 }  // namespace
 
-StepController::StepController(const StepLimits& limits, int order)
+StepSizeController::StepSizeController(const StepLimits& limits, int order)
     : limits_(limits), order_(order), wanted_(limits.first) {}
 
-double StepController::rung(double length) const {
+double StepSizeController::rung(double length) const {
   const double number = std::floor(rungs * std::log2(length / limits_.first) + time_rounding);
   return std::clamp(limits_.first * std::exp2(number / rungs), limits_.smallest, limits_.largest);
 }
 
-void StepController::restart() {
+void StepSizeController::restart() {
   wanted_ = std::min(wanted_, limits_.first);
   error_before_ = 0;
 }
 
-void StepController::accept(double) {
+void StepSizeController::accept(double) {
   held_ = false;
 }
 
-void StepController::accept(double length, double error) {
+void StepSizeController::accept(double length, double error) {
   error = std::max(error, negligible);
   // What the step before would have had at this length.
   const double before =
@@ -51,7 +51,7 @@ void StepController::accept(double length, double error) {
     wanted_ = next;
 }
 
-bool StepController::reject(double length, double error) {
+bool StepSizeController::reject(double length, double error) {
   if (length <= limits_.smallest * (1 + time_rounding)) return false;
   const double factor = std::clamp(safety * std::pow(error, -1.0 / order_), shrinkage, 0.8);
   wanted_ = rung(factor * length);
@@ -59,15 +59,15 @@ bool StepController::reject(double length, double error) {
   return true;
 }
 
-void StepController::fail(double length) {
+void StepSizeController::fail(double length) {
   wanted_ = of_failed_step * length;  // also below the smallest: this is no matter of accuracy
   held_ = true;
 }
 
-void StepController::keep(Memory& memory) {
+void StepSizeController::keep(RestartArchive& archive) {
   std::vector<double> numbers{wanted_, error_before_, length_before_};
-  memory.array("controller", ArrayKind::alike, numbers, {3});
-  wanted_ = memory.recalls() ? std::min(numbers[0], limits_.largest) : wanted_;
+  archive.array("controller", ArrayKind::alike, numbers, {3});
+  wanted_ = archive.recalls() ? std::min(numbers[0], limits_.largest) : wanted_;
   error_before_ = numbers[1];
   length_before_ = numbers[2];
 }

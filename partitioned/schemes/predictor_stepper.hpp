@@ -12,11 +12,11 @@ namespace fsi {
 /// The march of robin-robin beside that of robin-robin-corrected, from the same state and with the same steps. It knows
 /// nothing of the correction, so that what it leaves in a step varies smoothly with time.
 template <int n>
-class PredictionMarch {
+class PredictorStepper {
  public:
   /// \param setup   of the run, but for the coefficient of the scheme
   /// \param scheme  the one that is predicted for, must outlive this
-  PredictionMarch(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme)
+  PredictorStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme)
       : scene_(scene),
         stepper_(scene, loads, setup, scheme, std::make_unique<RobinRobin<n>>(scene, setup.partitioned)) {}
 
@@ -37,9 +37,9 @@ class PredictionMarch {
   const RobinRobinStepper<n>& stepper() const { return stepper_; }
 
   /// Where another scheme has written the checkpoint the march begins with the next step.
-  void keep(Memory& memory) {
-    PrefixedMemory own("predicted_", memory);
-    if (memory.recalls()) {
+  void keep(RestartArchive& archive) {
+    PrefixedArchive own("predicted_", archive);
+    if (archive.recalls()) {
       if (!own.has("wall_velocity")) return;
       state_ = scene_.at_rest();
     }

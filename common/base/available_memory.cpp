@@ -1,4 +1,4 @@
-#include "base/memory.hpp"
+#include "base/available_memory.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "restart/recalled_memory.hpp"
+#include "restart/recalled_archive.hpp"
 
 #include <fmt/format.h>
 
@@ -34,17 +34,17 @@ void require_in(const Range& range, double number, const std::filesystem::path& 
                            range.least, range.most));
 }
 
-RecalledMemory::RecalledMemory(std::filesystem::path file, const Checkpoint& head, StoredArrays arrays,
-                               const Communicator& processes)
+RecalledArchive::RecalledArchive(std::filesystem::path file, const Checkpoint& head, StoredArrays arrays,
+                                 const Communicator& processes)
     : file_(std::move(file)), head_(head), arrays_(std::move(arrays)), processes_(processes) {}
 
-bool RecalledMemory::has(const std::string& name) const {
+bool RecalledArchive::has(const std::string& name) const {
   return head_.reals.count(name) + head_.integers.count(name) > 0 ||
          std::find(arrays_.names.begin(), arrays_.names.end(), name) != arrays_.names.end();
 }
 
-void RecalledMemory::array(const std::string& name, ArrayKind kind, std::vector<double>& values,
-                           const ArrayRule& rule) {
+void RecalledArchive::array(const std::string& name, ArrayKind kind, std::vector<double>& values,
+                            const ArrayRule& rule) {
   if (!has(name)) refuse_missing(file_, name);
   asked_.insert(name);
   std::vector<double> found = arrays_.read(name, kind);
@@ -62,21 +62,21 @@ void RecalledMemory::array(const std::string& name, ArrayKind kind, std::vector<
   values = std::move(found);
 }
 
-void RecalledMemory::number(const std::string& name, double& value, const Range& range) {
+void RecalledArchive::number(const std::string& name, double& value, const Range& range) {
   const auto found = head_.reals.find(name);
   if (found == head_.reals.end()) refuse_missing(file_, name);
   require_in(range, found->second, file_, name);
   value = found->second;
 }
 
-void RecalledMemory::integer(const std::string& name, std::int64_t& value, const Range& range) {
+void RecalledArchive::integer(const std::string& name, std::int64_t& value, const Range& range) {
   const auto found = head_.integers.find(name);
   if (found == head_.integers.end()) refuse_missing(file_, name);
   require_in(range, static_cast<double>(found->second), file_, name);
   value = found->second;
 }
 
-std::vector<std::string> RecalledMemory::require_all_known(const std::vector<std::string>& others) const {
+std::vector<std::string> RecalledArchive::require_all_known(const std::vector<std::string>& others) const {
   std::vector<std::string> left;
   for (const std::string& name : arrays_.names) {
     if (asked_.count(name) > 0) continue;

@@ -11,11 +11,12 @@ namespace fsi {
 /// Watches a march of one pass a step, which makes no claim that fluid and wall agree: one that has become unstable ends
 /// here, long before an element is inverted, and so does one that lingers at its stability limit with a pressure that means
 /// nothing.
-class OnePassMarch {
+class ExplicitCouplingMonitor {
  public:
   /// \param scheme        must outlive this
   /// \param velocity_gap  PartitionedData::velocity_gap
-  OnePassMarch(const CouplingScheme& scheme, double velocity_gap) : scheme_(&scheme), velocity_gap_(velocity_gap) {}
+  ExplicitCouplingMonitor(const CouplingScheme& scheme, double velocity_gap)
+      : scheme_(&scheme), velocity_gap_(velocity_gap) {}
 
   /// With an extrapolation of order p, steps that alternate grow where the added mass is more than 1/3^(p-1) of what the
   /// wall answers with, whatever the time scheme; with backward Euler and Newmark's beta = gamma = 1 from half of that on
@@ -27,7 +28,7 @@ class OnePassMarch {
 
   /// As Stepper::unchecked(): the monitor speaks after some steps only.
   std::string unchecked() const;
-  void keep(Memory& memory);
+  void keep(RestartArchive& archive);
 
  private:
   [[noreturn]] void give_up(int step, double time, const std::string& what) const;

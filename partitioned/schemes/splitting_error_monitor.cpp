@@ -1,4 +1,4 @@
-#include "partitioned/schemes/loose_march.hpp"
+#include "partitioned/schemes/splitting_error_monitor.hpp"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,11 @@
 
 namespace fsi {
 
-double LooseMarch::gap() const {
+double SplittingErrorMonitor::gap() const {
   return movements_ > 0 ? std::sqrt(gaps_ / movements_) : 0.0;
 }
 
-std::string LooseMarch::unchecked() const {
+std::string SplittingErrorMonitor::unchecked() const {
   if (!(gap() > small)) return {};
   return fmt::format(
       "the {} coupling does not iterate, and its error is not small: the velocities of fluid and wall on the interface "
@@ -19,10 +19,10 @@ std::string LooseMarch::unchecked() const {
       scheme_->name, gap(), small);
 }
 
-void LooseMarch::keep(Memory& memory) {
+void SplittingErrorMonitor::keep(RestartArchive& archive) {
   const Range sum{0};
-  memory.number_if_there("loose_gaps", gaps_, sum);
-  memory.number_if_there("loose_movements", movements_, sum);
+  archive.number_if_there("loose_gaps", gaps_, sum);
+  archive.number_if_there("loose_movements", movements_, sum);
 }
 
 }  // namespace fsi

@@ -9,7 +9,7 @@
 #include "scene/loads.hpp"
 #include "scene/scene.hpp"
 #include "time/error_estimate.hpp"
-#include "time/step_controller.hpp"
+#include "time/step_size_controller.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {
@@ -31,16 +31,16 @@ struct Attempts {
 /// a wall at rest, and those that a second look finds to lead to another state than their halves (docs/theory.md, section
 /// 4.9).
 template <int n>
-class March : private StepJudge {
+class StepController : private StepJudge {
  public:
   /// All of them must outlive this.
   /// \param say   gets a line for each attempt that came to nothing, for the log
   /// \param warn  gets what a user should know of steps that were taken; none: `say`
-  March(const Case& setup, const Scene<n>& scene, Stepper& stepper, Loads& loads,
-        std::function<void(const std::string&)> say, std::function<void(const std::string&)> warn = {});
-  March(const March&) = delete;
-  March& operator=(const March&) = delete;
-  ~March() override;
+  StepController(const Case& setup, const Scene<n>& scene, Stepper& stepper, Loads& loads,
+                 std::function<void(const std::string&)> say, std::function<void(const std::string&)> warn = {});
+  StepController(const StepController&) = delete;
+  StepController& operator=(const StepController&) = delete;
+  ~StepController() override;
 
   /// Takes the state one step further. Iterations in the report are those of all attempts.
   /// \throws ConvergenceError when the step has no solution, nor its last part; the finished levels are untouched
@@ -53,7 +53,7 @@ class March : private StepJudge {
   /// The run goes on with the scheme that the scene has got since: the one that it began with.
   void keep_scheme();
   /// What adaptive steps know of those before, for a restart.
-  void keep(Memory& memory);
+  void keep(RestartArchive& archive);
 
  private:
   bool accepts(const State& state, const StepData& data) override;
@@ -74,7 +74,7 @@ class March : private StepJudge {
   Loads& loads_;
   std::function<void(const std::string&)> say_, warn_;
   Attempts attempts_;
-  std::optional<StepController> controller_;
+  std::optional<StepSizeController> controller_;
   std::optional<ErrorEstimate<n>> estimate_;
   std::optional<StepErrors> errors_;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 
 namespace fsi {
 
@@ -17,9 +17,9 @@ struct StepLimits {
 /// no more than twice and no less than a fifth of dt. Lengths lie on a ladder of rungs a quarter of an octave apart,
 /// and one rung is no reason to grow: a step keeps its length, and the Jacobian that was made for it, while it is about
 /// right.
-class StepController {
+class StepSizeController {
  public:
-  StepController(const StepLimits& limits, int order);
+  StepSizeController(const StepLimits& limits, int order);
 
   /// Length that the next step should have at most, ms.
   double wanted() const { return wanted_; }
@@ -36,7 +36,7 @@ class StepController {
   void fail(double length);
 
   /// For a restart.
-  void keep(Memory& memory);
+  void keep(RestartArchive& archive);
 
  private:
   /// The highest rung not above a length, within the limits.

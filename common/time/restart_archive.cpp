@@ -1,34 +1,34 @@
-#include "time/memory.hpp"
+#include "time/restart_archive.hpp"
 
 #include <algorithm>
 
 namespace fsi {
 
-bool Memory::wants(std::initializer_list<std::string> names) const {
+bool RestartArchive::wants(std::initializer_list<std::string> names) const {
   return !recalls() || std::any_of(names.begin(), names.end(), [this](const std::string& name) { return has(name); });
 }
 
-void Memory::number_if_there(const std::string& name, double& value, const Range& range) {
+void RestartArchive::number_if_there(const std::string& name, double& value, const Range& range) {
   if (wants({name})) number(name, value, range);
 }
 
-void Memory::count_if_there(const std::string& name, int& value) {
+void RestartArchive::count_if_there(const std::string& name, int& value) {
   double count = value;
   number_if_there(name, count, count_range);
   value = static_cast<int>(count);
 }
 
-WrittenMemory& WrittenMemory::turn(bool step_changed) {
+WrittenArchive& WrittenArchive::turn(bool step_changed) {
   recalls_ = true;
   step_changed_ = step_changed;
   return *this;
 }
 
-bool WrittenMemory::has(const std::string& name) const {
+bool WrittenArchive::has(const std::string& name) const {
   return arrays.count(name) + numbers.count(name) + integers.count(name) > 0;
 }
 
-void WrittenMemory::array(const std::string& name, ArrayKind kind, std::vector<double>& values, const ArrayRule&) {
+void WrittenArchive::array(const std::string& name, ArrayKind kind, std::vector<double>& values, const ArrayRule&) {
   if (recalls_) {
     values = arrays.at(name);
     return;
@@ -37,14 +37,14 @@ void WrittenMemory::array(const std::string& name, ArrayKind kind, std::vector<d
   kinds[name] = kind;
 }
 
-void WrittenMemory::number(const std::string& name, double& value, const Range&) {
+void WrittenArchive::number(const std::string& name, double& value, const Range&) {
   if (recalls_)
     value = numbers.at(name);
   else
     numbers[name] = value;
 }
 
-void WrittenMemory::integer(const std::string& name, std::int64_t& value, const Range&) {
+void WrittenArchive::integer(const std::string& name, std::int64_t& value, const Range&) {
   if (recalls_)
     value = integers.at(name);
   else

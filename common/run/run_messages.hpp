@@ -10,7 +10,7 @@
 namespace fsi {
 
 /// What is said while a run goes on, as far as it has ears already.
-class RunVoice : public Voice {
+class RunMessages : public Messages {
  public:
   void to(RunLog& log, Console& console) {
     log_ = &log;

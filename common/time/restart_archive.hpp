@@ -45,12 +45,12 @@ struct ArrayRule {
 };
 
 /// What a restart needs to go on bit for bit. Who has such numbers goes over them in one function,
-///   void keep(Memory& memory) { memory.number("age", age_, count_range); memory.array("load", kind, load_); }
+///   void keep(RestartArchive& memory) { memory.number("age", age_, count_range); memory.array("load", kind, load_); }
 /// which tells the name of each, its kind and what it may be, and serves both ways: a memory that is written down takes the
 /// values; one that recalls puts those of an earlier run in their place, if it can believe them. So an entry is one line.
-class Memory {
+class RestartArchive {
  public:
-  virtual ~Memory() = default;
+  virtual ~RestartArchive() = default;
   /// Whether values come from an earlier run; else they are written down.
   virtual bool recalls() const = 0;
   /// Whether the earlier run has left an entry. Only to be asked where recalls().
@@ -75,31 +75,31 @@ class Memory {
 };
 
 /// Another memory, with something before all names.
-class PrefixedMemory : public Memory {
+class PrefixedArchive : public RestartArchive {
  public:
-  /// \param memory  must outlive this
-  PrefixedMemory(std::string prefix, Memory& memory) : prefix_(std::move(prefix)), memory_(memory) {}
-  bool recalls() const override { return memory_.recalls(); }
-  bool has(const std::string& name) const override { return memory_.has(prefix_ + name); }
-  bool step_changed() const override { return memory_.step_changed(); }
-  void warn(const std::string& said) override { memory_.warn(said); }
+  /// \param archive  must outlive this
+  PrefixedArchive(std::string prefix, RestartArchive& archive) : prefix_(std::move(prefix)), archive_(archive) {}
+  bool recalls() const override { return archive_.recalls(); }
+  bool has(const std::string& name) const override { return archive_.has(prefix_ + name); }
+  bool step_changed() const override { return archive_.step_changed(); }
+  void warn(const std::string& said) override { archive_.warn(said); }
   void array(const std::string& name, ArrayKind kind, std::vector<double>& values, const ArrayRule& rule) override {
-    memory_.array(prefix_ + name, kind, values, rule);
+    archive_.array(prefix_ + name, kind, values, rule);
   }
   void number(const std::string& name, double& value, const Range& range) override {
-    memory_.number(prefix_ + name, value, range);
+    archive_.number(prefix_ + name, value, range);
   }
   void integer(const std::string& name, std::int64_t& value, const Range& range) override {
-    memory_.integer(prefix_ + name, value, range);
+    archive_.integer(prefix_ + name, value, range);
   }
 
  private:
   std::string prefix_;
-  Memory& memory_;
+  RestartArchive& archive_;
 };
 
 /// Entries as they were written down, and back within the same program, where all are believed.
-class WrittenMemory : public Memory {
+class WrittenArchive : public RestartArchive {
  public:
   std::map<std::string, std::vector<double>> arrays;
   std::map<std::string, ArrayKind> kinds;  ///< of the arrays
@@ -107,7 +107,7 @@ class WrittenMemory : public Memory {
   std::map<std::string, std::int64_t> integers;
 
   /// From now on it recalls.
-  WrittenMemory& turn(bool step_changed = false);
+  WrittenArchive& turn(bool step_changed = false);
 
   bool recalls() const override { return recalls_; }
   bool has(const std::string& name) const override;
@@ -123,10 +123,10 @@ class WrittenMemory : public Memory {
 
 /// What `owner.keep()` writes down.
 template <class Owner>
-WrittenMemory memory_of(Owner& owner) {
-  WrittenMemory memory;
-  owner.keep(memory);
-  return memory;
+WrittenArchive archive_of(Owner& owner) {
+  WrittenArchive archive;
+  owner.keep(archive);
+  return archive;
 }
 
 }  // namespace fsi

@@ -1,4 +1,4 @@
-#include "run/step_beyond.hpp"
+#include "run/extra_final_step.hpp"
 
 #include <utility>
 
@@ -31,14 +31,15 @@ class LongerAxis {
 }  // namespace
 
 template <int n>
-StepBeyond step_beyond(const Case& setup, const State& state, Loads& loads, March<n>& march) {
+ExtraFinalStep extra_final_step(const Case& setup, const State& state, Loads& loads, StepController<n>& march) {
   const LongerAxis longer(setup, state, loads);
-  StepBeyond found{state, {}};
+  ExtraFinalStep found{state, {}};
   found.report = march.step(found.state);
   return found;
 }
 
-#define FSI_INSTANTIATE(n) template StepBeyond step_beyond<n>(const Case&, const State&, Loads&, March<n>&);
+#define FSI_INSTANTIATE(n) \
+  template ExtraFinalStep extra_final_step<n>(const Case&, const State&, Loads&, StepController<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

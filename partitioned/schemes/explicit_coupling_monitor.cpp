@@ -1,4 +1,4 @@
-#include "partitioned/schemes/one_pass_march.hpp"
+#include "partitioned/schemes/explicit_coupling_monitor.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 namespace fsi {
 
-void OnePassMarch::require_small(double added_mass, int order, double time) const {
+void ExplicitCouplingMonitor::require_small(double added_mass, int order, double time) const {
   const double limit = std::pow(3, 1 - order);
   if (!(added_mass > limit)) return;
   give_up(
@@ -18,7 +18,7 @@ void OnePassMarch::require_small(double added_mass, int order, double time) cons
                   added_mass, limit));
 }
 
-void OnePassMarch::check(int step, double time, const CouplingReport& pass, double movement) {
+void ExplicitCouplingMonitor::check(int step, double time, const CouplingReport& pass, double movement) {
   if (alternation_.alternates(pass.displacement_gap, pass.displacement_residual))
     give_up(step, time,
             fmt::format("is unstable: {} steps running the wall has missed the extrapolated displacement by more than "
@@ -32,12 +32,12 @@ void OnePassMarch::check(int step, double time, const CouplingReport& pass, doub
                         velocity_gap_.steps(), velocity_gap_.bound(), velocity_gap_.last()));
 }
 
-void OnePassMarch::give_up(int step, double time, const std::string& what) const {
+void ExplicitCouplingMonitor::give_up(int step, double time, const std::string& what) const {
   throw ConvergenceError(fmt::format("step {} (to t = {:g} ms): the {} coupling {}", step, time, scheme_->name, what),
                          scheme_->advice);
 }
 
-std::string OnePassMarch::unchecked() const {
+std::string ExplicitCouplingMonitor::unchecked() const {
   const int apart = std::max(velocity_gap_.steps(), alternation_.steps());
   if (steps_ >= VelocityGapMonitor::most_steps && apart == 0) return {};
   const std::string seen = apart > 0 ? fmt::format("; in the last {} of them fluid and wall came apart", apart) : "";
@@ -47,16 +47,16 @@ std::string OnePassMarch::unchecked() const {
       scheme_->name, steps_, seen, VelocityGapMonitor::most_steps);
 }
 
-void OnePassMarch::keep(Memory& memory) {
+void ExplicitCouplingMonitor::keep(RestartArchive& archive) {
   // Where another scheme wrote the checkpoint, they are as in a new march.
   int alternating = alternation_.steps(), apart = velocity_gap_.steps();
   double gap = alternation_.last_gap(), movement = velocity_gap_.largest_movement();
-  memory.count_if_there("steps", steps_);
-  memory.count_if_there("alternating_steps", alternating);
-  memory.number_if_there("last_gap", gap);
-  memory.count_if_there("steps_apart", apart);
-  memory.number_if_there("largest_movement", movement);
-  if (!memory.step_changed()) alternation_.set(alternating, gap);
+  archive.count_if_there("steps", steps_);
+  archive.count_if_there("alternating_steps", alternating);
+  archive.number_if_there("last_gap", gap);
+  archive.count_if_there("steps_apart", apart);
+  archive.number_if_there("largest_movement", movement);
+  if (!archive.step_changed()) alternation_.set(alternating, gap);
   velocity_gap_.set(apart, movement);
 }
 

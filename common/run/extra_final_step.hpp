@@ -1,7 +1,7 @@
 #pragma once
 
 #include "case/case.hpp"
-#include "run/march.hpp"
+#include "run/step_controller.hpp"
 #include "scene/loads.hpp"
 #include "time/state.hpp"
 #include "time/stepper.hpp"
@@ -9,7 +9,7 @@
 namespace fsi {
 
 /// What one step behind the end of a run has found.
-struct StepBeyond {
+struct ExtraFinalStep {
   State state;  ///< at its end; before[1] is the last level of the run, with the pressures that it has in a longer one
   StepReport report;
 };
@@ -22,6 +22,6 @@ struct StepBeyond {
 /// \param loads  as they were, afterwards
 /// \throws ConvergenceError when the step has no solution
 template <int n>
-StepBeyond step_beyond(const Case& setup, const State& state, Loads& loads, March<n>& march);
+ExtraFinalStep extra_final_step(const Case& setup, const State& state, Loads& loads, StepController<n>& march);
 
 }  // namespace fsi
