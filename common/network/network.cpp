@@ -148,7 +148,8 @@ NetworkState Network::solve_from(NetworkState state, const NetworkMoment& at, co
     auto equations_there = equations(at, reference, next);
     std::size_t worst = 0;
     double imbalance_there = lack_of_valves(equations_there, next, worst, rounded);
-    for (int halvings = 0; k > 0 && !rounded && !(imbalance_there <= (1 - least_decrease * step) * imbalance); ++halvings) {
+    for (int halvings = 0; k > 0 && !rounded && !(imbalance_there <= (1 - least_decrease * step) * imbalance);
+         ++halvings) {
       if (halvings == most_halvings) {
         state.settled = false;
         state.unsettled = worst;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr auto unbounded = std::numeric_limits<std::uint64_t>::max();
 
-TEST(RestartArchive, MachineHasWhatIsAvailableAndFreeSwap) {
+TEST(AvailableMemory, MachineHasWhatIsAvailableAndFreeSwap) {
   EXPECT_EQ(machine_room("MemTotal: 999 kB\nMemFree: 5 kB\nMemAvailable:   100 kB\nSwapFree: 28 kB\n"), 128u * 1024);
   EXPECT_EQ(machine_room("MemAvailable: 100 kB"), 100u * 1024);
   EXPECT_EQ(machine_room("MemFree: 100 kB\nSwapFree: 28 kB\n"), unbounded);
@@ -44,40 +44,40 @@ TEST_F(MemoryOfGroups, LeaveTheLeastOfTheirOwnLimitsAndOfThoseAbove) {
   EXPECT_EQ(group_room("0::/a\n", folder.c_str()), 450u);
   write("memory/c/memory.limit_in_bytes", "5000\n");
   write("memory/c/memory.usage_in_bytes", "1000\n");
-  EXPECT_EQ(group_room("12:cpu:/a\n4:archive:/c\n", folder.c_str()), 4000u);
+  EXPECT_EQ(group_room("12:cpu:/a\n4:memory:/c\n", folder.c_str()), 4000u);
   write("memory/c/memory.limit_in_bytes", "9223372036854771712\n");  // none
-  EXPECT_EQ(group_room("4:archive:/c\n", folder.c_str()), unbounded);
+  EXPECT_EQ(group_room("4:memory:/c\n", folder.c_str()), unbounded);
 }
 
-TEST(RestartArchive, SizesAreReadable) {
+TEST(AvailableMemory, SizesAreReadable) {
   EXPECT_EQ(memory_text(80), "80 bytes");
   EXPECT_EQ(memory_text(2048), "2.0 KiB");
   EXPECT_EQ(memory_text(128.0 * 1024 * 1024), "128 MiB");
   EXPECT_EQ(memory_text(3.1 * 1024 * 1024 * 1024), "3.1 GiB");
 }
 
-TEST(RestartArchive, MessageSaysWhatWasDoneAskedAndWouldHelp) {
+TEST(AvailableMemory, MessageSaysWhatWasDoneAskedAndWouldHelp) {
   const Activity outer("making the outer thing");
   {
     const Activity inner("factorising a matrix");
     const std::string said = OutOfMemory("7 GiB asked", "take less").what();
-    EXPECT_EQ(said.rfind("out of archive (factorising a matrix): 7 GiB asked, ", 0), 0u) << said;
+    EXPECT_EQ(said.rfind("out of memory (factorising a matrix): 7 GiB asked, ", 0), 0u) << said;
     EXPECT_NE(said.find(" available ("), std::string::npos) << said;
     EXPECT_NE(said.find("; take less"), std::string::npos) << said;
   }
-  EXPECT_EQ(std::string(OutOfMemory("x").what()).rfind("out of archive (making the outer thing)", 0), 0u);
+  EXPECT_EQ(std::string(OutOfMemory("x").what()).rfind("out of memory (making the outer thing)", 0), 0u);
 }
 
-TEST(RestartArchive, EndsWithOneMessageAndExitCodeOne) {
+TEST(AvailableMemory, EndsWithOneMessageAndExitCodeOne) {
   EXPECT_EXIT(
       end_out_of_memory(std::size_t{3} << 30), testing::ExitedWithCode(1),
-      "^.*: error: out of archive \\(starting\\): 3.0 GiB asked, .* available \\(.*\\); take a coarser mesh.*\n$");
+      "^.*: error: out of memory \\(starting\\): 3.0 GiB asked, .* available \\(.*\\); take a coarser mesh.*\n$");
   EXPECT_EXIT(end_out_of_memory("fsi-x", OutOfMemory("7 GiB asked")), testing::ExitedWithCode(1),
-              "^fsi-x: error: out of archive \\(starting\\): 7 GiB asked, .*\n$");
+              "^fsi-x: error: out of memory \\(starting\\): 7 GiB asked, .*\n$");
   EXPECT_EXIT(end_without_thread(), testing::ExitedWithCode(1), "a thread cannot be started .*--threads");
 }
 
-TEST(RestartArchive, LimitOfAddressesBoundsTheRoom) {
+TEST(AvailableMemory, LimitOfAddressesBoundsTheRoom) {
   const auto limited_room = [] {
     const rlimit limit{std::uint64_t{1} << 46, RLIM_INFINITY};  // above the shadow memory of sanitizers
     setrlimit(RLIMIT_AS, &limit);
@@ -88,7 +88,7 @@ TEST(RestartArchive, LimitOfAddressesBoundsTheRoom) {
   EXPECT_EXIT(limited_room(), testing::ExitedWithCode(0), "");
 }
 
-TEST(RestartArchive, FailuresAreToleratedWhereSaid) {
+TEST(AvailableMemory, FailuresAreToleratedWhereSaid) {
   EXPECT_FALSE(MayFail::now());
   {
     const MayFail outer;
