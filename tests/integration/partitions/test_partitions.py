@@ -28,15 +28,14 @@ from scenes import KINDS, forms, scene
 
 MATERIALS = (NEO_HOOKEAN, MOONEY_RIVLIN, ARTERY)
 # So tight that what is left is round-off and the linear solver's last digits.
-TIGHT = ("newton.tolerance=1e-10", "partitioned.tolerance=1e-10")
+TIGHT = {MONOLITHIC: "newton.tolerance=1e-10", PARTITIONED: "partitioned.tolerance=1e-10"}
 BOUND = 1e-8  # relative to the largest value of a column
 # Small systems are factorised. Where PETSc has options it solves them, here with what it takes for large ones.
 ITERATION = "petsc.options=-fsi_pressure_pc_type gamg"
 
 
 def tight(program):
-    section = Path(program).name.removeprefix("fsi-")
-    return tuple(setting for setting in TIGHT if setting.startswith(section))
+    return (TIGHT[program],)
 
 
 TABLES = ("centerline_pressure.csv", "wall_displacement.csv", "flow.csv", "openings.csv")
