@@ -46,7 +46,7 @@ struct ArrayRule {
 
 /// What a restart needs to go on bit for bit. Who has such numbers goes over them in one function,
 ///   void keep(RestartArchive& memory) { memory.number("age", age_, count_range); memory.array("load", kind, load_); }
-/// which tells the name of each, its kind and what it may be, and serves both ways: a memory that is written down takes the
+/// which tells the name of each, its kind and what it may be, and serves both ways: an archive that is written takes the
 /// values; one that recalls puts those of an earlier run in their place, if it can believe them. So an entry is one line.
 class RestartArchive {
  public:
@@ -74,7 +74,7 @@ class RestartArchive {
   void count_if_there(const std::string& name, int& value);
 };
 
-/// Another memory, with something before all names.
+/// Another archive, with something before all names.
 class PrefixedArchive : public RestartArchive {
  public:
   /// \param archive  must outlive this
