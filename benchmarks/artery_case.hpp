@@ -4,7 +4,7 @@
 #include <string>
 
 #include "materials/material.hpp"
-#include "mesh/artery_generator.hpp"
+#include "mesher/artery_generator.hpp"
 #include "scene/build_scene.hpp"
 
 namespace fsi {

@@ -2,10 +2,10 @@
 // each element alone, linear and Taylor-Hood, on the coarse one.
 #include <benchmark/benchmark.h>
 
-#include "base/threads.hpp"
 #include "benchmarks/artery_case.hpp"
 #include "fem/elements.hpp"
 #include "fluid/fluid_problem.hpp"
+#include "host/threads.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "scene/build_scene.hpp"
 #include "wall/wall_problem.hpp"

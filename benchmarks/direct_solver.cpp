@@ -1,9 +1,9 @@
 // Fill-reducing orderings and pivoting strategies of the direct solver on the coupled system of the artery.
 #include <benchmark/benchmark.h>
 
-#include "base/threads.hpp"
 #include "benchmarks/artery_case.hpp"
 #include "fem/p1_tetrahedron.hpp"
+#include "host/threads.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "scene/loads.hpp"
 #include "system/system.hpp"

@@ -2,10 +2,10 @@
 // level by level.
 #include <benchmark/benchmark.h>
 
-#include "algebra/dense_threads.hpp"
-#include "base/threads.hpp"
 #include "benchmarks/artery_case.hpp"
 #include "fem/p1_tetrahedron.hpp"
+#include "host/threads.hpp"
+#include "linear/direct/dense_threads.hpp"
 #include "mesh_motion/harmonic_extension.hpp"
 #include "system/numbering.hpp"
 

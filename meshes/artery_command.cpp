@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/output_file.hpp"
-#include "base/threads.hpp"
+#include "host/threads.hpp"
 #include "meshes/artery_request.hpp"
 #include "meshes/mesh_report.hpp"
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "mesh/artery/curved_edges.hpp"
-#include "mesh/artery/sector_images.hpp"
-#include "mesh/artery_generator.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/mirror.hpp"
+#include "mesher/artery/curved_edges.hpp"
+#include "mesher/artery/sector_images.hpp"
+#include "mesher/artery_generator.hpp"
 
 namespace fsi {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <variant>
 
-#include "mesh/artery/options.hpp"
-#include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/simplex_mesh.hpp"
+#include "mesher/artery/options.hpp"
+#include "mesher/artery/recommended_meshes.hpp"
 
 namespace fsi {
 

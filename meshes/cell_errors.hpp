@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/geo_script.hpp"
+#include "mesher/geo_script.hpp"
 
 namespace fsi {
 

@@ -2,8 +2,8 @@
 
 #include <sstream>
 
-#include "base/child_program.hpp"
 #include "base/error.hpp"
+#include "host/child_program.hpp"
 #include "meshes/mesh_report.hpp"
 #include "run/program.hpp"
 

@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <utility>
 
-#include "mesh/curved_columns.hpp"
 #include "mesh/flat_parts.hpp"
 #include "mesh/point_math.hpp"
-#include "mesh/surface/smooth_edges.hpp"
-#include "mesh/wall_growth.hpp"
+#include "mesher/curved_columns.hpp"
+#include "mesher/surface/smooth_edges.hpp"
+#include "mesher/wall_growth.hpp"
 
 namespace fsi {
 

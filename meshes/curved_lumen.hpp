@@ -3,17 +3,17 @@
 #include <string>
 #include <vector>
 
-#include "mesh/edge_curves.hpp"
-#include "mesh/prism_columns.hpp"
 #include "mesh/simplex_mesh.hpp"
+#include "mesher/edge_curves.hpp"
+#include "mesher/prism_columns.hpp"
 
 namespace fsi {
 
 /// What a user is told behind a report.
 using MeshWarnings = std::vector<std::string>;
 
-/// The curved edges of a lumen of straight ones: those of its surface, as its nodes show it (mesh/surface/smooth_edges.hpp), and
-/// those below in layers along it (mesh/curved_columns.hpp). Where cells would fold they are left straight.
+/// The curved edges of a lumen of straight ones: those of its surface, as its nodes show it (mesher/surface/smooth_edges.hpp), and
+/// those below in layers along it (mesher/curved_columns.hpp). Where cells would fold they are left straight.
 /// \param on        the surface; empty: what no named one holds
 /// \param layers    of columns that end on the surface; none where it is empty
 /// \param said      gets sentences, each a line

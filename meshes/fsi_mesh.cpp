@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/standard_streams.hpp"
 #include "base/version.hpp"
+#include "host/available_memory.hpp"
+#include "host/standard_streams.hpp"
 #include "meshes/adapt_command.hpp"
 #include "meshes/artery_command.hpp"
 #include "meshes/check_command.hpp"

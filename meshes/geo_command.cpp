@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/output_file.hpp"
-#include "base/threads.hpp"
-#include "mesh/geo_script.hpp"
+#include "host/threads.hpp"
+#include "mesher/geo_script.hpp"
 #include "meshes/mesh_report.hpp"
 #include "meshes/options.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/printable.hpp"
-#include "mesh/gmsh_reader.hpp"
+#include "mesh_io/gmsh_reader.hpp"
 #include "meshes/mesh_report.hpp"
 #include "run/program.hpp"
 

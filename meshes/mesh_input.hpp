@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/geo_script.hpp"
 #include "mesh/simplex_mesh.hpp"
+#include "mesher/geo_script.hpp"
 
 namespace fsi {
 

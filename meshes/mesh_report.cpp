@@ -10,14 +10,14 @@
 
 #include "base/error.hpp"
 #include "base/printable.hpp"
-#include "base/standard_streams.hpp"
+#include "host/standard_streams.hpp"
 #include "mesh/cell_words.hpp"
 #include "mesh/cells_across.hpp"
-#include "mesh/corner_cells.hpp"
 #include "mesh/flat_parts.hpp"
-#include "mesh/gmsh_reader.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/wall_faces.hpp"
+#include "mesh_io/gmsh_reader.hpp"
+#include "mesher/corner_cells.hpp"
 #include "run/program.hpp"
 
 namespace fsi {

@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "mesh/geo_script.hpp"
-#include "mesh/gmsh_writer.hpp"
+#include "mesh_io/gmsh_writer.hpp"
+#include "mesher/geo_script.hpp"
 
 namespace fsi {
 
@@ -30,7 +30,7 @@ void add_output_options(CLI::App& command, MeshOutput& output, bool file_require
 void require_known_extension(const std::string& file);
 
 /// Writes the mesh and reports its quality as the solvers will see it; warnings of bad elements go to stderr. Cells of the
-/// fluid in corners (mesh/corner_cells.hpp) are divided first, which the report says.
+/// fluid in corners (mesher/corner_cells.hpp) are divided first, which the report says.
 /// \param plane     where a mesh of triangles lies
 /// \param foreword  printed before the report; a sentence with its newline, or empty
 /// \param warn      false: its stretched elements are meant

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesh/flat_parts.hpp"
-#include "mesh/surface/lumen_openings.hpp"
+#include "mesher/surface/lumen_openings.hpp"
 
 namespace fsi {
 

@@ -10,9 +10,9 @@
 
 #include "base/output_file.hpp"
 #include "base/printable.hpp"
-#include "base/threads.hpp"
+#include "host/threads.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/uniform_refinement.hpp"
+#include "mesher/uniform_refinement.hpp"
 #include "meshes/mesh_input.hpp"
 #include "meshes/mesh_report.hpp"
 #include "run/program.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "mesh/surface/lumen_openings.hpp"
-#include "mesh/surface/triangle_surface.hpp"
+#include "mesher/surface/lumen_openings.hpp"
+#include "mesher/surface/triangle_surface.hpp"
 
 namespace fsi {
 

@@ -10,8 +10,8 @@
 #include <system_error>
 
 #include "base/error.hpp"
-#include "mesh/surface/local_radius.hpp"
-#include "mesh/surface/wall_thickness.hpp"
+#include "mesher/surface/local_radius.hpp"
+#include "mesher/surface/wall_thickness.hpp"
 #include "meshes/converted.hpp"
 #include "meshes/mesh_report.hpp"
 #include "run/program.hpp"

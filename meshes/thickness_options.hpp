@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "mesh/wall_growth.hpp"
+#include "mesher/wall_growth.hpp"
 
 namespace CLI {
 class App;

@@ -6,8 +6,8 @@
 
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
-#include "linear_solvers/general_solvers.hpp"
-#include "monolithic/coupled_linear_solver.hpp"
+#include "linear/choice/general_solvers.hpp"
+#include "monolithic/coupled_solvers/coupled_linear_solver.hpp"
 
 namespace fsi {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "case/case.hpp"
-#include "system/linear_solver.hpp"
+#include "linear/interface/linear_solver.hpp"
 
 namespace fsi {
 

@@ -1,4 +1,4 @@
-#include "linear_solvers/general_solvers.hpp"
+#include "linear/choice/general_solvers.hpp"
 #include "partitioned/registry.hpp"
 #include "run/driver.hpp"
 #include "system/newton_stepper.hpp"

@@ -5,10 +5,10 @@
 #include <memory>
 #include <utility>
 
-#include "condensed_solver/fast_solver.hpp"
-#include "condensed_solver/plane_judge.hpp"
 #include "fem/dimensions.hpp"
-#include "linear_solvers/general_solvers.hpp"
+#include "linear/choice/general_solvers.hpp"
+#include "linear/velocity_pressure/fast_solver.hpp"
+#include "linear/velocity_pressure/plane_judge.hpp"
 #include "system/numbering.hpp"
 
 namespace fsi {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "case/case.hpp"
+#include "linear/interface/linear_solver.hpp"
 #include "scene/scene.hpp"
-#include "system/linear_solver.hpp"
 
 namespace fsi {
 

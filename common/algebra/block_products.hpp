@@ -9,7 +9,7 @@
 
 #include "algebra/block_matrix.hpp"
 #include "algebra/vector_operations.hpp"
-#include "base/parallel_for.hpp"
+#include "host/parallel_for.hpp"
 
 namespace fsi {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "algebra/registers.hpp"
-#include "base/parallel_for.hpp"
+#include "host/parallel_for.hpp"
 
 namespace fsi {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/parallel_for.hpp"
+#include "host/parallel_for.hpp"
 
 namespace fsi {
 

@@ -16,15 +16,15 @@
 #include "case/pressure_table.hpp"
 #include "case/quasi_newton_options.hpp"
 #include "case/sample_requests.hpp"
+#include "fields/field_samples.hpp"
+#include "fields/region_shape.hpp"
+#include "linear/krylov/krylov.hpp"
 #include "materials/maxwell_branch.hpp"
 #include "materials/parameter.hpp"
-#include "mesh/artery/recommended_meshes.hpp"
-#include "mesh/fields/field_samples.hpp"
-#include "mesh/fields/region_shape.hpp"
 #include "mesh/simplex_mesh.hpp"
 #include "mesh_motion/mesh_motion_options.hpp"
-#include "solvers/krylov/krylov.hpp"
-#include "solvers/newton.hpp"
+#include "mesher/artery/recommended_meshes.hpp"
+#include "nonlinear/newton.hpp"
 
 namespace fsi {
 

@@ -14,7 +14,7 @@ namespace fsi {
 // meaning are checked against them when they are compiled, see names_match().
 
 /// partitioned.linear_solver, and the first of monolithic.linear_solver: solvers for any scene and sub-problem. Their
-/// factories: linear_solvers/general_solvers.hpp.
+/// factories: linear/choice/general_solvers.hpp.
 inline constexpr std::array<std::string_view, 3> general_solver_list{"fast", "direct", "petsc"};
 
 /// The other names of monolithic.linear_solver, for scenes of fluid and wall. Their table:

@@ -16,8 +16,8 @@
 #include "base/hash.hpp"
 #include "case/key_values.hpp"
 #include "case/table_units.hpp"
+#include "fields/field_units.hpp"
 #include "materials/material.hpp"
-#include "mesh/fields/field_units.hpp"
 #include "mesh/point_math.hpp"
 
 namespace fsi {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/name_table.hpp"
-#include "solvers/amg/kinds.hpp"
+#include "case/multigrid_kinds.hpp"
 
 namespace fsi {
 

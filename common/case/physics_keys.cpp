@@ -20,9 +20,9 @@
 #include "case/table_input.hpp"
 #include "case/viscosity_keys.hpp"
 #include "materials/material.hpp"
-#include "mesh/artery/recommended_meshes.hpp"
-#include "mesh/artery_generator.hpp"
 #include "mesh/group_names.hpp"
+#include "mesher/artery/recommended_meshes.hpp"
+#include "mesher/artery_generator.hpp"
 #include "time/time_schemes.hpp"
 
 namespace fsi {

@@ -15,9 +15,9 @@
 #include "case/constant_fields.hpp"
 #include "case/key_values.hpp"
 #include "case/layer_keys.hpp"
+#include "fields/field_units.hpp"
+#include "fields/point_table.hpp"
 #include "materials/material.hpp"
-#include "mesh/fields/field_units.hpp"
-#include "mesh/fields/point_table.hpp"
 #include "mesh/point_math.hpp"
 
 namespace fsi {

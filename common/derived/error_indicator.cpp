@@ -8,12 +8,12 @@
 #include <optional>
 #include <utility>
 
-#include "base/threads.hpp"
 #include "derived/gradient_recovery.hpp"
 #include "derived/recovery_mirrors.hpp"
 #include "fem/elements.hpp"
 #include "fem/nodal_layout.hpp"
 #include "fluid/fluid_problem.hpp"
+#include "host/threads.hpp"
 #include "mesh/group_names.hpp"
 #include "wall/wall_problem.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "algebra/node_graph.hpp"
-#include "base/threads.hpp"
+#include "host/threads.hpp"
 #include "math/tensor.hpp"
 
 namespace fsi {

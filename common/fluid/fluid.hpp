@@ -47,7 +47,7 @@ class Fluid {
   /// \param pressures  from outside, kPa, of the open boundaries in their order; missing ones are zero
   /// \param jacobian   on the graph(): the derivatives that it has room for are overwritten, for given pressures from
   ///                   outside: how these answer the flow, dp/dQ w w^T, w the normals of an opening, would fill the
-  ///                   matrix (system/low_rank_solver.hpp). Null: no derivatives
+  ///                   matrix (linear/interface/low_rank_solver.hpp). Null: no derivatives
   virtual AssemblyResult assemble(const FluidInput& in, const std::vector<double>& pressures,
                                   std::vector<double>& residual, FluidJacobian<n>* jacobian = nullptr) = 0;
 

@@ -5,9 +5,9 @@
 #include <map>
 #include <utility>
 
-#include "algebra/direct_solver.hpp"
 #include "fem/elements.hpp"
 #include "fluid/facet_shapes.hpp"
+#include "linear/direct/direct_solver.hpp"
 
 namespace fsi {
 

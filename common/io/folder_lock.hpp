@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/removed_on_signal.hpp"
+#include "host/removed_on_signal.hpp"
 
 namespace fsi {
 

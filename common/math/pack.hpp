@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "base/instruction_set.hpp"
+#include "host/instruction_set.hpp"
 
 namespace fsi {
 

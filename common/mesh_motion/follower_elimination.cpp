@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/parallel_for.hpp"
+#include "host/parallel_for.hpp"
 
 namespace fsi {
 

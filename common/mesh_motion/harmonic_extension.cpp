@@ -8,8 +8,8 @@
 
 #include "algebra/block_products.hpp"
 #include "algebra/register_blocks.hpp"
-#include "base/parallel_for.hpp"
 #include "fem/nodal_layout.hpp"
+#include "host/parallel_for.hpp"
 
 namespace fsi {
 

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
-#include "algebra/cholesky_solver.hpp"
 #include "algebra/csr_matrix.hpp"
 #include "fem/nodal_frames.hpp"
+#include "linear/amg/scalar_multigrid.hpp"
+#include "linear/direct/cholesky_solver.hpp"
 #include "mesh_motion/follower_elimination.hpp"
 #include "mesh_motion/mesh_extension.hpp"
-#include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
 
 namespace fsi {
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
-#include "base/parallel_for.hpp"
 #include "fem/assembly_result.hpp"
 #include "fem/element_packs.hpp"
 #include "fem/nodal_layout.hpp"
+#include "host/parallel_for.hpp"
 
 namespace fsi {
 

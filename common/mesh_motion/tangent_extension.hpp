@@ -3,12 +3,12 @@
 #include <optional>
 #include <vector>
 
-#include "algebra/cholesky_solver.hpp"
 #include "algebra/csr_matrix.hpp"
-#include "algebra/direct_solver.hpp"
+#include "linear/amg/scalar_multigrid.hpp"
+#include "linear/direct/cholesky_solver.hpp"
+#include "linear/direct/direct_solver.hpp"
 #include "mesh_motion/mesh_extension.hpp"
 #include "mesh_motion/nonlinear_mesh_motion.hpp"
-#include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
 
 namespace fsi {
 

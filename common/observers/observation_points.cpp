@@ -12,8 +12,8 @@
 #include "mesh/disjoint_sets.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/point_math.hpp"
-#include "mesh/sampling.hpp"
-#include "mesh/wall_sampling.hpp"
+#include "sampling/point_sampling.hpp"
+#include "sampling/wall_sampling.hpp"
 
 namespace fsi {
 

@@ -11,8 +11,8 @@
 #include "base/names.hpp"
 #include "fem/elements.hpp"
 #include "mesh/point_math.hpp"
-#include "mesh/sampling.hpp"
 #include "sampling/centre_line.hpp"
+#include "sampling/point_sampling.hpp"
 
 namespace fsi {
 

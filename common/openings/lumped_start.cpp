@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <stdexcept>
 
-#include "algebra/dense_inverse.hpp"
+#include "linear/direct/dense_inverse.hpp"
 
 namespace fsi {
 

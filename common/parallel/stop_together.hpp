@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/stop_request.hpp"
+#include "host/stop_request.hpp"
 #include "parallel/communicator.hpp"
 
 namespace fsi {

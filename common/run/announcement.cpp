@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "base/printable.hpp"
-#include "base/standard_streams.hpp"
-#include "base/threads.hpp"
 #include "base/version.hpp"
 #include "case/scene_period.hpp"
 #include "fem/dimensions.hpp"
-#include "linear_solvers/general_solvers.hpp"
+#include "host/standard_streams.hpp"
+#include "host/threads.hpp"
+#include "linear/choice/general_solvers.hpp"
 #include "run/program.hpp"
 #include "scene/time_scheme.hpp"
 

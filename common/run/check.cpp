@@ -8,15 +8,15 @@
 #include <map>
 #include <vector>
 
-#include "base/available_memory.hpp"
 #include "base/error.hpp"
 #include "base/profile.hpp"
-#include "base/standard_streams.hpp"
 #include "base/stopwatch.hpp"
-#include "base/threads.hpp"
 #include "case/scene_period.hpp"
 #include "fem/dimensions.hpp"
-#include "linear_solvers/general_solvers.hpp"
+#include "host/available_memory.hpp"
+#include "host/standard_streams.hpp"
+#include "host/threads.hpp"
+#include "linear/choice/general_solvers.hpp"
 #include "observers/field_output.hpp"
 #include "run/case_description.hpp"
 #include "run/console.hpp"

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "base/idle_cores.hpp"
 #include "case/case.hpp"
+#include "host/idle_cores.hpp"
 #include "run/command_line.hpp"
 #include "run/driver.hpp"
 

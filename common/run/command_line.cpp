@@ -11,9 +11,9 @@
 #include "base/error.hpp"
 #include "base/names.hpp"
 #include "base/printable.hpp"
-#include "base/standard_streams.hpp"
 #include "base/version.hpp"
 #include "case/case_reader.hpp"
+#include "host/standard_streams.hpp"
 
 namespace fsi {
 

@@ -1,6 +1,6 @@
 #include "run/cost_summary.hpp"
 
-#include "base/machine.hpp"
+#include "host/machine.hpp"
 #include "math/pack.hpp"
 
 namespace fsi {

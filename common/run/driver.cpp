@@ -2,17 +2,17 @@
 
 #include <optional>
 
-#include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/idle_cores.hpp"
-#include "base/standard_streams.hpp"
-#include "base/threads.hpp"
 #include "case/case_reader.hpp"
+#include "host/available_memory.hpp"
+#include "host/idle_cores.hpp"
+#include "host/standard_streams.hpp"
+#include "host/threads.hpp"
 #include "io/first_process.hpp"
 #include "io/folder_lock.hpp"
 #include "io/hdf5_library.hpp"
 #include "io/write_error.hpp"
-#include "petsc_solver/petsc_options.hpp"
+#include "linear/distributed/petsc_options.hpp"
 #include "run/check.hpp"
 #include "run/interruption.hpp"
 #include "run/load_scene.hpp"

@@ -8,11 +8,11 @@
 #include <cstddef>
 #include <cstdio>
 
-#include "base/child_program.hpp"
 #include "base/printable.hpp"
-#include "base/removed_on_signal.hpp"
-#include "base/standard_streams.hpp"
-#include "base/stop_request.hpp"
+#include "host/child_program.hpp"
+#include "host/removed_on_signal.hpp"
+#include "host/standard_streams.hpp"
+#include "host/stop_request.hpp"
 #include "run/console.hpp"
 
 namespace fsi {

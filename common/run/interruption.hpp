@@ -8,7 +8,7 @@ namespace fsi {
 // What a program does at SIGINT (Ctrl-C), SIGTERM and SIGHUP (the terminal is gone). One that was ignored when the
 // program began, as by nohup, stays ignored.
 
-/// From now on the first of them ends the program at once: what is kept for removal (base/removed_on_signal.hpp) is
+/// From now on the first of them ends the program at once: what is kept for removal (host/removed_on_signal.hpp) is
 /// removed, stderr gets the line `PROGRAM: interrupted SAID`, the exit code is interrupted_exit_code. For times when
 /// there is nothing to finish.
 void end_at_signals(const std::string& program, const std::string& said);
@@ -17,7 +17,7 @@ void end_at_signals(const std::string& program, const std::string& said);
 /// has said why.
 void expect_launcher();
 
-/// From now on the first of them is only noted (base/stop_request.hpp), so that a run can end in order. A second one ends
+/// From now on the first of them is only noted (host/stop_request.hpp), so that a run can end in order. A second one ends
 /// the program at once, as if nothing watched. To the end of the program: a run that is done says so.
 void note_signals();
 

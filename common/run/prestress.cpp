@@ -11,7 +11,7 @@
 #include "case/case_keys.hpp"
 #include "case/support_loads.hpp"
 #include "fem/dimensions.hpp"
-#include "linear_solvers/general_solvers.hpp"
+#include "linear/choice/general_solvers.hpp"
 #include "restart/array_orders.hpp"
 #include "system/prestress.hpp"
 

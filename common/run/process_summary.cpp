@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/profile.hpp"
-#include "base/threads.hpp"
 #include "fem/dimensions.hpp"
+#include "host/threads.hpp"
 #include "system/numbering.hpp"
 
 namespace fsi {

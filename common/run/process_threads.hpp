@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "base/idle_cores.hpp"
+#include "host/idle_cores.hpp"
 #include "parallel/communicator.hpp"
 
 namespace fsi {

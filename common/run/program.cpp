@@ -6,10 +6,10 @@
 #include <new>
 #include <string>
 
-#include "base/available_memory.hpp"
 #include "base/error.hpp"
 #include "base/printable.hpp"
-#include "base/standard_streams.hpp"
+#include "host/available_memory.hpp"
+#include "host/standard_streams.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/end_together.hpp"
 

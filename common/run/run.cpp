@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cstring>
 
-#include "base/available_memory.hpp"
 #include "base/error.hpp"
 #include "base/printable.hpp"
-#include "base/standard_streams.hpp"
-#include "base/stop_request.hpp"
 #include "diagnostics/failure_hint.hpp"
 #include "fem/dimensions.hpp"
+#include "host/available_memory.hpp"
+#include "host/standard_streams.hpp"
+#include "host/stop_request.hpp"
 #include "io/run_log.hpp"
 #include "io/write_error.hpp"
 #include "observers/field_output.hpp"

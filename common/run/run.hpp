@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "base/idle_cores.hpp"
 #include "case/case.hpp"
+#include "host/idle_cores.hpp"
 #include "io/folder_lock.hpp"
 #include "run/command_line.hpp"
 #include "run/driver.hpp"

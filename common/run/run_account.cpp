@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "base/available_memory.hpp"
-#include "base/threads.hpp"
 #include "base/version.hpp"
 #include "fem/dimensions.hpp"
+#include "host/available_memory.hpp"
+#include "host/threads.hpp"
 #include "io/summary.hpp"
 #include "run/cost_summary.hpp"
 

@@ -1,10 +1,10 @@
 #include "run/run_parts.hpp"
 
-#include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/threads.hpp"
 #include "case/case_hash.hpp"
 #include "fem/dimensions.hpp"
+#include "host/available_memory.hpp"
+#include "host/threads.hpp"
 #include "scene/time_scheme.hpp"
 
 namespace fsi {

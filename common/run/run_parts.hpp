@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "base/idle_cores.hpp"
 #include "base/stopwatch.hpp"
 #include "case/case.hpp"
+#include "host/idle_cores.hpp"
 #include "io/first_process.hpp"
 #include "io/folder_lock.hpp"
 #include "restart/array_orders.hpp"

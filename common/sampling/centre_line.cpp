@@ -7,9 +7,9 @@
 #include "base/error.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/for_each_mesh.hpp"
-#include "mesh/sampling.hpp"
 #include "sampling/harmonic_coordinate.hpp"
 #include "sampling/level_cut.hpp"
+#include "sampling/point_sampling.hpp"
 #include "sampling/smooth_curve.hpp"
 
 namespace fsi {

@@ -7,8 +7,8 @@
 #include "algebra/csr_matrix.hpp"
 #include "algebra/node_graph.hpp"
 #include "base/error.hpp"
+#include "linear/amg/scalar_multigrid.hpp"
 #include "mesh/point_math.hpp"
-#include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
 
 namespace fsi {
 

@@ -13,9 +13,9 @@
 #include "base/error.hpp"
 #include "case/constant_fields.hpp"
 #include "fem/elements.hpp"
+#include "fields/field_units.hpp"
+#include "fields/point_field.hpp"
 #include "materials/material.hpp"
-#include "mesh/fields/field_units.hpp"
-#include "mesh/fields/point_field.hpp"
 
 namespace fsi {
 

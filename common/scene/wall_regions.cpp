@@ -6,8 +6,8 @@
 #include <map>
 
 #include "base/error.hpp"
-#include "mesh/fields/field_units.hpp"
-#include "mesh/fields/region_shape.hpp"
+#include "fields/field_units.hpp"
+#include "fields/region_shape.hpp"
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/point_math.hpp"
 

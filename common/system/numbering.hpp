@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "linear/interface/field_numbering.hpp"
 #include "scene/scene.hpp"
-#include "system/field_numbering.hpp"
 
 namespace fsi {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "linear/interface/low_rank_solver.hpp"
 #include "system/given_flows.hpp"
-#include "system/low_rank_solver.hpp"
 #include "system/numbering.hpp"
 
 namespace fsi {

@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
+#include "linear/interface/linear_solver.hpp"
 #include "scene/scene.hpp"
-#include "system/linear_solver.hpp"
 
 namespace fsi {
 

@@ -8,9 +8,9 @@
 #include "algebra/vector_operations.hpp"
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
+#include "linear/interface/direct_linear_solver.hpp"
+#include "linear/interface/jacobian_product.hpp"
 #include "parallel/stop_together.hpp"
-#include "system/direct_linear_solver.hpp"
-#include "system/jacobian_product.hpp"
 
 namespace fsi {
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "solvers/newton.hpp"
-#include "system/direct_linear_solver.hpp"
+#include "linear/interface/direct_linear_solver.hpp"
+#include "linear/interface/linear_solver.hpp"
+#include "nonlinear/newton.hpp"
 #include "system/field_norms.hpp"
-#include "system/linear_solver.hpp"
 #include "system/numbering.hpp"
 #include "system/opening_terms.hpp"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "algebra/direct_solver.hpp"
 #include "algebra/node_graph.hpp"
 #include "fem/elements.hpp"
+#include "linear/direct/direct_solver.hpp"
 #include "wall/fibre_directions.hpp"
 
 namespace fsi {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "algebra/vector_operations.hpp"
-#include "solvers/amg/elliptic_amg.hpp"
-#include "solvers/amg/saddle_amg.hpp"
-#include "solvers/krylov/richardson.hpp"
+#include "linear/krylov/richardson.hpp"
+#include "monolithic/coupled_solvers/amg/elliptic_amg.hpp"
+#include "monolithic/coupled_solvers/amg/saddle_amg.hpp"
 
 namespace fsi {
 

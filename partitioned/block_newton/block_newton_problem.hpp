@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "case/case.hpp"
+#include "nonlinear/newton.hpp"
 #include "partitioned/accelerators/affine_map.hpp"
 #include "partitioned/block_newton/joint_iteration.hpp"
 #include "partitioned/interface/membrane.hpp"
 #include "partitioned/interface_space.hpp"
 #include "partitioned/medium_solvers.hpp"
 #include "scene/scene.hpp"
-#include "solvers/newton.hpp"
 #include "system/medium_system.hpp"
 
 namespace fsi {

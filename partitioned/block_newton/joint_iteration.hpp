@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "fem/nodal_frames.hpp"
+#include "linear/interface/field_numbering.hpp"
+#include "linear/interface/medium_preconditioner.hpp"
+#include "linear/krylov/single_gmres.hpp"
 #include "partitioned/block_newton/block_vector.hpp"
 #include "scene/scene.hpp"
-#include "solvers/krylov/single_gmres.hpp"
-#include "system/field_numbering.hpp"
-#include "system/medium_preconditioner.hpp"
 
 namespace fsi {
 

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "case/case.hpp"
-#include "linear_solvers/general_solvers.hpp"
+#include "linear/choice/general_solvers.hpp"
 #include "partitioned/interface/gap_pressure.hpp"
 #include "partitioned/interface/membrane.hpp"
 #include "partitioned/interface/mesh_motion_solver.hpp"

@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
+#include "linear/interface/field_numbering.hpp"
 #include "partitioned/interface/membrane.hpp"
 #include "scene/scene.hpp"
-#include "system/field_numbering.hpp"
 #include "time/step_data.hpp"
 
 namespace fsi {

@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "linear/distributed/mesh_extensions.hpp"
 #include "mesh_motion/harmonic_extension.hpp"
 #include "mesh_motion/mesh_follower.hpp"
-#include "petsc_solver/mesh_extensions.hpp"
 #include "system/numbering.hpp"
 
 namespace fsi {

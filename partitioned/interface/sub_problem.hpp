@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "solvers/newton.hpp"
+#include "nonlinear/newton.hpp"
 #include "system/newton_stepper.hpp"
 
 namespace fsi {

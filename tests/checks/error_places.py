@@ -13,7 +13,7 @@ TOP_FOLDERS = ("common", "meshes", "monolithic", "partitioned")
 OF_THE_COMMAND_LINE = ("common/run/command_line.cpp", "monolithic/study/linear_study.cpp", "meshes/fsi_mesh.cpp")
 # Reached by a mistake in the program only: the case reader has refused what a user could have written.
 BEHIND_THE_READER = (
-    "common/algebra/gathered_matrix.cpp",
+    "common/linear/direct/gathered_matrix.cpp",
     "common/base/names.cpp",
     "common/materials/material.cpp",
     "common/mesh/axis.cpp",

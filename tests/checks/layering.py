@@ -13,23 +13,28 @@ from circles import circles
 # Lowest first. Folders of one line share a floor.
 FLOORS = (
     ("common/base",),
+    ("common/host",),
     ("common/math",),
     ("common/parallel",),
     ("common/mesh",),
-    ("common/algebra",),
-    ("common/solvers",),
+    ("common/mesh_io", "common/fields"),
+    ("common/mesher",),
+    ("common/algebra", "common/nonlinear"),
+    ("common/linear/direct", "common/linear/krylov"),
+    ("common/linear/amg",),
     ("common/fem",),
     ("common/sampling",),
     ("common/materials",),
     ("common/network",),
     ("common/fluid", "common/wall", "common/mesh_motion"),
     ("common/openings", "common/time"),
+    ("common/linear/interface",),
     ("common/case",),
+    ("common/linear/velocity_pressure",),
+    ("common/linear/distributed",),
+    ("common/linear/choice",),
     ("common/scene",),
     ("common/system",),
-    ("common/condensed_solver",),
-    ("common/petsc_solver",),
-    ("common/linear_solvers",),
     ("common/diagnostics",),
     ("common/derived",),
     ("common/io",),
@@ -45,9 +50,13 @@ BLOCK_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 
 
 def folder_of(path):
-    """'common/mesh' for 'common/mesh/gmsh/reader.hpp', 'monolithic' for 'monolithic/main.cpp'."""
+    """'common/mesh' for 'common/mesh/gmsh/reader.hpp', 'common/linear/amg' for 'common/linear/amg/cycle.hpp', 'monolithic'
+    for 'monolithic/main.cpp'."""
     parts = path.split("/")
-    return "/".join(parts[:2]) if parts[0] == "common" and len(parts) > 2 else parts[0]
+    if parts[0] != "common" or len(parts) < 3:
+        return parts[0]
+    deeper = "/".join(parts[:3])
+    return deeper if floor_of(deeper) is not None else "/".join(parts[:2])
 
 
 def floor_of(folder):

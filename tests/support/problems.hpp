@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "algebra/direct_solver.hpp"
-#include "algebra/gathered_matrix.hpp"
 #include "fem/gather_blocks.hpp"
 #include "fluid/fluid_problem.hpp"
+#include "linear/direct/direct_solver.hpp"
+#include "linear/direct/gathered_matrix.hpp"
 #include "mesh_motion/mesh_motion.hpp"
-#include "solvers/newton.hpp"
+#include "nonlinear/newton.hpp"
 #include "support/nodal_arrays.hpp"
 #include "wall/wall_problem.hpp"
 

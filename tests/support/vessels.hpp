@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "mesh/artery/curved_edges.hpp"
-#include "mesh/artery_generator.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/submesh.hpp"
+#include "mesher/artery/curved_edges.hpp"
+#include "mesher/artery_generator.hpp"
 
 namespace fsi::test {
 

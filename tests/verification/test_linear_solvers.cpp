@@ -6,7 +6,7 @@
 
 #include "algebra/vector_operations.hpp"
 #include "fem/p1_tetrahedron.hpp"
-#include "mesh/artery_generator.hpp"
+#include "mesher/artery_generator.hpp"
 #include "monolithic/linear_solvers.hpp"
 #include "support/axisymmetric_artery.hpp"
 #include "support/linear_systems.hpp"

@@ -14,7 +14,7 @@
 #include "diagnostics/energy_balance.hpp"
 #include "fem/elements.hpp"
 #include "fluid/fluid_problem.hpp"
-#include "linear_solvers/general_solvers.hpp"
+#include "linear/choice/general_solvers.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "scene/moving_openings.hpp"
 #include "support/differences.hpp"

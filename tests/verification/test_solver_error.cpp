@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "fem/elements.hpp"
-#include "mesh/artery_generator.hpp"
 #include "mesh/mid_edge_nodes.hpp"
+#include "mesher/artery_generator.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "partitioned/registry.hpp"
 #include "support/every_element.hpp"

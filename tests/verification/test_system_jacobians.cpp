@@ -9,10 +9,10 @@
 #include "fem/gather_blocks.hpp"
 #include "fem/held_components.hpp"
 #include "fem/p1_tetrahedron.hpp"
+#include "linear/interface/jacobian_product.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "support/differences.hpp"
 #include "support/scenes.hpp"
-#include "system/jacobian_product.hpp"
 #include "system/medium_system.hpp"
 #include "wall/wall_problem.hpp"
 

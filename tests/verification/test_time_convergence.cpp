@@ -11,8 +11,8 @@
 
 #include "beltrami_flow.hpp"
 #include "fem/elements.hpp"
-#include "mesh/artery_generator.hpp"
 #include "mesh/mid_edge_nodes.hpp"
+#include "mesher/artery_generator.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "support/errors.hpp"
 #include "support/problems.hpp"

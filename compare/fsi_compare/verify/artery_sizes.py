@@ -17,7 +17,7 @@ CELLS = ("--lumen-cells", "--media-cells", "--adventitia-cells", "--around", "--
 SIZE_OPTIONS = ("--size", "--axial-size")
 SHORT_STEP = 0.1  # ms, as common/case/case_reader.cpp has it: second order keeps waves that longer steps let die
 FIRST_ORDER = ("euler",)
-# mm across and along, as common/mesh/artery/options.cpp has them: fsi-mesh says them nowhere
+# mm across and along, as common/mesher/artery/options.cpp has them: fsi-mesh says them nowhere
 LEVELS = {"coarse": (0.75, 0.78), "intermediate": (0.375, 0.34), "fine": (0.1875, 0.168)}
 
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "mesh/gmsh_reader.hpp"
+#include "mesh_io/gmsh_reader.hpp"
 #include "tiny_tube.hpp"
 
 namespace fsi::test {

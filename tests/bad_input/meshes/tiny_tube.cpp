@@ -10,7 +10,7 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "mesh/gmsh_reader.hpp"
+#include "mesh_io/gmsh_reader.hpp"
 
 namespace fsi::test {
 

@@ -420,7 +420,7 @@ class MeshWords(unittest.TestCase):
             self.assertEqual(quiet, [])
 
     def test_sizes_of_levels_are_those_of_fsi_mesh(self):
-        source = (SOURCES / "common/mesh/artery/options.cpp").read_text()
+        source = (SOURCES / "common/mesher/artery/options.cpp").read_text()
         table = re.search(r"constexpr Level levels\[\] = \{(.*)\};", source)[1]
         found = re.findall(r'\{"(\w+)", ([\d.]+), ([\d.]+)\}', table)
         self.assertEqual({name: (float(size), float(along)) for name, size, along in found}, LEVELS)

@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "algebra/block_matrix.hpp"
-#include "algebra/cholesky_solver.hpp"
-#include "algebra/direct_solver.hpp"
-#include "algebra/gathered_matrix.hpp"
 #include "algebra/node_graph.hpp"
 #include "base/error.hpp"
+#include "linear/direct/cholesky_solver.hpp"
+#include "linear/direct/direct_solver.hpp"
+#include "linear/direct/gathered_matrix.hpp"
 #include "support/random.hpp"
 
 namespace fsi::test {

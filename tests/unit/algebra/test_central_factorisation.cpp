@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "algebra/central_factorisation.hpp"
 #include "base/error.hpp"
+#include "linear/direct/central_factorisation.hpp"
 
 namespace fsi::test {
 

@@ -1,4 +1,4 @@
-#include "algebra/factorisation_memory.hpp"
+#include "linear/direct/factorisation_memory.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "algebra/direct_solver.hpp"
-#include "base/available_memory.hpp"
+#include "host/available_memory.hpp"
+#include "linear/direct/direct_solver.hpp"
 
 namespace fsi {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "algebra/direct_solver.hpp"
 #include "algebra/panel_matrix.hpp"
+#include "linear/direct/direct_solver.hpp"
 #include "support/random.hpp"
 
 namespace fsi::test {

@@ -1,4 +1,4 @@
-#include "base/available_memory.hpp"
+#include "host/available_memory.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,4 +1,4 @@
-#include "base/idle_cores.hpp"
+#include "host/idle_cores.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "base/machine.hpp"
+#include "host/machine.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "base/instruction_set.hpp"
+#include "host/instruction_set.hpp"
 
 namespace fsi::test {
 

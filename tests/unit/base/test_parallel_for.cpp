@@ -1,4 +1,4 @@
-#include "base/parallel_for.hpp"
+#include "host/parallel_for.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -1,4 +1,4 @@
-#include "base/standard_streams.hpp"
+#include "host/standard_streams.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -4,9 +4,9 @@
 
 #include "base/error.hpp"
 #include "case/choices.hpp"
+#include "case/multigrid_kinds.hpp"
 #include "materials/material.hpp"
-#include "solvers/amg/kinds.hpp"
-#include "solvers/newton.hpp"
+#include "nonlinear/newton.hpp"
 
 namespace fsi::test {
 

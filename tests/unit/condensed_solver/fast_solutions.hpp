@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "condensed_solver/fast_solver.hpp"
+#include "linear/velocity_pressure/fast_solver.hpp"
 
 namespace fsi::test {
 

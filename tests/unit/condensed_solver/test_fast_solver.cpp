@@ -6,19 +6,19 @@
 #include <utility>
 #include <vector>
 
-#include "base/threads.hpp"
-#include "condensed_solver/fast_solver.hpp"
-#include "condensed_solver/velocity_pressure_preconditioner.hpp"
 #include "fast_solutions.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "fem/p1_triangle.hpp"
 #include "fem/p2p1_triangle.hpp"
-#include "mesh/artery_generator.hpp"
+#include "host/threads.hpp"
+#include "linear/interface/jacobian_product.hpp"
+#include "linear/velocity_pressure/fast_solver.hpp"
+#include "linear/velocity_pressure/velocity_pressure_preconditioner.hpp"
 #include "mesh/mid_edge_nodes.hpp"
+#include "mesher/artery_generator.hpp"
 #include "support/linear_systems.hpp"
 #include "support/partly_fixed.hpp"
 #include "support/random.hpp"
-#include "system/jacobian_product.hpp"
 
 namespace fsi::test {
 

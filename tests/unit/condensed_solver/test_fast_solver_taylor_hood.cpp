@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-#include "condensed_solver/fast_solver.hpp"
-#include "condensed_solver/velocity_pressure_preconditioner.hpp"
 #include "fast_solutions.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "fem/p2p1_tetrahedron.hpp"
 #include "fem/p2p1_triangle.hpp"
-#include "mesh/artery_generator.hpp"
+#include "linear/velocity_pressure/fast_solver.hpp"
+#include "linear/velocity_pressure/velocity_pressure_preconditioner.hpp"
 #include "mesh/mid_edge_nodes.hpp"
+#include "mesher/artery_generator.hpp"
 #include "support/linear_systems.hpp"
 
 namespace fsi::test {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "condensed_solver/velocity_pressure_matrix.hpp"
+#include "linear/interface/jacobian_product.hpp"
+#include "linear/velocity_pressure/velocity_pressure_matrix.hpp"
 #include "support/linear_systems.hpp"
-#include "system/jacobian_product.hpp"
 
 namespace fsi::test {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "condensed_solver/schur_complement_inverse.hpp"
+#include "linear/velocity_pressure/schur_complement_inverse.hpp"
 
 namespace fsi::test {
 

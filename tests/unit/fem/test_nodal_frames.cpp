@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "algebra/gathered_matrix.hpp"
 #include "fem/gather_blocks.hpp"
 #include "fem/held_components.hpp"
+#include "linear/direct/gathered_matrix.hpp"
 #include "support/random.hpp"
 
 namespace fsi::test {

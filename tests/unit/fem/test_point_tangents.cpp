@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/threads.hpp"
 #include "fem/function_space.hpp"
 #include "fluid/fluid_assembly.hpp"
+#include "host/threads.hpp"
 #include "support/element_meshes.hpp"
 #include "support/every_element.hpp"
 #include "support/nodal_arrays.hpp"

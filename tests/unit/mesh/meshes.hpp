@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "mesh/artery_generator.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "mesher/artery_generator.hpp"
 
 namespace fsi::test {
 

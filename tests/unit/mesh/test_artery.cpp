@@ -5,11 +5,11 @@
 #include <ostream>
 
 #include "base/error.hpp"
-#include "mesh/artery_generator.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/mesh_checks.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/quality.hpp"
+#include "mesher/artery_generator.hpp"
 #include "meshes.hpp"
 
 namespace fsi {

@@ -10,13 +10,13 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "mesh/artery/graded_line.hpp"
-#include "mesh/artery_generator.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/mesh_checks.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/quality.hpp"
+#include "mesher/artery/graded_line.hpp"
+#include "mesher/artery_generator.hpp"
 #include "meshes.hpp"
 
 namespace fsi {

@@ -6,9 +6,9 @@
 #include "base/error.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/point_math.hpp"
-#include "mesh/sampling.hpp"
-#include "mesh/wall_sampling.hpp"
 #include "meshes.hpp"
+#include "sampling/point_sampling.hpp"
+#include "sampling/wall_sampling.hpp"
 
 namespace fsi {
 namespace {

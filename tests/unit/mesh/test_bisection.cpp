@@ -7,14 +7,14 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "mesh/artery/curved_edges.hpp"
-#include "mesh/bisection.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/facet_uses.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/quality.hpp"
+#include "mesher/artery/curved_edges.hpp"
+#include "mesher/bisection.hpp"
 #include "meshes.hpp"
 #include "support/random.hpp"
 

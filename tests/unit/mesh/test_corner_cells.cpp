@@ -7,11 +7,11 @@
 #include <cmath>
 #include <vector>
 
-#include "mesh/corner_cells.hpp"
 #include "mesh/curved_cells.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
+#include "mesher/corner_cells.hpp"
 
 namespace fsi::test {
 

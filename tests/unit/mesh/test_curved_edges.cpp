@@ -5,11 +5,11 @@
 #include <ostream>
 
 #include "base/error.hpp"
-#include "mesh/artery/curved_edges.hpp"
-#include "mesh/artery_generator.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/curved_cells.hpp"
 #include "mesh/mid_edge_nodes.hpp"
+#include "mesher/artery/curved_edges.hpp"
+#include "mesher/artery_generator.hpp"
 
 namespace fsi {
 namespace {

@@ -8,9 +8,9 @@
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/sampling.hpp"
-#include "mesh/wall_sampling.hpp"
 #include "meshes.hpp"
+#include "sampling/point_sampling.hpp"
+#include "sampling/wall_sampling.hpp"
 #include "support/meshes.hpp"
 
 namespace fsi {

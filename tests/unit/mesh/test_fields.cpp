@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "mesh/fields/field_units.hpp"
-#include "mesh/fields/near_points.hpp"
-#include "mesh/fields/point_field.hpp"
-#include "mesh/fields/point_table.hpp"
-#include "mesh/fields/region_shape.hpp"
-#include "mesh/fields/vtk_file.hpp"
+#include "fields/field_units.hpp"
+#include "fields/near_points.hpp"
+#include "fields/point_field.hpp"
+#include "fields/point_table.hpp"
+#include "fields/region_shape.hpp"
+#include "fields/vtk_file.hpp"
 
 namespace fsi::test {
 

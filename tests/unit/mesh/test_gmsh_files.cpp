@@ -7,9 +7,9 @@
 
 #include "base/error.hpp"
 #include "mesh/facets.hpp"
-#include "mesh/gmsh_reader.hpp"
-#include "mesh/gmsh_writer.hpp"
 #include "mesh/point_math.hpp"
+#include "mesh_io/gmsh_reader.hpp"
+#include "mesh_io/gmsh_writer.hpp"
 #include "meshes.hpp"
 
 namespace fsi {

@@ -1,4 +1,4 @@
-#include "mesh/gmsh_header.hpp"
+#include "mesh_io/gmsh_header.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "base/error.hpp"
-#include "mesh/gmsh_reader.hpp"
+#include "mesh_io/gmsh_reader.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fsi {

@@ -10,11 +10,11 @@
 
 #include "base/error.hpp"
 #include "mesh/boundary.hpp"
-#include "mesh/gmsh_reader.hpp"
 #include "mesh/mesh_checks.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/quality.hpp"
+#include "mesh_io/gmsh_reader.hpp"
 
 // What the gmsh library itself loses when it writes curved or physical entities is not ours to free.
 extern "C" const char* __lsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "mesh/artery/curved_edges.hpp"
-#include "mesh/artery_generator.hpp"
-#include "mesh/gmsh_writer.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
+#include "mesh_io/gmsh_writer.hpp"
+#include "mesher/artery/curved_edges.hpp"
+#include "mesher/artery_generator.hpp"
 
 namespace fsi {
 namespace {

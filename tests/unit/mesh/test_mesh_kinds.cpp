@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "mesh/artery_generator.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/mesh_checks.hpp"
@@ -15,6 +14,7 @@
 #include "mesh/quality.hpp"
 #include "mesh/renumber.hpp"
 #include "mesh/symmetry_planes.hpp"
+#include "mesher/artery_generator.hpp"
 #include "meshes.hpp"
 #include "support/meshes.hpp"
 

@@ -4,13 +4,13 @@
 #include <map>
 #include <set>
 
-#include "mesh/artery/curved_edges.hpp"
-#include "mesh/artery/sector_images.hpp"
-#include "mesh/artery_generator.hpp"
 #include "mesh/curved_cells.hpp"
 #include "mesh/mesh_checks.hpp"
 #include "mesh/mirror.hpp"
 #include "mesh/quality.hpp"
+#include "mesher/artery/curved_edges.hpp"
+#include "mesher/artery/sector_images.hpp"
+#include "mesher/artery_generator.hpp"
 #include "meshes.hpp"
 
 namespace fsi {

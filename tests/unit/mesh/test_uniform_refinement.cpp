@@ -7,7 +7,6 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "mesh/artery/curved_edges.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/curved_cells.hpp"
 #include "mesh/facet_uses.hpp"
@@ -15,7 +14,8 @@
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/uniform_refinement.hpp"
+#include "mesher/artery/curved_edges.hpp"
+#include "mesher/uniform_refinement.hpp"
 #include "meshes.hpp"
 #include "support/random.hpp"
 

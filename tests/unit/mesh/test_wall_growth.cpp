@@ -16,7 +16,7 @@
 #include "mesh/point_distance.hpp"
 #include "mesh/surface_distance.hpp"
 #include "mesh/wall_faces.hpp"
-#include "mesh/wall_growth.hpp"
+#include "mesher/wall_growth.hpp"
 #include "meshes.hpp"
 
 namespace fsi::test {

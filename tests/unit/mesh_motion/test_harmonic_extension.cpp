@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "algebra/block_products.hpp"
-#include "base/threads.hpp"
 #include "fem/held_components.hpp"
+#include "host/threads.hpp"
 #include "mesh_motion/harmonic_extension.hpp"
 #include "support/random.hpp"
 

@@ -11,19 +11,19 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "mesh/curved_columns.hpp"
-#include "mesh/edge_curves.hpp"
 #include "mesh/point_distance.hpp"
 #include "mesh/point_math.hpp"
-#include "mesh/surface/boundary_layers.hpp"
-#include "mesh/surface/curvature.hpp"
-#include "mesh/surface/local_radius.hpp"
-#include "mesh/surface/remeshing.hpp"
-#include "mesh/surface/smooth_edges.hpp"
-#include "mesh/surface/sound_surface.hpp"
-#include "mesh/surface/taubin_smoothing.hpp"
-#include "mesh/surface/triangle_surface.hpp"
-#include "mesh/surface/wall_thickness.hpp"
+#include "mesher/curved_columns.hpp"
+#include "mesher/edge_curves.hpp"
+#include "mesher/surface/boundary_layers.hpp"
+#include "mesher/surface/curvature.hpp"
+#include "mesher/surface/local_radius.hpp"
+#include "mesher/surface/remeshing.hpp"
+#include "mesher/surface/smooth_edges.hpp"
+#include "mesher/surface/sound_surface.hpp"
+#include "mesher/surface/taubin_smoothing.hpp"
+#include "mesher/surface/triangle_surface.hpp"
+#include "mesher/surface/wall_thickness.hpp"
 
 namespace fsi::test {
 

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "base/error.hpp"
-#include "mesh/artery_generator.hpp"
+#include "mesher/artery_generator.hpp"
 #include "meshes/artery_request.hpp"
 
 namespace fsi {

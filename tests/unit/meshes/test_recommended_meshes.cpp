@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "base/error.hpp"
-#include "mesh/artery/recommended_meshes.hpp"
+#include "mesher/artery/recommended_meshes.hpp"
 
 namespace fsi {
 namespace {

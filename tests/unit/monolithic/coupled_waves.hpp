@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "monolithic/block/coupled_system.hpp"
+#include "monolithic/coupled_solvers/block/coupled_system.hpp"
 
 namespace fsi::test {
 

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "fem/p1_tetrahedron.hpp"
-#include "monolithic/block/block_gauss_seidel.hpp"
-#include "monolithic/block/block_preconditioners.hpp"
-#include "monolithic/multigrid/coupled_multigrid.hpp"
+#include "monolithic/coupled_solvers/block/block_gauss_seidel.hpp"
+#include "monolithic/coupled_solvers/block/block_preconditioners.hpp"
+#include "monolithic/coupled_solvers/multigrid/coupled_multigrid.hpp"
 #include "support/linear_systems.hpp"
 
 namespace fsi::test {

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "algebra/direct_solver.hpp"
 #include "coupled_waves.hpp"
 #include "fem/p1_tetrahedron.hpp"
-#include "monolithic/block/coupled_system.hpp"
+#include "linear/direct/direct_solver.hpp"
+#include "monolithic/coupled_solvers/block/coupled_system.hpp"
 #include "support/linear_systems.hpp"
 #include "support/nodal_arrays.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "coupled_waves.hpp"
 #include "fem/p1_tetrahedron.hpp"
-#include "monolithic/coupled_linear_solver.hpp"
+#include "monolithic/coupled_solvers/coupled_linear_solver.hpp"
 #include "support/linear_systems.hpp"
 
 namespace fsi::test {

@@ -5,8 +5,8 @@
 
 #include "algebra/vector_operations.hpp"
 #include "fem/p1_tetrahedron.hpp"
-#include "monolithic/coupled_linear_solver.hpp"
 #include "monolithic/coupled_numbering.hpp"
+#include "monolithic/coupled_solvers/coupled_linear_solver.hpp"
 #include "support/partly_fixed.hpp"
 #include "support/scenes.hpp"
 

@@ -5,11 +5,11 @@
 #include <iostream>
 #include <optional>
 
-#include "base/threads.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "fem/p2p1_triangle.hpp"
-#include "mesh/artery_generator.hpp"
+#include "host/threads.hpp"
 #include "mesh/mid_edge_nodes.hpp"
+#include "mesher/artery_generator.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "partitioned/block_newton/block_newton_stepper.hpp"
 #include "partitioned/divergence.hpp"

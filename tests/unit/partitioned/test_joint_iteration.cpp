@@ -5,9 +5,9 @@
 #include <cmath>
 #include <memory>
 
-#include "base/threads.hpp"
 #include "fem/p1_tetrahedron.hpp"
-#include "linear_solvers/general_solvers.hpp"
+#include "host/threads.hpp"
+#include "linear/choice/general_solvers.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "partitioned/block_newton/block_newton_stepper.hpp"
 #include "partitioned/registry.hpp"

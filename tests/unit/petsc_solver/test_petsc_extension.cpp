@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "fem/p1_tetrahedron.hpp"
+#include "linear/distributed/petsc_extension.hpp"
 #include "mesh_motion/harmonic_extension.hpp"
-#include "petsc_solver/petsc_extension.hpp"
 #include "support/scenes.hpp"
 #include "system/numbering.hpp"
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "petsc_solver/petsc_options.hpp"
-#include "petsc_solver/petsc_solver.hpp"
+#include "linear/distributed/petsc_options.hpp"
+#include "linear/distributed/petsc_solver.hpp"
 #include "support/linear_systems.hpp"
 
 namespace fsi::test {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "petsc_solver/petsc_call.hpp"
+#include "linear/distributed/petsc_call.hpp"
 
 namespace fsi::test {
 

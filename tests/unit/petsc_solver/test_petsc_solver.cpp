@@ -8,14 +8,14 @@
 #include "fem/p1_tetrahedron.hpp"
 #include "fem/p2p1_tetrahedron.hpp"
 #include "fem/p2p1_triangle.hpp"
-#include "mesh/artery_generator.hpp"
+#include "linear/distributed/petsc_direct_solver.hpp"
+#include "linear/distributed/petsc_options.hpp"
+#include "linear/distributed/petsc_solver.hpp"
+#include "linear/interface/central_direct_solver.hpp"
 #include "mesh/mid_edge_nodes.hpp"
-#include "petsc_solver/petsc_direct_solver.hpp"
-#include "petsc_solver/petsc_options.hpp"
-#include "petsc_solver/petsc_solver.hpp"
+#include "mesher/artery_generator.hpp"
 #include "support/linear_systems.hpp"
 #include "support/partly_fixed.hpp"
-#include "system/central_direct_solver.hpp"
 
 namespace fsi::test {
 

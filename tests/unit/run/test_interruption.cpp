@@ -12,8 +12,8 @@
 #include <string>
 #include <thread>
 
-#include "base/child_program.hpp"
-#include "base/removed_on_signal.hpp"
+#include "host/child_program.hpp"
+#include "host/removed_on_signal.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fsi::test {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "mesh/point_math.hpp"
-#include "mesh/sampling.hpp"
+#include "sampling/point_sampling.hpp"
 #include "support/vessels.hpp"
 
 namespace fsi::test {

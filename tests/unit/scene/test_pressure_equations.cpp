@@ -9,8 +9,8 @@
 
 #include "fem/elements.hpp"
 #include "mesh/boundary.hpp"
-#include "mesh/corner_cells.hpp"
 #include "mesh/mid_edge_nodes.hpp"
+#include "mesher/corner_cells.hpp"
 #include "scene/pressure_equations.hpp"
 
 namespace fsi::test {

@@ -8,15 +8,15 @@
 
 #include "case/openings.hpp"
 #include "fem/elements.hpp"
-#include "mesh/artery_generator.hpp"
+#include "linear/interface/jacobian_product.hpp"
 #include "mesh/mid_edge_nodes.hpp"
+#include "mesher/artery_generator.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "scene/boundary_conditions.hpp"
 #include "support/element_meshes.hpp"
 #include "support/moving_opening_scenes.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
-#include "system/jacobian_product.hpp"
 #include "system/system.hpp"
 #include "system/work_unit.hpp"
 

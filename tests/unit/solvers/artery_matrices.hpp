@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "fem/p1_tetrahedron.hpp"
-#include "mesh/artery_generator.hpp"
+#include "mesher/artery_generator.hpp"
+#include "monolithic/coupled_solvers/amg/transfer.hpp"
 #include "scene/build_scene.hpp"
 #include "scene/loads.hpp"
-#include "solvers/amg/transfer.hpp"
 #include "support/scenes.hpp"
 
 namespace fsi::test {

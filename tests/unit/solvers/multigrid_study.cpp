@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <string>
 
-#include "base/threads.hpp"
+#include "host/threads.hpp"
+#include "monolithic/coupled_solvers/amg/sub_problem_options.hpp"
 #include "monolithic/study/sub_problem_study.hpp"
-#include "solvers/amg/sub_problem_options.hpp"
 #include "unit/solvers/artery_matrices.hpp"
 
 namespace {

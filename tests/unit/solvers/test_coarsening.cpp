@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "solvers/amg/coarsening.hpp"
+#include "monolithic/coupled_solvers/amg/coarsening.hpp"
 #include "unit/solvers/grid_matrices.hpp"
 
 namespace {

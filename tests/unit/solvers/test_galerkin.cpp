@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/threads.hpp"
-#include "solvers/amg/coarsening.hpp"
-#include "solvers/amg/galerkin.hpp"
+#include "host/threads.hpp"
+#include "monolithic/coupled_solvers/amg/coarsening.hpp"
+#include "monolithic/coupled_solvers/amg/galerkin.hpp"
 #include "unit/solvers/grid_matrices.hpp"
 
 namespace {

@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "algebra/block_products.hpp"
-#include "base/threads.hpp"
-#include "solvers/krylov/fgmres.hpp"
-#include "solvers/krylov/gmres.hpp"
-#include "solvers/krylov/richardson.hpp"
+#include "host/threads.hpp"
+#include "linear/krylov/fgmres.hpp"
+#include "linear/krylov/gmres.hpp"
+#include "linear/krylov/richardson.hpp"
 #include "unit/solvers/grid_matrices.hpp"
 
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/threads.hpp"
+#include "host/threads.hpp"
+#include "linear/krylov/fgmres.hpp"
+#include "monolithic/coupled_solvers/amg/sub_problem_options.hpp"
 #include "monolithic/study/sub_problem_study.hpp"
-#include "solvers/amg/sub_problem_options.hpp"
-#include "solvers/krylov/fgmres.hpp"
 #include "unit/solvers/artery_matrices.hpp"
 #include "unit/solvers/grid_matrices.hpp"
 #include "unit/solvers/schur_complement.hpp"

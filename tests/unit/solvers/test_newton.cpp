@@ -6,7 +6,7 @@
 #include <limits>
 #include <tuple>
 
-#include "solvers/newton.hpp"
+#include "nonlinear/newton.hpp"
 
 namespace fsi::test {
 

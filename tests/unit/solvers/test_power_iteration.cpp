@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solvers/power_iteration.hpp"
+#include "linear/krylov/power_iteration.hpp"
 
 namespace fsi::test {
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "base/threads.hpp"
-#include "solvers/smoothed_aggregation/rigid_motion_multigrid.hpp"
+#include "host/threads.hpp"
+#include "linear/amg/rigid_motion_multigrid.hpp"
 
 namespace fsi::test {
 

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "base/threads.hpp"
 #include "csr_laplacian.hpp"
-#include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
+#include "host/threads.hpp"
+#include "linear/amg/scalar_multigrid.hpp"
 
 namespace fsi::test {
 

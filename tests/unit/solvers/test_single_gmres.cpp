@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "csr_laplacian.hpp"
-#include "solvers/krylov/single_gmres.hpp"
+#include "linear/krylov/single_gmres.hpp"
 
 namespace fsi::test {
 

@@ -6,8 +6,8 @@
 #include <atomic>
 #include <vector>
 
-#include "base/threads.hpp"
-#include "solvers/smoothed_aggregation/sweep_chunks.hpp"
+#include "host/threads.hpp"
+#include "linear/amg/sweep_chunks.hpp"
 
 namespace fsi::test {
 

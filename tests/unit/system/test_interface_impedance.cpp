@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "fem/p1_tetrahedron.hpp"
+#include "linear/interface/jacobian_product.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
-#include "system/jacobian_product.hpp"
 #include "system/medium_system.hpp"
 #include "system/numbering.hpp"
 

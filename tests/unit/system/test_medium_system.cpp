@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "fem/p1_tetrahedron.hpp"
-#include "linear_solvers/general_solvers.hpp"
+#include "linear/choice/general_solvers.hpp"
+#include "linear/interface/jacobian_product.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
-#include "system/jacobian_product.hpp"
 #include "system/numbering.hpp"
 
 namespace fsi::test {

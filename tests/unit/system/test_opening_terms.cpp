@@ -8,13 +8,13 @@
 
 #include "case/network_data.hpp"
 #include "fem/p1_tetrahedron.hpp"
-#include "linear_solvers/general_solvers.hpp"
+#include "linear/choice/general_solvers.hpp"
+#include "linear/interface/jacobian_product.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/opening_laws.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
-#include "system/jacobian_product.hpp"
 #include "system/medium_system.hpp"
 #include "system/numbering.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <csignal>
 
-#include "base/stop_request.hpp"
-#include "base/threads.hpp"
 #include "fem/p1_tetrahedron.hpp"
+#include "host/stop_request.hpp"
+#include "host/threads.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "support/scenes.hpp"
 #include "system/newton_stepper.hpp"

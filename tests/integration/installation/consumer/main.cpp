@@ -1,10 +1,10 @@
 // Uses one library that knows a mesh, one that hides TOML and one that hides UMFPACK.
 #include <iostream>
 
-#include "algebra/direct_solver.hpp"
 #include "base/version.hpp"
 #include "case/case_reader.hpp"
-#include "mesh/artery_generator.hpp"
+#include "linear/direct/direct_solver.hpp"
+#include "mesher/artery_generator.hpp"
 
 int main(int, char** arguments) {
   const fsi::TetrahedralMesh mesh = fsi::generate_artery(fsi::artery_level("coarse"));

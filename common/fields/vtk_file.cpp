@@ -1,0 +1,310 @@
+#include "fields/vtk_file.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+#include "base/error.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr const char* remedy = "write it anew as .vtu or .vtp";
+
+/// What is wrong with a file, told by read_vtk() with its name.
+struct Damaged : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Tag {
+  std::string name;  ///< "/Piece" where it ends one
+  std::map<std::string, std::string> attributes;
+  std::string_view content;  ///< up to the next tag
+
+  std::string at(const std::string& attribute, const std::string& standard = "") const {
+    const auto found = attributes.find(attribute);
+    return found == attributes.end() ? standard : found->second;
+  }
+};
+
+std::vector<Tag> tags_of(std::string_view text) {
+  std::vector<Tag> tags;
+  for (auto begin = text.find('<'); begin != std::string_view::npos;) {
+    if (text.substr(begin, 4) == "<!--") {
+      const auto end = text.find("-->", begin);
+      if (end == std::string_view::npos) throw Damaged("is cut off");
+      begin = text.find('<', end);
+      continue;
+    }
+    const auto end = text.find('>', begin);
+    if (end == std::string_view::npos) throw Damaged("is cut off");
+    const auto next = text.find('<', end);
+    std::string_view inside = text.substr(begin + 1, end - begin - 1);
+    Tag tag;
+    const auto space = inside.find_first_of(" \t\r\n");
+    tag.name = std::string(inside.substr(0, space));
+    while (true) {
+      const auto sign = inside.find('=');
+      if (sign == std::string_view::npos || sign + 1 >= inside.size()) break;
+      const auto first = inside.find_last_of(" \t\r\n", sign) + 1;
+      const char quote = inside[sign + 1];
+      const auto stop = inside.find(quote, sign + 2);
+      if ((quote != '"' && quote != '\'') || stop == std::string_view::npos) throw Damaged("is no XML");
+      tag.attributes[std::string(inside.substr(first, sign - first))] =
+          std::string(inside.substr(sign + 2, stop - sign - 2));
+      inside.remove_prefix(stop + 1);
+    }
+    tag.content = text.substr(end + 1, next == std::string_view::npos ? next : next - end - 1);
+    tags.push_back(std::move(tag));
+    begin = next;
+  }
+  return tags;
+}
+
+std::string without_base64(std::string_view text, std::size_t characters) {
+  if (text.size() < characters) throw Damaged("is cut off");
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int held = 0;
+  for (const char c : text.substr(0, characters)) {
+    const int value = c >= 'A' && c <= 'Z'   ? c - 'A'
+                      : c >= 'a' && c <= 'z' ? c - 'a' + 26
+                      : c >= '0' && c <= '9' ? c - '0' + 52
+                      : c == '+'             ? 62
+                      : c == '/'             ? 63
+                                             : -1;
+    if (c == '=') break;
+    if (value < 0) throw Damaged("is not coded in base64 where it says so");
+    bits = bits << 6 | static_cast<std::uint32_t>(value);
+    held += 6;
+    if (held >= 8) {
+      held -= 8;
+      bytes.push_back(static_cast<char>(bits >> held & 0xFF));
+    }
+  }
+  return bytes;
+}
+
+constexpr std::size_t coded(std::size_t bytes) {
+  return (bytes + 2) / 3 * 4;
+}
+
+/// The arrays of one file.
+class Arrays {
+ public:
+  Arrays(const Tag& root, std::string_view appended, bool raw)
+      : appended_(appended), raw_(raw), wide_(root.at("header_type") == "UInt64") {
+    if (root.at("byte_order", "LittleEndian") != "LittleEndian")
+      throw Damaged("has numbers with the most significant byte first");
+    const std::string packing = root.at("compressor");
+    packed_ = !packing.empty();
+    if (packed_ && packing != "vtkZLibDataCompressor") throw Damaged("is packed by " + packing);
+  }
+
+  std::vector<double> numbers(const Tag& array) const {
+    const std::string format = array.at("format", "ascii"), type = array.at("type");
+    if (format == "ascii") return numbers_of_text(array.content);
+    if (format == "binary") {
+      std::string_view text = array.content;
+      while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
+      return of_type(bytes_of(text, false), type);
+    }
+    const std::size_t offset = std::strtoull(array.at("offset", "0").c_str(), nullptr, 10);
+    if (offset > appended_.size()) throw Damaged("is cut off");
+    return of_type(bytes_of(appended_.substr(offset), raw_), type);
+  }
+
+ private:
+  static std::vector<double> numbers_of_text(std::string_view text) {
+    std::vector<double> numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (true) {
+      while (at != end && std::isspace(static_cast<unsigned char>(*at))) ++at;
+      if (at == end) return numbers;
+      double value = 0;
+      const auto [stop, error] = std::from_chars(at, end, value);
+      if (error == std::errc::invalid_argument) throw Damaged("has what is no number among its numbers");
+      numbers.push_back(value);
+      at = stop;
+    }
+  }
+
+  std::size_t header_bytes() const { return wide_ ? 8 : 4; }
+  std::size_t header(std::string_view bytes, std::size_t index) const {
+    const std::size_t size = header_bytes();
+    if (bytes.size() < (index + 1) * size) throw Damaged("is cut off");
+    std::uint64_t value = 0;
+    std::memcpy(&value, bytes.data() + index * size, size);
+    return value;
+  }
+
+  /// The bytes of an array that begins here, raw or in base64, unpacked.
+  std::string bytes_of(std::string_view from, bool raw) const {
+    const std::size_t size = header_bytes();
+    const auto plain = [&](std::size_t bytes) {
+      return raw ? std::string(from.substr(0, std::min(bytes, from.size()))) : without_base64(from, coded(bytes));
+    };
+    const std::size_t first = header(plain(size), 0);
+    if (first > most_bytes) throw Damaged("is damaged");
+    if (!packed_) {
+      const std::string all = plain(size + first);
+      if (all.size() < size + first) throw Damaged("is cut off");
+      return all.substr(size);
+    }
+    const std::size_t blocks = first, head_bytes = size * (3 + blocks);
+    const std::string head = plain(head_bytes);
+    std::size_t together = 0;
+    for (std::size_t b = 0; b < blocks; ++b) together += header(head, 3 + b);
+    if (together > most_bytes) throw Damaged("is damaged");
+    std::string_view behind = from;
+    behind.remove_prefix(std::min(behind.size(), raw ? head_bytes : coded(head_bytes)));
+    const std::string data = raw ? std::string(behind.substr(0, std::min(together, behind.size())))
+                                 : without_base64(behind, coded(together));
+    std::string all;
+    for (std::size_t b = 0, at = 0; b < blocks; ++b) {
+      const std::size_t count = header(head, 3 + b), last = header(head, 2);
+      uLongf whole = b + 1 == blocks && last > 0 ? last : header(head, 1);
+      if (whole > most_bytes || at + count > data.size()) throw Damaged("is cut off");
+      const std::size_t before = all.size();
+      all.resize(before + whole);
+      if (uncompress(reinterpret_cast<Bytef*>(all.data() + before), &whole,
+                     reinterpret_cast<const Bytef*>(data.data() + at), count) != Z_OK)
+        throw Damaged("holds what zlib cannot unpack");
+      all.resize(before + whole);
+      at += count;
+    }
+    return all;
+  }
+
+  template <class Number>
+  static std::vector<double> as(const std::string& bytes) {
+    std::vector<double> numbers(bytes.size() / sizeof(Number));
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      Number value;
+      std::memcpy(&value, bytes.data() + i * sizeof(Number), sizeof(Number));
+      numbers[i] = static_cast<double>(value);
+    }
+    return numbers;
+  }
+  static std::vector<double> of_type(const std::string& bytes, const std::string& type) {
+    if (type == "Float64") return as<double>(bytes);
+    if (type == "Float32") return as<float>(bytes);
+    if (type == "Int64") return as<std::int64_t>(bytes);
+    if (type == "UInt64") return as<std::uint64_t>(bytes);
+    if (type == "Int32") return as<std::int32_t>(bytes);
+    if (type == "UInt32") return as<std::uint32_t>(bytes);
+    if (type == "Int16") return as<std::int16_t>(bytes);
+    if (type == "UInt16") return as<std::uint16_t>(bytes);
+    if (type == "Int8") return as<std::int8_t>(bytes);
+    if (type == "UInt8") return as<std::uint8_t>(bytes);
+    throw Damaged("has an array of the type " + type + ", which is none of numbers");
+  }
+
+  static constexpr std::size_t most_bytes = std::size_t{1} << 32;
+  std::string_view appended_;
+  bool raw_, wide_, packed_ = false;
+};
+
+/// The arrays of one piece as the file names them.
+struct Piece {
+  std::vector<double> points, connectivity, offsets, types;
+  std::vector<VtkMesh::Array> arrays;
+};
+
+void add(const Piece& piece, VtkMesh& mesh) {
+  const auto first = static_cast<double>(mesh.nodes.size());
+  if (piece.points.size() % 3 != 0) throw Damaged("has points without three coordinates");
+  for (std::size_t i = 0; i + 2 < piece.points.size(); i += 3)
+    mesh.nodes.push_back({piece.points[i], piece.points[i + 1], piece.points[i + 2]});
+  std::size_t begin = 0;
+  for (std::size_t c = 0; c < piece.offsets.size(); ++c) {
+    const double end = piece.offsets[c];
+    if (!(end >= static_cast<double>(begin) && end <= static_cast<double>(piece.connectivity.size())))
+      throw Damaged("has cells that are none of its points");
+    auto& cell = mesh.cells.emplace_back();
+    for (; begin < static_cast<std::size_t>(end); ++begin) {
+      const double node = piece.connectivity[begin];
+      const std::size_t points = piece.points.size() / 3;
+      if (!(node >= 0 && node < static_cast<double>(points))) throw Damaged("has cells that are none of its points");
+      cell.push_back(static_cast<int>(first + node));
+    }
+    mesh.kinds.push_back(c < piece.types.size() ? static_cast<int>(piece.types[c]) : 7);
+  }
+  for (const auto& array : piece.arrays) {
+    const auto known = std::find_if(mesh.arrays.begin(), mesh.arrays.end(), [&](const auto& other) {
+      return other.name == array.name && other.of_cells == array.of_cells;
+    });
+    if (known == mesh.arrays.end())
+      mesh.arrays.push_back(array);
+    else
+      known->values.insert(known->values.end(), array.values.begin(), array.values.end());
+  }
+}
+
+VtkMesh mesh_of(const std::string& text) {
+  std::string_view xml = text, appended;
+  bool raw = false;
+  if (const auto at = text.find("<AppendedData"); at != std::string::npos) {
+    const auto end = text.find('>', at), mark = text.find('_', end);
+    if (end == std::string::npos || mark == std::string::npos) throw Damaged("is cut off");
+    raw = xml.substr(at, end - at).find("\"raw\"") != std::string_view::npos;
+    appended = xml.substr(mark + 1);
+    xml = xml.substr(0, at);
+  }
+  VtkMesh mesh;
+  std::optional<Arrays> arrays;
+  std::string section;
+  Piece piece;
+  for (const Tag& tag : tags_of(xml)) {
+    if (tag.name == "VTKFile") {
+      if (tag.at("type") != "UnstructuredGrid" && tag.at("type") != "PolyData")
+        throw Damaged("holds no UnstructuredGrid and no PolyData of VTK");
+      arrays.emplace(tag, appended, raw);
+    } else if (tag.name == "Piece") {
+      piece = {};
+    } else if (tag.name == "/Piece") {
+      add(piece, mesh);
+    } else if (tag.name == "DataArray") {
+      if (!arrays) throw Damaged("is no file of VTK");
+      const std::string name = tag.at("Name");
+      if (section == "Points") piece.points = arrays->numbers(tag);
+      if (section == "Cells" || section == "Polys") {
+        if (name == "connectivity") piece.connectivity = arrays->numbers(tag);
+        if (name == "offsets") piece.offsets = arrays->numbers(tag);
+        if (name == "types") piece.types = arrays->numbers(tag);
+      }
+      if ((section == "PointData" || section == "CellData") && tag.at("type") != "String")
+        piece.arrays.push_back(
+            {name, section == "CellData", std::atoi(tag.at("NumberOfComponents", "1").c_str()), arrays->numbers(tag)});
+    } else if (tag.name == "Points" || tag.name == "Cells" || tag.name == "Polys" || tag.name == "PointData" ||
+               tag.name == "CellData" || tag.name == "Verts" || tag.name == "Lines" || tag.name == "Strips" ||
+               tag.name == "FieldData") {
+      section = tag.name;
+    }
+  }
+  if (!arrays) throw Damaged("is no file of VTK");
+  return mesh;
+}
+
+}  // namespace
+
+VtkMesh read_vtk(const std::string& text, const std::string& file) {
+  try {
+    return mesh_of(text);
+  } catch (const Damaged& damage) {
+    throw InputError(file, "", damage.what(), remedy);
+  }
+}
+
+}  // namespace fsi

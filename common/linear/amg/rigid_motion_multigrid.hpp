@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "algebra/register_blocks.hpp"
+#include "linear/amg/sweep_chunks.hpp"
+
+namespace fsi {
+
+/// Coarse levels for elasticity: smoothed aggregation with the rigid motions [Vanek1996], in single
+/// precision. The finest level is smoothed by its owner; on coarse ones block Gauss-Seidel runs forward before the
+/// coarse correction and, if wanted, backward after it; dense inverse on the coarsest level.
+/// \tparam n  components of a node. In three dimensions coarse nodes hold three translations and three rotations,
+///            else the n translations
+template <int n>
+class RigidMotionMultigrid {
+ public:
+  static constexpr int modes = n == 3 ? 6 : n;
+
+  struct Options {
+    double threshold = 0.08;   ///< of strong couplings, |A_ij| > threshold sqrt(|A_ii| |A_jj|); halved on each level
+    double damping = 4.0 / 3;  ///< of the prolongation's Jacobi step, over the largest eigenvalue of D^-1 A
+    int coarsest_nodes = 50;   ///< of the level that is inverted
+    int levels = 20;
+    bool post_smoothing = false;  ///< a backward sweep after the coarse correction, on coarse levels
+  };
+
+  /// Makes all levels anew.
+  /// \param points  places of the nodes
+  /// \param fixed   per node and component: its row is the identity's times a number, its column zero elsewhere, and no
+  ///                rigid motion moves it; empty: none is
+  /// \throws ConvergenceError when the coarsest matrix is singular
+  void set_up(const BlockMatrix<n, n>& finest, const std::vector<std::array<double, 3>>& points, const Options& options,
+              const std::vector<char>& fixed = {});
+
+  /// velocity += P M R residual: both hold padded<n> floats a node.
+  void correct(const std::vector<float>& residual, std::vector<float>& velocity);
+
+  int levels() const { return coarsest_inverse_.empty() ? 1 : static_cast<int>(levels_.size()) + 2; }
+  std::size_t bytes() const;
+
+ private:
+  static constexpr int lanes = padded<modes>;
+
+  struct Level {
+    RegisterBlocks<modes, modes> matrix, prolongation, restriction;
+    SweepChunks chunks;
+    std::vector<float> inverse_diagonal;  ///< blocks
+    std::vector<float> b, x, residual;
+  };
+
+  std::vector<float>& b(std::size_t level) { return level < levels_.size() ? levels_[level].b : coarsest_b_; }
+  std::vector<float>& x(std::size_t level) { return level < levels_.size() ? levels_[level].x : coarsest_x_; }
+  void invert_coarsest(const BlockMatrix<modes, modes>& a);
+  void solve_coarsest();
+  void cycle(std::size_t depth);
+
+  RegisterBlocks<modes, n> restriction_;   ///< to the first coarse level
+  RegisterBlocks<n, modes> prolongation_;  ///< from it
+  std::vector<Level> levels_;              ///< between the finest and the coarsest
+  int coarsest_rows_ = 0;
+  std::vector<float> coarsest_inverse_;  ///< dense, column-major; empty without coarse levels
+  std::vector<float> coarsest_b_, coarsest_x_, dense_x_;
+  bool post_smoothing_ = false;
+};
+
+}  // namespace fsi

@@ -1,0 +1,112 @@
+#include "linear/choice/general_solvers.hpp"
+
+#include <fmt/format.h>
+#include <array>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "fem/dimensions.hpp"
+#include "linear/choice/judged_on_processes.hpp"
+#include "linear/distributed/petsc_factories.hpp"
+#include "linear/distributed/small_systems.hpp"
+#include "linear/interface/direct_linear_solver.hpp"
+#include "linear/velocity_pressure/fast_solver.hpp"
+
+namespace fsi {
+
+namespace {
+
+template <int n>
+using Blocks = JacobianBlocks<n>;
+
+template <int n>
+std::unique_ptr<LinearSolver> make_fast(const Blocks<n>& blocks, const FastOptions& fast) {
+  if (blocks.numbering.processes->is_alone()) return std::make_unique<FastSolver<n>>(blocks, fast);
+  const auto unknowns = blocks.numbering.whole_size();
+  if (is_factorised_at_first(unknowns, n, fast)) {
+    if (blocks.coupled() && fast.are_judged(n, unknowns)) return std::make_unique<JudgedOnProcesses<n>>(blocks, fast);
+    return std::make_unique<CentralDirectSolver<n>>(blocks);
+  }
+  return make_petsc_solver<n>(blocks, fast);
+}
+
+template <int n>
+std::unique_ptr<LinearSolver> make_direct(const Blocks<n>& blocks, const FastOptions&) {
+  if (!blocks.numbering.processes->is_alone()) return make_petsc_direct_solver<n>(blocks);
+  return std::make_unique<DirectLinearSolver<n>>(blocks);
+}
+
+/// A linear solver that serves any scene and any sub-problem.
+template <int n>
+struct GeneralSolver {
+  std::string_view name;
+  std::unique_ptr<LinearSolver> (*make)(const Blocks<n>& blocks, const FastOptions& fast);
+};
+
+template <int n>
+constexpr std::array<GeneralSolver<n>, 3> general_solvers{
+    {{"fast", make_fast<n>}, {"direct", make_direct<n>}, {"petsc", make_petsc_solver<n>}}};
+
+/// Null when no such solver serves any scene.
+template <int n>
+const GeneralSolver<n>* find_general_solver(const std::string& name) {
+  static_assert(names_match(general_solver_list, general_solvers<n>), "case/choices.hpp owns these names");
+  for (const auto& solver : general_solvers<n>)
+    if (solver.name == name) return &solver;
+  return nullptr;
+}
+
+}  // namespace
+
+bool is_general_solver(const std::string& name) {
+  return find_general_solver<3>(name) != nullptr;
+}
+
+template <int n>
+std::unique_ptr<LinearSolver> make_general_solver(const std::string& name, const FastOptions& fast,
+                                                  const JacobianBlocks<n>& blocks) {
+  const auto* solver = find_general_solver<n>(name);
+  if (solver == nullptr) refuse_name("linear_solver", name, general_solver_names());
+  return solver->make(blocks, fast);
+}
+
+template <int n>
+LinearSolverFactory<n> general_solver_factory(const std::string& name, const FastOptions& fast) {
+  if (!is_general_solver(name)) refuse_name("linear_solver", name, general_solver_names());
+  return [name, fast](const JacobianBlocks<n>& blocks) { return make_general_solver<n>(name, fast, blocks); };
+}
+
+template <int n>
+std::unique_ptr<LinearSolver> make_fast_or_direct(const std::string& name, const Case& setup,
+                                                  const JacobianBlocks<n>& blocks) {
+  if (!is_general_solver(name))
+    throw InputError(setup.path.string(), "monolithic.linear_solver",
+                     "\"" + name + "\" is for scenes of fluid and wall", "give " + one_of(general_solver_names()));
+  return make_general_solver<n>(name, setup.linear.fast, blocks);
+}
+
+std::string other_solver_on_processes(const std::string& name, const FastOptions& fast, int dimension,
+                                      const Communicator& processes) {
+  if (processes.is_alone()) return "";
+  if (name == "fast") {
+    const std::string other = "linear_solver = \"petsc\" in place of \"fast\", which works on one process";
+    const auto bound = factorised_at_first_below(dimension, fast);
+    return bound == 0 ? other
+                      : fmt::format("{}; systems below {} unknowns are factorised at the first process{}", other, bound,
+                                    fast.are_judged(dimension, bound - 1)
+                                        ? fmt::format(", but for coupled ones from {} on that the wall decides about",
+                                                      FastOptions::judged_from)
+                                        : "");
+  }
+  if (name == "direct") return "linear_solver = \"direct\" factorises by MUMPS, since UMFPACK works on one process";
+  return "";
+}
+
+#define FSI_INSTANTIATE(n)                                                                           \
+  template std::unique_ptr<LinearSolver> make_general_solver(const std::string&, const FastOptions&, \
+                                                             const JacobianBlocks<n>&);              \
+  template LinearSolverFactory<n> general_solver_factory(const std::string&, const FastOptions&);    \
+  template std::unique_ptr<LinearSolver> make_fast_or_direct(const std::string&, const Case&, const JacobianBlocks<n>&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+
+}  // namespace fsi

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "case/case.hpp"
+#include "linear/interface/linear_solver.hpp"
+
+namespace fsi {
+
+/// Whether `name` serves any scene and any sub-problem.
+bool is_general_solver(const std::string& name);
+
+/// Makes the linear solver `name`, one of general_solver_names(), for a scene or sub-problem of as many processes as
+/// share out the blocks' numbering: on several `petsc` stands in for "fast", but for what is_factorised_at_first(), and
+/// MUMPS for the sparse factorisation.
+/// \throws InputError for "petsc" in a build without it
+template <int n>
+std::unique_ptr<LinearSolver> make_general_solver(const std::string& name, const FastOptions& fast,
+                                                  const JacobianBlocks<n>& blocks);
+
+/// Factory of the linear solver `name`.
+/// \throws InputError for another name
+template <int n>
+LinearSolverFactory<n> general_solver_factory(const std::string& name, const FastOptions& fast);
+
+/// As the case's [monolithic] and [linear] ask, for a scene with fluid or wall only.
+/// \throws InputError for a solver of coupled scenes
+template <int n>
+std::unique_ptr<LinearSolver> make_fast_or_direct(const std::string& name, const Case& setup,
+                                                  const JacobianBlocks<n>& blocks);
+
+/// What is taken in place of the linear solver that the case names, a sentence for the user; empty: nothing is.
+/// \param fast       options of "fast"
+/// \param dimension  of the scene
+std::string other_solver_on_processes(const std::string& name, const FastOptions& fast, int dimension,
+                                      const Communicator& processes);
+
+}  // namespace fsi

@@ -1,0 +1,45 @@
+#include "linear/distributed/mesh_extensions.hpp"
+
+#include <utility>
+
+#include "fem/dimensions.hpp"
+#include "mesh_motion/harmonic_extension.hpp"
+#include "mesh_motion/tangent_extension.hpp"
+#ifdef FSI_WITH_MPI
+#include "linear/distributed/petsc_extension.hpp"
+#include "linear/distributed/small_systems.hpp"
+#endif
+
+namespace fsi {
+
+template <int n>
+std::unique_ptr<MeshExtension<n>> make_harmonic_extension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner,
+                                                          const NodalFrames<n>* frames,
+                                                          [[maybe_unused]] const PartNodes& part) {
+#ifdef FSI_WITH_MPI
+  if (part.share)
+    return std::make_unique<PetscExtension<n>>(laplacian, std::move(inner), frames, part, factorised_at_first_below(n));
+#endif
+  return std::make_unique<HarmonicExtension<n>>(laplacian, std::move(inner), HarmonicExtensionOptions{}, frames);
+}
+
+template <int n>
+std::unique_ptr<MeshExtension<n>> make_tangent_extension(const MeshMotionTangent<n>& tangent, std::vector<char> inner,
+                                                         [[maybe_unused]] const PartNodes& part) {
+#ifdef FSI_WITH_MPI
+  if (part.share)
+    return std::make_unique<PetscExtension<n>>(tangent, std::move(inner), part, factorised_at_first_below(n));
+#endif
+  return std::make_unique<TangentExtension<n>>(tangent, std::move(inner));
+}
+
+template <int n>
+using OwnedExtension = std::unique_ptr<MeshExtension<n>>;
+
+#define FSI_INSTANTIATE(n)                                                                        \
+  template OwnedExtension<n> make_harmonic_extension(const BlockMatrix<1, n>&, std::vector<char>, \
+                                                     const NodalFrames<n>*, const PartNodes&);    \
+  template OwnedExtension<n> make_tangent_extension(const MeshMotionTangent<n>&, std::vector<char>, const PartNodes&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+
+}  // namespace fsi

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "algebra/block_products.hpp"
+#include "linear/interface/linear_solver.hpp"
+
+namespace fsi {
+
+/// Products with a Jacobian in the unknowns of its numbering, from its block matrices.
+template <int n>
+class JacobianProduct {
+ public:
+  explicit JacobianProduct(const JacobianBlocks<n>& blocks);
+
+  /// y = J x, y resized to the equations here. \param x  with its ghosts (Numbering::update_ghosts)
+  void multiply(const std::vector<double>& x, std::vector<double>& y);
+
+ private:
+  static void values(const UnknownMap& map, const std::vector<double>& x, std::vector<double>& field);
+
+  JacobianBlocks<n> blocks_;
+  std::vector<double> fluid_, mesh_, wall_, fluid_rows_, mesh_rows_, wall_rows_;
+};
+
+/// terms += |J| |x|, terms in the equations here. \param x  not negative, with its ghosts
+template <int n>
+void add_absolute_products(const JacobianBlocks<n>& j, const std::vector<double>& x, std::vector<double>& terms);
+
+}  // namespace fsi

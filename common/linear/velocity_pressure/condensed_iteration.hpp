@@ -1,0 +1,103 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "linear/interface/jacobian_product.hpp"
+#include "linear/interface/linear_solver.hpp"
+#include "linear/velocity_pressure/velocity_pressure_layout.hpp"
+#include "mesh_motion/mesh_extension.hpp"
+
+namespace fsi {
+
+/// The outer iteration around a solver of velocities and pressures: it computes residuals of the whole system in double
+/// precision, takes the mesh displacement along by its extension, and brings the shape derivatives back that the inner
+/// solver leaves out, small against the rest, through the residual. Where the scene is shared out among processes, each
+/// holds the rows of its unknowns, and solutions with ghosts.
+template <int n>
+class CondensedIteration {
+ public:
+  /// solution = approximate F^-1 right in the order of the layout, places of ghosts as they are; `scale` is |right| > 0.
+  /// \param tolerance  residual over |right|
+  /// \returns iterations
+  using InnerSolver = std::function<int(const std::vector<double>& right, double scale, double tolerance,
+                                        std::vector<double>& solution)>;
+  /// rows = what velocities and pressures, in the order of the layout, contribute to their own equations while the mesh stands
+  /// still; in single precision, say.
+  using ProductAtRest = std::function<void(const std::vector<double>& solution, std::vector<double>& rows)>;
+  /// \param inner  per entry of the mesh motion: it is sought here
+  using MakeExtension =
+      std::function<std::unique_ptr<MeshExtension<n>>(const JacobianBlocks<n>& blocks, std::vector<char> inner)>;
+
+  /// \param layout          of the blocks; must outlive this
+  /// \param make_extension  called where there is a mesh motion
+  /// \param max_iterations  of the inner solver, in one solve
+  CondensedIteration(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout,
+                     const MakeExtension& make_extension, int max_iterations);
+  ~CondensedIteration();
+
+  /// The block matrices hold new values.
+  void update();
+
+  /// \param tolerance        demanded |b - J x| / |b|
+  /// \param x                overwritten
+  /// \param product_at_rest  where there is one, a few digits of the first correction's residual are taken from it: that
+  ///                         spares the product with the whole Jacobian, more than all the rest of an iteration's products
+  LinearReport solve(const std::vector<double>& b, double tolerance, const InnerSolver& inner_solver,
+                     std::vector<double>& x, const ProductAtRest& product_at_rest = {});
+
+  /// What a single correction leaves of b, over |b|: for want of shape derivatives, where the inner solver is exact.
+  double left_by_a_correction(const std::vector<double>& b, const InnerSolver& inner_solver);
+
+  /// The steps of a correction, for an iteration over several systems: what velocities and pressures are to answer of a
+  /// residual, and what becomes of their answer, in the order of the layout, the mesh with it.
+  /// \param tolerance  of that answer
+  void restrict_residual(const std::vector<double>& residual, double tolerance, std::vector<double>& right);
+  void expand(const std::vector<double>& solution, double tolerance, std::vector<double>& correction);
+  /// y = J x
+  void multiply(const std::vector<double>& x, std::vector<double>& y) { jacobian_.multiply(x, y); }
+
+  const MeshExtension<n>* extension() const { return extension_.get(); }  ///< null without mesh motion
+
+ private:
+  /// Of the mesh motion that the mesh equations' own residual asks for: it enters the flow's right-hand side only, and
+  /// what it lacks comes back in the next residual.
+  static constexpr double mesh_rows_tolerance = 1e-3;
+  /// Of a correction's mesh motion, over that of its velocities and pressures, and at most. What it lacks is a residual
+  /// of the mesh equations, and the next correction's. So a solution of Newton's method holds them as well as the others.
+  static constexpr double extension_share = 0.01, loosest_extension = 1e-3;
+  /// Of linear solves whose residual may be computed in single precision.
+  static constexpr double quick_from = 1e-3;
+
+  void count_extension();
+  /// Of rows, which all processes have some of.
+  double norm_of_all(const std::vector<double>& x) const;
+
+  /// |b - J correction| / norm_b where `product_at_rest` is worth the digits of `tolerance`, else infinite. The mesh's own
+  /// equations, which factors solve to six digits, are left out.
+  double quick_residual(const std::vector<double>& b, double norm_b, double tolerance,
+                        const ProductAtRest& product_at_rest);
+
+  /// correction = approximate solution for the residual: velocities and pressures by the inner solver, then the mesh.
+  void correct(double tolerance, const InnerSolver& inner_solver, LinearReport& report);
+  /// Mesh displacements inside, of mesh_right_ and the given ones.
+  void extend(double tolerance);
+
+  /// What the mesh equations' own residual does to the flow: right -= A_fm A_m^-1 r_m. Usually r_m is nothing but
+  /// rounding, or what an iterative extension left.
+  void subtract_mesh_rows(const std::vector<double>& residual, double tolerance, std::vector<double>& right);
+
+  JacobianBlocks<n> blocks_;
+  const VelocityPressureLayout<n>& layout_;
+  JacobianProduct<n> jacobian_;
+  int max_iterations_;
+  std::unique_ptr<MeshExtension<n>> extension_;
+  int extension_version_ = 0;       ///< of the operator that it was made of
+  bool shape_derivatives_ = false;  ///< they are not all zero (as they are at rest)
+  std::vector<double> right_, solution_, residual_, jacobian_times_x_, correction_;
+  std::vector<double> flow_residual_;  ///< of velocities and pressures
+  std::vector<double> mesh_, mesh_right_, fluid_rows_;
+};
+
+}  // namespace fsi

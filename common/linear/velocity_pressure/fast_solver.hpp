@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/fast_options.hpp"
+#include "linear/interface/direct_linear_solver.hpp"
+#include "linear/interface/linear_solver.hpp"
+#include "linear/velocity_pressure/plane_judge.hpp"
+
+namespace fsi {
+
+/// `fast`: the linear solver that a user should run. What is known exactly is eliminated: the numbering holds one
+/// velocity on the interface, and the mesh displacement follows from it by a harmonic extension whose matrix is
+/// factorised once. An outer iteration computes residuals of the whole system in double precision; corrections come
+/// from GMRES in single precision for velocities and pressures of both media without shape derivatives,
+/// preconditioned by VelocityPressurePreconditioner. The shape derivatives, small against the rest, come back through
+/// the residual. Small systems are factorised; so is one that defeats the iteration, and a larger one in two dimensions
+/// whose wall is stiff.
+template <int n>
+class FastSolver : public LinearSolver {
+ public:
+  /// \param judge  decides in place of the system's size; null: size does, and in the plane the wall's stiffness
+  explicit FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options = {},
+                      std::shared_ptr<IterationJudge> judge = nullptr);
+
+  ~FastSolver() override;
+
+  const char* preparation() override;
+  std::string decides() const override;
+  bool ready() const override { return ready_; }
+
+  /// What a failure led to is forgotten here: solutions depend on the Jacobian of the last update() alone, not on what
+  /// was solved before it, as a restart needs.
+  void update() override;
+
+  LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
+  LinearReport try_to_solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
+
+  double keep_contraction() const override;
+
+  LinearStatistics statistics() const override;
+  MediumPreconditioner* medium_preconditioner() override;
+  bool is_iterative() const override { return iterative_ != nullptr; }
+
+  /// The Jacobian is factorised: the system is small, or the iteration failed on it.
+  bool uses_factorisation() const { return direct_ || factorised_; }
+
+ private:
+  /// \param strong  more sweeps, and coarse levels for the wall however stiff it is
+  void set_up_preconditioner(bool strong);
+
+  struct Iterative;
+  struct Factorised;
+
+  /// Of a system that is not iterated.
+  void make_factors();
+  void make_whole_factors();
+
+  /// By factors of the whole, where those of a part do not get there, however long it takes: better than no answer.
+  LinearReport rescue(const LinearReport& failed, const std::vector<double>& b, double tolerance,
+                      std::vector<double>& x);
+
+  /// What the judge says of the values that the blocks hold, until the next update().
+  bool judged_to_iterate();
+  /// Sets up what the present Jacobian is solved by, where that depends on its numbers.
+  void choose();
+
+  /// In the run's profile.
+  void count(const char* event) const;
+
+  LinearReport iterate(const std::vector<double>& b, double tolerance, std::vector<double>& x);
+
+  JacobianBlocks<n> blocks_;
+  FastOptions options_;
+  std::shared_ptr<IterationJudge> judge_;  ///< null where size alone decides
+  std::optional<bool> verdict_;            ///< on the present values
+  std::unique_ptr<Iterative> iterative_;
+  std::unique_ptr<Factorised> factorised_;         ///< of a plane system with a mesh motion
+  std::unique_ptr<DirectLinearSolver<n>> direct_;  ///< of others, and where the other two do not serve
+  bool ready_ = false;
+  bool strengthened_ = false;  ///< the preconditioner, for a system that defeated the usual one
+};
+
+}  // namespace fsi

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <vector>
+
+#include "algebra/split_blocks.hpp"
+#include "fem/nodal_layout.hpp"
+#include "linear/velocity_pressure/velocity_pressure_layout.hpp"
+
+namespace fsi {
+
+/// Shape derivatives that need no harmonic extension: those of the interface's own momentum equations by the
+/// displacement of the interface's nodes, d_m = (mesh factor / velocity factor) v there. They are by far the largest.
+/// What is left of them acts through d_m inside the fluid and is small: with a pressure that does not vary and test
+/// functions on the interface,
+///   int p J F^-T : grad v dX = int over the current interface of p n . v,
+/// whose derivative knows displacements of the interface only. This is the stiffness by which a pressure follows the
+/// surface; it has the order of p / h, that of the wall mu / h.
+/// \tparam n  components of a velocity
+template <int n>
+class InterfaceShapeDerivatives {
+ public:
+  static constexpr int lanes = padded<n>;
+
+  /// \param position  called as position(row, column): of a block among those of all velocities that share a cell
+  template <class Position>
+  InterfaceShapeDerivatives(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout, Position position)
+      : blocks_(blocks), layout_(layout) {
+    if (!blocks.shape_derivatives || blocks.numbering.mesh.empty()) return;
+    const auto& graph = *blocks.shape_derivatives->graph;
+    std::vector<char> moves_with_it(graph.rows(), 0);
+    for (int a = 0; a < graph.rows(); ++a)
+      for (int k = 0; k < n; ++k) moves_with_it[a] = moves_with_it[a] || follows(a, k);
+    for (int row = 0; row < graph.rows(); ++row)
+      for (int at = graph.offsets[row]; moves_with_it[row] && at < graph.offsets[row + 1]; ++at) {
+        if (!blocks.fluid_nodes->owns(row)) break;
+        const int column = graph.columns[at];
+        if (!moves_with_it[column]) continue;
+        const int v = layout.velocity_of_fluid[row], u = layout.velocity_of_fluid[column];
+        couplings_.push_back({row, column, at, position(v, u)});
+      }
+  }
+
+  /// momentum += the present values.
+  void add_to(SplitBlocks<n>& momentum) const {
+    for_each([&](int position, int i, int k, double value) {
+      momentum.block(position)[k * lanes + i] += static_cast<float>(value);
+    });
+  }
+  /// y -= what these add to the rows of velocities x, n numbers a velocity node.
+  void subtract_product(const std::vector<double>& x, std::vector<double>& y) const {
+    for_each_number([&](const Coupling& c, int i, int k, double value) {
+      y[VectorLayout<n>::vector(layout_.velocity_of_fluid[c.row], i)] -=
+          value * x[VectorLayout<n>::vector(layout_.velocity_of_fluid[c.column], k)];
+    });
+  }
+  /// Calls visit(position of the block, row in it, column in it, value to add).
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for_each_number([&](const Coupling& c, int i, int k, double value) { visit(c.momentum, i, k, value); });
+  }
+
+ private:
+  /// A fluid node of the interface, its neighbour there, and the blocks that couple them.
+  struct Coupling {
+    int row, column, shape, momentum;
+  };
+
+  /// Calls visit(coupling, row in the block, column in it, value to add).
+  template <class Visit>
+  void for_each_number(Visit visit) const {
+    for (const Coupling& c : couplings_) {
+      const double* block = blocks_.shape_derivatives->block(c.shape);
+      for (int k = 0; k < n; ++k) {
+        if (!follows(c.column, k)) continue;
+        const double factor = blocks_.numbering.mesh[VectorLayout<n>::vector(c.column, k)].factor /
+                              blocks_.numbering.fluid[MixedLayout<n>::vector(c.column, k)].factor;
+        for (int i = 0; i < n; ++i)
+          if (layout_.is_free(false, c.row, i)) visit(c, i, k, factor * block[VectorLayout<n>::vector(i, k)]);
+      }
+    }
+  }
+
+  /// The node's displacement has the unknown of its velocity.
+  bool follows(int node, int k) const {
+    const auto displacement = blocks_.numbering.mesh[VectorLayout<n>::vector(node, k)].index;
+    return displacement >= 0 && displacement == blocks_.numbering.fluid[MixedLayout<n>::vector(node, k)].index;
+  }
+
+  JacobianBlocks<n> blocks_;
+  const VelocityPressureLayout<n>& layout_;
+  std::vector<Coupling> couplings_;
+};
+
+}  // namespace fsi

@@ -1,0 +1,236 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "algebra/split_blocks.hpp"
+#include "algebra/vector_view.hpp"
+#include "fem/nodal_layout.hpp"
+#include "host/parallel_for.hpp"
+#include "linear/velocity_pressure/interface_shape_derivatives.hpp"
+#include "linear/velocity_pressure/velocity_pressure_blocks.hpp"
+
+namespace fsi {
+
+/// The Jacobian of velocities and pressures, F = [A G; B C], in single precision. Of the mesh motion A has what
+/// InterfaceShapeDerivatives gives, the rest is left out. Half the memory of the assembled matrices, and arranged so
+/// that products and smoothers run over whole registers. Vectors hold `lanes` floats a velocity node (padded with
+/// zero), then one a pressure.
+template <int n>
+class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
+ public:
+  using VelocityPressureBlocks<n>::for_blocks_of;
+  using VelocityPressureBlocks<n>::for_blocks_of_node;
+
+  static constexpr int lanes = padded<n>;  ///< floats of a nodal vector
+  using Nodal = Register<n>;               ///< one nodal vector in a register
+
+  static Nodal load(const float* from) { return fsi::load<n>(from); }
+  static void store(Nodal x, float* to) { fsi::store<n>(x, to); }
+
+  /// \param owns_velocity, owns_pressure  whether each has rows here; empty: all have. Those of others are zero.
+  VelocityPressureMatrix(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout,
+                         std::vector<char> owns_velocity = {}, std::vector<char> owns_pressure = {})
+      : VelocityPressureBlocks<n>(blocks, layout),
+        layout_(layout),
+        owns_velocity_(std::move(owns_velocity)),
+        owns_pressure_(std::move(owns_pressure)) {
+    make_momentum_pattern();
+    make_continuity_pattern();
+    shape_derivatives_ = std::make_unique<InterfaceShapeDerivatives<n>>(
+        blocks, layout, [&](int row, int column) { return momentum_.position(row, column); });
+    gradient_.resize(gradient_columns_.size() * lanes);
+    divergence_.resize(continuity_velocities_.size() * lanes);
+    compressibility_.resize(compressibility_columns_.size());
+  }
+
+  std::size_t velocity_size() const { return static_cast<std::size_t>(layout_.velocities) * lanes; }
+  std::size_t size() const { return velocity_size() + layout_.pressures; }
+
+  /// The same unknowns in double precision, not padded, and back.
+  /// \param to  of size()
+  void take(const std::vector<double>& from, double factor, VectorView<float> to) const {
+    parallel_for(layout_.velocities, layout_.velocities > 2000, [&](int v) {
+      for (int i = 0; i < lanes; ++i)
+        to[static_cast<std::size_t>(v) * lanes + i] =
+            i < n ? static_cast<float>(factor * from[VectorLayout<n>::vector(v, i)]) : 0.0f;
+    });
+    for (int p = 0; p < layout_.pressures; ++p)
+      to[velocity_size() + p] = static_cast<float>(factor * from[layout_.velocity_size() + p]);
+  }
+  void give(VectorView<const float> from, double factor, std::vector<double>& to) const {
+    to.resize(layout_.size());
+    parallel_for(layout_.velocities, layout_.velocities > 2000, [&](int v) {
+      for (int k = 0; k < n; ++k)
+        to[VectorLayout<n>::vector(v, k)] = factor * from[static_cast<std::size_t>(v) * lanes + k];
+    });
+    for (int p = 0; p < layout_.pressures; ++p) to[layout_.velocity_size() + p] = factor * from[velocity_size() + p];
+  }
+
+  /// Takes the present values of the block matrices.
+  void fill() {
+    fill_momentum();
+    shape_derivatives_->add_to(momentum_);
+    fill_continuity();
+  }
+
+  /// y = F x, both of size()
+  void multiply(VectorView<const float> x, VectorView<float> y) const {
+    const float* pressure = x.data() + velocity_size();
+    parallel_for(layout_.velocities, layout_.velocities > 500, [&](int v) {
+      store(momentum_.row_product(v, x.data()) + gradient_product(v, pressure),
+            y.data() + static_cast<std::size_t>(v) * lanes);
+    });
+    multiply_continuity(x, y);
+  }
+  /// The pressures' rows of it.
+  void multiply_continuity(VectorView<const float> x, VectorView<float> y) const {
+    const float* pressure = x.data() + velocity_size();
+    float* rows = y.data() + velocity_size();
+    parallel_for(layout_.pressures, layout_.pressures > 500, [&](int p) {
+      float sum = divergence_product(p, x.data());
+      for (int at = compressibility_offsets_[p]; at < compressibility_offsets_[p + 1]; ++at)
+        sum += compressibility_[at] * pressure[compressibility_columns_[at]];
+      rows[p] = sum;
+    });
+  }
+  /// B x of a pressure, of the velocities alone.
+  float divergence_product(int p, const float* x) const {
+    Nodal sums{};
+    for (int at = continuity_offsets_[p]; at < continuity_offsets_[p + 1]; ++at)
+      sums += load(divergence_.data() + static_cast<std::size_t>(at) * lanes) *
+              load(x + static_cast<std::size_t>(continuity_velocities_[at]) * lanes);
+    float sum = 0;
+    for (int i = 0; i < n; ++i) sum += sums[i];
+    return sum;
+  }
+
+  /// y = F x without shape derivatives, in double precision and not padded, as far as single precision goes.
+  void multiply_at_rest(const std::vector<double>& x, std::vector<double>& y) const {
+    double largest = 0;  // which x is scaled by: the range of single precision is short
+    for (const double value : x) largest = std::max(largest, std::abs(value));
+    const double scale = largest > 0 ? largest : 1;
+    single_x_.resize(size());
+    take(x, 1 / scale, single_x_);
+    single_y_.resize(size());
+    multiply(single_x_, single_y_);
+    give(single_y_, scale, y);
+    shape_derivatives_->subtract_product(x, y);
+  }
+
+  /// G p of a velocity node.
+  Nodal gradient_product(int v, const float* pressure) const {
+    Nodal even{}, odd{};
+    int at = gradient_offsets_[v];
+    const int end = gradient_offsets_[v + 1];
+    const float* g = gradient_.data() + static_cast<std::size_t>(at) * lanes;
+    for (; at + 1 < end; at += 2, g += 2 * lanes) {
+      even += load(g) * pressure[gradient_columns_[at]];
+      odd += load(g + lanes) * pressure[gradient_columns_[at + 1]];
+    }
+    if (at < end) even += load(g) * pressure[gradient_columns_[at]];
+    return even + odd;
+  }
+
+  /// A by velocity nodes.
+  const SplitBlocks<n>& momentum() const { return momentum_; }
+  /// G: pressures of each velocity node, one entry per assembled block.
+  const std::vector<int>& gradient_offsets() const { return gradient_offsets_; }
+  const std::vector<int>& gradient_columns() const { return gradient_columns_; }
+  const float* gradient(int at) const { return gradient_.data() + static_cast<std::size_t>(at) * lanes; }
+
+  std::size_t bytes() const {
+    return momentum_.bytes() + sizeof(float) * (gradient_.size() + divergence_.size() + compressibility_.size()) +
+           sizeof(int) * (gradient_columns_.size() + continuity_velocities_.size() + compressibility_columns_.size());
+  }
+
+ private:
+  static bool has_rows(const std::vector<char>& owns, int i) { return owns.empty() || owns[i]; }
+
+  void make_momentum_pattern() {
+    gradient_offsets_ = {0};
+    std::vector<std::vector<int>> rows(layout_.velocities);
+    for (int v = 0; v < layout_.velocities; ++v) {
+      auto& row = rows[v];
+      if (has_rows(owns_velocity_, v))
+        for_blocks_of(v, [&](const double*, int u, int p, double) {
+          if (u >= 0) row.push_back(u);
+          if (p >= 0) gradient_columns_.push_back(p);
+        });
+      else
+        row.push_back(v);
+      std::sort(row.begin(), row.end());
+      row.erase(std::unique(row.begin(), row.end()), row.end());
+      gradient_offsets_.push_back(static_cast<int>(gradient_columns_.size()));
+    }
+    momentum_ = SplitBlocks<n>(rows);
+  }
+
+  void make_continuity_pattern() {
+    continuity_offsets_ = {0};
+    compressibility_offsets_ = {0};
+    for (int p = 0; p < layout_.pressures; ++p) {
+      if (has_rows(owns_pressure_, p))
+        for_blocks_of_node(layout_.wall_pressure[p], layout_.node_of_pressure[p],
+                           [&](const double*, int v, int q, double) {
+                             continuity_velocities_.push_back(std::max(v, 0));  // without one zeros are stored
+                             if (q >= 0) compressibility_columns_.push_back(q);
+                           });
+      continuity_offsets_.push_back(static_cast<int>(continuity_velocities_.size()));
+      compressibility_offsets_.push_back(static_cast<int>(compressibility_columns_.size()));
+    }
+  }
+
+  void fill_momentum() {
+#pragma omp parallel for schedule(static) if (layout_.velocities > 500)
+    for (int v = 0; v < layout_.velocities; ++v) {
+      momentum_.clear_row(v);
+      if (!has_rows(owns_velocity_, v)) continue;
+      int gradient_at = gradient_offsets_[v];
+      for_blocks_of(v, [&](const double* block, int u, int p, double factor) {
+        if (p >= 0) {
+          float* g = gradient_.data() + static_cast<std::size_t>(gradient_at++) * lanes;
+          for (int i = 0; i < n; ++i) g[i] = static_cast<float>(block[MixedLayout<n>::in_block(i, n)]);
+        }
+        if (u < 0) return;
+        float* a = momentum_.block(momentum_.position(v, u));
+        for (int i = 0; i < n; ++i)
+          for (int k = 0; k < n; ++k)
+            a[k * lanes + i] += static_cast<float>(factor * block[MixedLayout<n>::in_block(i, k)]);
+      });
+    }
+  }
+
+  void fill_continuity() {
+#pragma omp parallel for schedule(static) if (layout_.pressures > 500)
+    for (int p = 0; p < layout_.pressures; ++p) {
+      if (!has_rows(owns_pressure_, p)) continue;
+      int at = continuity_offsets_[p], compressibility_at = compressibility_offsets_[p];
+      for_blocks_of_node(
+          layout_.wall_pressure[p], layout_.node_of_pressure[p], [&](const double* block, int v, int q, double factor) {
+            float* b = divergence_.data() + static_cast<std::size_t>(at++) * lanes;
+            for (int k = 0; k < n; ++k)
+              b[k] = v < 0 ? 0.0f : static_cast<float>(factor * block[MixedLayout<n>::in_block(n, k)]);
+            if (q >= 0)
+              compressibility_[compressibility_at++] = static_cast<float>(block[MixedLayout<n>::in_block(n, n)]);
+          });
+    }
+  }
+
+  const VelocityPressureLayout<n>& layout_;
+  std::vector<char> owns_velocity_, owns_pressure_;
+  SplitBlocks<n> momentum_;  ///< A
+  std::unique_ptr<const InterfaceShapeDerivatives<n>> shape_derivatives_;
+  std::vector<int> gradient_offsets_, gradient_columns_;
+  std::vector<float> gradient_;  ///< `lanes` numbers a block
+  std::vector<int> continuity_offsets_, continuity_velocities_;
+  std::vector<float> divergence_;  ///< B, `lanes` numbers a block
+  std::vector<int> compressibility_offsets_, compressibility_columns_;
+  std::vector<float> compressibility_;              ///< C
+  mutable std::vector<float> single_x_, single_y_;  ///< of multiply_at_rest()
+};
+
+}  // namespace fsi

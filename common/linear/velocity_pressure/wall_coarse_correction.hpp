@@ -1,0 +1,84 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "linear/amg/rigid_motion_multigrid.hpp"
+#include "linear/velocity_pressure/velocity_pressure_matrix.hpp"
+
+namespace fsi {
+
+/// Coarse levels of the wall's momentum equations. They take up what Gauss-Seidel sweeps leave where the wall's
+/// stiffness exceeds its inertia: large time steps, statics. The fluid's velocities, which the mass matrix dominates,
+/// stay on the finest level.
+template <int n>
+class WallCoarseCorrection {
+ public:
+  using Matrix = VelocityPressureMatrix<n>;
+  static constexpr int lanes = Matrix::lanes;
+
+  explicit WallCoarseCorrection(const Matrix& matrix) : matrix_(matrix) {
+    const auto& layout = matrix.layout();
+    std::vector<int> number(layout.velocities, -1);
+    for (int v = 0; v < layout.velocities; ++v)
+      if (layout.wall_of_velocity[v] >= 0) {
+        number[v] = static_cast<int>(nodes_.size());
+        nodes_.push_back(v);
+        points_.push_back(matrix.wall_points()[layout.wall_of_velocity[v]]);
+        for (int k = 0; k < n && layout.partly_fixed(); ++k) fixed_.push_back(!layout.is_free(v, k));
+      }
+    auto graph = std::make_shared<NodeGraph>();
+    graph->offsets.push_back(0);
+    for (int v : nodes_) {
+      matrix.momentum().for_row(v, [&](int u, int position) {
+        if (number[u] < 0) return;
+        positions_.push_back(position);
+        graph->columns.push_back(number[u]);
+      });
+      graph->offsets.push_back(static_cast<int>(graph->columns.size()));
+    }
+    stiffness_ = BlockMatrix<n, n>(graph);
+    residual_.resize(nodes_.size() * lanes);
+    correction_.resize(nodes_.size() * lanes);
+  }
+
+  /// Takes the present values of the matrix.
+  void set_up(const typename RigidMotionMultigrid<n>::Options& options) {
+    for (std::size_t at = 0; at < positions_.size(); ++at) {
+      const float* from = matrix_.momentum().block(positions_[at]);
+      double* to = stiffness_.block(static_cast<int>(at));
+      for (int i = 0; i < n; ++i)
+        for (int k = 0; k < n; ++k) to[i * n + k] = from[k * lanes + i];
+    }
+    multigrid_.set_up(stiffness_, points_, options, fixed_);
+  }
+
+  /// velocity += correction for `residual`.
+  void add(const std::vector<float>& residual, std::vector<float>& velocity) {
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      store<n>(load<n>(residual.data() + static_cast<std::size_t>(nodes_[i]) * lanes), residual_.data() + i * lanes);
+    std::fill(correction_.begin(), correction_.end(), 0.0f);
+    multigrid_.correct(residual_, correction_);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      float* to = velocity.data() + static_cast<std::size_t>(nodes_[i]) * lanes;
+      store<n>(load<n>(to) + load<n>(correction_.data() + i * lanes), to);
+    }
+  }
+
+  const RigidMotionMultigrid<n>& multigrid() const { return multigrid_; }
+  std::size_t bytes() const {
+    return multigrid_.bytes() + 8 * stiffness_.values.size() + sizeof(float) * 2 * residual_.size();
+  }
+
+ private:
+  const Matrix& matrix_;
+  std::vector<int> nodes_;                     ///< velocity nodes of the wall
+  std::vector<std::array<double, 3>> points_;  ///< their places at rest
+  std::vector<char> fixed_;                    ///< per node and component: no unknown; empty: none
+  std::vector<int> positions_;                 ///< of the blocks among the matrix's own
+  BlockMatrix<n, n> stiffness_;
+  RigidMotionMultigrid<n> multigrid_;
+  std::vector<float> residual_, correction_;
+};
+
+}  // namespace fsi

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "mesher/surface/lumen_openings.hpp"
+
+namespace fsi {
+
+/// Cuts an opening of the surface back by a plane square to the vessel's centre line, `distance` mm behind the opening's centre.
+/// The centre line's direction there is that between the centres of the sections half a radius before and behind; it is found
+/// by trying, from the opening's normal. What lies beyond the plane and is connected with the opening goes.
+/// \throws InputError naming `--cut`: the plane does not meet the vessel in one closed line between the opening and the rest of
+///         the surface, or another opening lies before it
+void cut_square(TriangleSurface& surface, LumenOpening& opening, double distance);
+
+/// Puts the nodes of an opening's rim into its plane, and those near it along.
+/// \throws InputError naming `--cut`: the rim is farther off a plane than half an edge and a tenth of its diameter
+void flatten_rim(TriangleSurface& surface, LumenOpening& opening);
+
+}  // namespace fsi

@@ -1,0 +1,143 @@
+#include "sampling/point_sampling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "mesh/cell_grid.hpp"
+#include "mesh/for_each_mesh.hpp"
+#include "mesh/point_math.hpp"
+#include "sampling/sampling_rules.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr double on_boundary = -1e-6;  // a barycentric coordinate of points that users type with a few digits
+
+template <int Dim, int Order, template <int, int> class Mesh>
+PointSample sample_of(const Mesh<Dim, Order>& mesh, int cell, const std::array<double, Dim + 1>& l) {
+  const auto& nodes = mesh.cells[cell];
+  const auto weights = CellMap<Dim, Order>::shape(l);
+  return {{nodes.begin(), nodes.end()}, {weights.begin(), weights.end()}, {l.begin(), l.end()}};
+}
+
+/// The cell that holds a point deepest, the first of them among several.
+template <int Dim>
+struct Holder {
+  int cell = -1;  ///< none
+  std::array<double, Dim + 1> place{};
+};
+
+/// \param furthest  how negative a barycentric coordinate of a point in a cell may be
+template <int Dim, int Order, template <int, int> class Mesh>
+Holder<Dim> holder_of(const Mesh<Dim, Order>& mesh, const CellGrid& grid, const Point& x, double furthest) {
+  const auto [begin, end] = grid.near(x);
+  Holder<Dim> holder;
+  double most = furthest;
+  for (const int* c = begin; c != end; ++c) {
+    std::array<double, Dim + 1> candidate;
+    if (!map_of(mesh, *c).find(x, candidate)) continue;
+    const double least = *std::min_element(candidate.begin(), candidate.end());
+    if (least < most || (holder.cell >= 0 && least <= most)) continue;
+    most = least;
+    holder = {*c, candidate};
+  }
+  return holder;
+}
+
+/// The nearest cell by the distance to the point's clamped image in it.
+template <int Dim, int Order>
+PointSample nearest_sample(const SimplexMesh<Dim, Order>& mesh, const std::vector<int>& cells, const Point& x,
+                           const SamplingPlace& from) {
+  int best = -1;
+  std::array<double, Dim + 1> best_place{};
+  double least = std::numeric_limits<double>::infinity();
+  for (const int c : cells) {
+    const auto map = map_of(mesh, c);
+    std::array<double, Dim + 1> place;
+    if (!map.find(x, place)) place = map.straight(x);
+    const auto kept = clamped_weights(place);
+    const double away = distance(map.at(kept), x);
+    if (away >= least) continue;
+    least = away;
+    best = c;
+    best_place = kept;
+  }
+  double longest = 0;
+  if (best >= 0)
+    for (int a = 0; a <= Dim; ++a)
+      for (int b = 0; b <= Dim; ++b)
+        longest = std::max(longest, distance(mesh.nodes[mesh.cells[best][a]], mesh.nodes[mesh.cells[best][b]]));
+  if (!(least <= furthest_edges * longest))
+    throw InputError(from.file, from.key,
+                     fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) lies {:.3g} mm outside", x[0], x[1], x[2], least),
+                     sampling_remedy);
+  return sample_of(mesh, best, best_place);
+}
+
+}  // namespace
+
+template <int Dim, int Order>
+std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>& mesh, int region,
+                                         const std::vector<Point>& points, const SamplingPlace& from) {
+  assert(mesh.cell_region.size() == mesh.cells.size());
+  assert(region < static_cast<int>(mesh.regions.size()));
+  std::vector<int> cells;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    if (region < 0 || mesh.cell_region[c] == region) cells.push_back(static_cast<int>(c));
+  std::vector<PointSample> samples;
+  if (points.empty()) return samples;
+  if (cells.empty()) throw InputError(from.file, from.key, "has no cells", "give it some");
+
+  const CellGrid grid(mesh, cells);
+  samples.reserve(points.size());
+  for (const Point& x : points) {
+    const Holder<Dim> holder = holder_of(mesh, grid, x, barycentric_inside);
+    samples.push_back(holder.cell >= 0 ? sample_of(mesh, holder.cell, holder.place)
+                                       : nearest_sample(mesh, cells, x, from));
+  }
+  return samples;
+}
+
+template <int Dim, int Order>
+std::vector<std::optional<PointSample>> locate_in_cells(const Submesh<Dim, Order>& part,
+                                                        const std::vector<Point>& points) {
+  std::vector<std::optional<PointSample>> samples(points.size());
+  if (points.empty() || part.cells.empty()) return samples;
+  const CellGrid grid(part, all_cells(part));
+  const auto off_plane = [&](const Point& x) {
+    if constexpr (Dim == 3) return false;
+    // The plane of the part is that of its first cell.
+    const auto map = map_of(part, 0);
+    const Point normal = cross(map.x[1] - map.x[0], map.x[2] - map.x[0]);
+    return std::abs(dot(x - map.x[0], normal)) > -on_boundary * std::pow(norm(normal), 1.5);
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (off_plane(points[i])) continue;
+    const Holder<Dim> holder = holder_of(part, grid, points[i], on_boundary);
+    if (holder.cell >= 0) samples[i] = sample_of(part, holder.cell, clamped_weights(holder.place));
+  }
+  return samples;
+}
+
+std::vector<double> evenly_spaced(double first, double last, int count) {
+  assert(count >= 0);
+  std::vector<double> values(count);
+  for (int i = 0; i < count; ++i) values[i] = (first * (count - 1 - i) + last * i) / std::max(1, count - 1);
+  return values;
+}
+
+#define INSTANTIATE(Dim, Order)                                                                                     \
+  template std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>&, int, const std::vector<Point>&, \
+                                                    const SamplingPlace&);                                          \
+  template std::vector<std::optional<PointSample>> locate_in_cells(const Submesh<Dim, Order>&,                      \
+                                                                   const std::vector<Point>&);
+FSI_FOR_EACH_MESH(INSTANTIATE)
+#undef INSTANTIATE
+
+}  // namespace fsi
