@@ -12,7 +12,7 @@ namespace {
 constexpr double largest_error = 1e-3;
 constexpr int most_corrections = 20;
 
-double norm(const std::vector<double>& x) {
+double serial_norm(const std::vector<double>& x) {
   double sum = 0;
   for (const double value : x) sum += value * value;
   return std::sqrt(sum);
@@ -67,11 +67,11 @@ void SingleFactors::set_upper(const SparseMatrix& columns) {
 
 void SingleFactors::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) const {
   solve_once(b, x);
-  const double demanded = tolerance * norm(b);
+  const double demanded = tolerance * serial_norm(b);
   double last = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most_corrections; ++k) {
     compute_residual(b, x, residual_);
-    const double left = norm(residual_);
+    const double left = serial_norm(residual_);
     if (k > 0 && !(left < last))  // no correction it was
       for (std::size_t i = 0; i < x.size(); ++i) x[i] -= correction_[i];
     if (!(left > demanded) || !(left < 0.5 * last)) return;  // the latter: all that is left is rounding
@@ -89,7 +89,7 @@ bool SingleFactors::serve() const {
   compute_residual(b, x, residual_);
   double error = 0;
   for (const double value : x) error += (value + 1) * (value + 1);
-  return norm(residual_) <= largest_error * norm(b) && std::sqrt(error) <= largest_error * norm(ones);
+  return serial_norm(residual_) <= largest_error * serial_norm(b) && std::sqrt(error) <= largest_error * serial_norm(ones);
 }
 
 void SingleFactors::compute_residual(const std::vector<double>& b, const std::vector<double>& x,
