@@ -5,7 +5,7 @@
 
 namespace fsi {
 
-/// What measurement favoured for each sub-problem of the artery (tests/unit/solvers/multigrid_study.cpp prints the
+/// What measurement favoured for each sub-problem of the artery (tests/unit/linear/multigrid_study.cpp prints the
 /// table): one V-cycle gains about a digit on the coarse and intermediate mesh.
 
 /// Blood: mass-dominated, and its stabilisation time is half the time step whatever the mesh, so that the Galerkin

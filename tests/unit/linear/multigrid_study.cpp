@@ -6,7 +6,7 @@
 #include "host/threads.hpp"
 #include "monolithic/coupled_solvers/amg/sub_problem_options.hpp"
 #include "monolithic/study/sub_problem_study.hpp"
-#include "unit/solvers/artery_matrices.hpp"
+#include "unit/linear/artery_matrices.hpp"
 
 namespace {
 

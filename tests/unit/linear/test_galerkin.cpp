@@ -6,7 +6,7 @@
 #include "host/threads.hpp"
 #include "monolithic/coupled_solvers/amg/coarsening.hpp"
 #include "monolithic/coupled_solvers/amg/galerkin.hpp"
-#include "unit/solvers/grid_matrices.hpp"
+#include "unit/linear/grid_matrices.hpp"
 
 namespace {
 

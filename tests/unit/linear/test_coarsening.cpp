@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "monolithic/coupled_solvers/amg/coarsening.hpp"
-#include "unit/solvers/grid_matrices.hpp"
+#include "unit/linear/grid_matrices.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "linear/krylov/fgmres.hpp"
 #include "linear/krylov/gmres.hpp"
 #include "linear/krylov/richardson.hpp"
-#include "unit/solvers/grid_matrices.hpp"
+#include "unit/linear/grid_matrices.hpp"
 
 namespace {
 

@@ -7,9 +7,9 @@
 #include "linear/krylov/fgmres.hpp"
 #include "monolithic/coupled_solvers/amg/sub_problem_options.hpp"
 #include "monolithic/study/sub_problem_study.hpp"
-#include "unit/solvers/artery_matrices.hpp"
-#include "unit/solvers/grid_matrices.hpp"
-#include "unit/solvers/schur_complement.hpp"
+#include "unit/linear/artery_matrices.hpp"
+#include "unit/linear/grid_matrices.hpp"
+#include "unit/linear/schur_complement.hpp"
 
 namespace {
 
