@@ -21,7 +21,9 @@ class ErrorPlaces(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
             (root / "common/mesh").mkdir(parents=True)
-            (root / "common/sampling/point_sampling.cpp").write_text('throw InputError("", "inner wall", "no surface", "");\n')
+            (root / "common/sampling/point_sampling.cpp").write_text(
+                'throw InputError("", "inner wall", "no surface", "");\n'
+            )
             (root / "common/mesh/axis.cpp").write_text('throw InputError("", "structure.axis_direction", "", "");\n')
             self.assertEqual(problems(root), ["common/sampling/point_sampling.cpp:1: an InputError without file"])
 
