@@ -189,7 +189,7 @@ FolderLock::~FolderLock() {
   release();
 }
 
-/// One try. \returns false when it is worth another
+/// One try. \returns false when another may succeed
 bool FolderLock::take(const std::string& program) {
   const SignalsWait until_it_is_kept_for_removal;
   const auto made = make_folder(folder_);

@@ -145,7 +145,7 @@ class LinearStudy {
                        fmt::format("give steps up to {}", loads_.steps()));
   }
 
-  /// Everything of the answer; `complete` is false when a solver failed or a named system did not come up.
+  /// The whole result; `complete` is false when a solver failed or a named system did not come up.
   Json run(bool& complete) {
     Json json;
     json["program"] = linear_study_program;
@@ -289,7 +289,7 @@ class LinearStudy {
     return answer;
   }
 
-  /// What one solver takes for J x = b, with its answer x. \param product  seconds of one product with the matrix
+  /// What one solver takes for J x = b, with its solution x. \param product  seconds of one product with the matrix
   Json solved_by(const std::string& name, const JacobianBlocks<n>& blocks, JacobianProduct<n>& jacobian,
                  const std::vector<double>& b, double product, std::vector<double>& x) {
     std::unique_ptr<LinearSolver> solver;
