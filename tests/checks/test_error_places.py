@@ -20,7 +20,8 @@ class ErrorPlaces(unittest.TestCase):
     def test_a_tree(self):
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
-            (root / "common/mesh").mkdir(parents=True)
+            for room in ("mesh", "sampling"):
+                (root / "common" / room).mkdir(parents=True)
             (root / "common/sampling/point_sampling.cpp").write_text(
                 'throw InputError("", "inner wall", "no surface", "");\n'
             )
