@@ -1,6 +1,7 @@
 // Tables, log and HDF5 files on a disk that is full, and under the hands of somebody else.
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 

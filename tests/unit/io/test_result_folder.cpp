@@ -1,6 +1,7 @@
 #include "io/result_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
 #include "io/summary.hpp"

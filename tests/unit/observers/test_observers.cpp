@@ -3,6 +3,7 @@
 #include "observers/observers.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 #include "run/cost_summary.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "math/pack.hpp"
 
