@@ -57,7 +57,7 @@ class Findings {
 
   void note(const std::string& text) { text_ += text + "\n"; }
   void warning(const std::string& text, const std::string& remedy) { text_ += "warning: " + ended(text, remedy); }
-  /// \param who  whom it would stop
+  /// \param who  the program that it would stop
   void stop(const std::string& who, const std::string& text, const std::string& remedy) {
     text_ += "stops " + who + ": " + ended(text, remedy);
     ++stops_;

@@ -63,7 +63,7 @@ MeshLayout mesh_layout(const std::string& file) {
   require_mesh(file);
   MeshLayout layout;
   const GmshFile parsed = parse_gmsh(file);
-  layout.dimension = std::max(2, gmsh_dimension(parsed));  // the reader says what a file without surfaces lacks
+  layout.dimension = std::max(2, gmsh_dimension(parsed));  // the reader says what is missing in a file without surfaces
   layout.order = gmsh_order(parsed, layout.dimension);
   layout.regions = regions_of(parsed, layout.dimension);
   if (layout.dimension == 2) layout.plane = plane_of(parsed);

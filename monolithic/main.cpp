@@ -1,6 +1,5 @@
 #include "monolithic/coupled_numbering.hpp"
 #include "monolithic/linear_solvers.hpp"
-#include "monolithic/study/linear_study.hpp"
 #include "run/driver.hpp"
 #include "system/newton_stepper.hpp"
 
@@ -20,9 +19,7 @@ std::unique_ptr<Stepper> stepper(Scene<n>& scene, const Loads& loads, const Case
 
 int main(int argc, char** argv) {
   using namespace fsi;
-  LinearStudyRequest study;
   return run_driver(
       "fsi-monolithic", "Solves fluid and wall at once by Newton's method.", argc, argv,
-      StepperMakerOf([](auto& scene, const Loads& loads, const Case& setup) { return stepper(scene, loads, setup); }),
-      {study.options(), [&](const CommandLine& line, const Case& setup) { return study.run(line, setup); }});
+      StepperMakerOf([](auto& scene, const Loads& loads, const Case& setup) { return stepper(scene, loads, setup); }));
 }

@@ -13,7 +13,7 @@ fail() {
 
 [ $# -le 1 ] || fail "$# arguments; give the folder with the programs, or nothing"
 programs=${1:-build/release/bin}
-for program in fsi-monolithic fsi-partitioned fsi-compare; do
+for program in fsi-monolithic fsi-linear-study fsi-compare; do
   [ -x "$programs/$program" ] || fail "$programs: there is no $program in it; build first, or give another folder"
 done
 results=results/solvers

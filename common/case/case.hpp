@@ -205,7 +205,7 @@ struct PartitionedData {
   /// the error of a step that is demanded, in place of what [newton] demands
   std::optional<double> tolerance;
   static constexpr double standard_tolerance = 1e-6;  ///< of the gap
-  ToleranceOf tolerance_of = ToleranceOf::pressure;   ///< pressure: alike for what the gap is worth as a pressure
+  ToleranceOf tolerance_of = ToleranceOf::pressure;   ///< pressure: also for the pressure that would close the gap
   double absolute_tolerance = 0;                      ///< or ||d~ - d|| <= this, mm; 0: no size in mm is small
   double force_tolerance = 0;  ///< further demand: force residual relative to the interface force; 0: none
   double velocity_gap = 0.5;   ///< `explicit`: that fluid and wall may keep, relative to the largest velocity
@@ -214,7 +214,7 @@ struct PartitionedData {
   int max_iterations = 200;
   QuasiNewtonOptions quasi_newton;     ///< but for relaxation and mixing, which the scheme chooses
   std::string linear_solver = "fast";  ///< of the sub-problems, one of general_solver_names()
-  FastOptions fast;  ///< LinearData::fast, which the reader copies: who solves a sub-problem has no other
+  FastOptions fast;  ///< LinearData::fast, which the reader copies: solvers of a sub-problem have no other
 
   double gap_tolerance() const { return tolerance.value_or(standard_tolerance); }
 };
@@ -238,7 +238,7 @@ struct OutputData {
   SampleRequests samples;  ///< [output.points], [output.lines.NAME], [output.planes.NAME]
 };
 
-/// [economy]: savings switched off to see what they are worth. The answers stay the same.
+/// [economy]: savings switched off to measure what they save. Results stay the same.
 struct EconomyData {
   bool keep_constant_operators = true;  ///< false: the mesh motion's is assembled and set up at each use
 };

@@ -60,7 +60,7 @@ class CaseEntry {
 
   /// As refuse_value, without what the entry means: for a choice, where the remedy says it all.
   [[noreturn]] void refuse_name(const std::string& problem, const std::string& remedy) const;
-  /// For a key that this section lacks: placed at the section's header.
+  /// For a key that is missing in this section: placed at the section's header.
   [[noreturn]] void refuse_missing(const std::string& name, const std::string& remedy) const;
 
   void warn(const std::string& problem, const std::string& remedy) const;

@@ -134,7 +134,7 @@ CaseKey<Case> mesh_motion_section();        ///< [mesh_motion]
 CaseKey<Case> petsc_section();              ///< [petsc]
 std::vector<CaseKey<Case>> solver_keys();   ///< of solvers, output and economy
 
-/// All effective values of a case, in the order of the tables. Sections that it lacks have none.
+/// All effective values of a case, in the order of the tables. Sections that it leaves out have none.
 std::vector<CaseValue> values_of_case(const Case& scene);
 
 }  // namespace fsi

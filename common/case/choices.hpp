@@ -74,7 +74,7 @@ enum class FibreFrame {
 /// partitioned.tolerance_of: what the tolerance of the interface is meant for (docs/coupling.md).
 enum class ToleranceOf {
   displacement,  ///< the gap between fluid and wall, relative to the displacement, as the paper has it
-  pressure       ///< besides, the pressure that the gap is worth in one step, relative to that between them
+  pressure       ///< besides, the pressure that would close the gap in one step, relative to that between them
 };
 
 /// The velocity over an opening whose flow is given.

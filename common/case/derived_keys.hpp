@@ -11,7 +11,7 @@ namespace fsi {
 /// Keys of [output] for surfaces, forces and statistics.
 std::vector<CaseKey<OutputData>> derived_output_keys();
 
-/// Refuses what the scene cannot have: a field or force of a medium that it lacks, statistics without a period.
+/// Refuses what the scene cannot have: a field or force of a medium that is not there, statistics without a period.
 /// \throws InputError
 void check_derived_output(const CaseEntry& whole_case, Case& scene);
 

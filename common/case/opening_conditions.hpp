@@ -18,7 +18,7 @@ struct FlowRateData {
 struct OpeningConditions {
   std::optional<PressureTable> pressure{};  ///< on the fluid from outside, kPa
   std::optional<FlowRateData> flow_rate{};  ///< prescribes the velocity
-  std::optional<OpeningLawData> law{};      ///< of a pressure that answers the flow
+  std::optional<OpeningLawData> law{};      ///< of a pressure that depends on the flow
   bool joined = false;                      ///< by [network], which then gives its pressure
   std::optional<double> backflow{};         ///< beta of its stabilisation (fluid/backflow.hpp); empty: the standard
 

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "case/case.hpp"
-#include "case/case_entry.hpp"
 
 namespace fsi {
+
+class CaseEntry;
 
 /// Keys of the tables of openings that are periodic, with their periods in ms.
 std::vector<std::pair<std::string, double>> periods_of_openings(const Case& setup);

@@ -3,9 +3,10 @@
 #include <optional>
 
 #include "case/case.hpp"
-#include "case/case_entry.hpp"
 
 namespace fsi {
+
+class CaseEntry;
 
 /// What the mean pressure behind the openings comes to once compliances are full, kPa: in the steady state
 /// p = (Q + sum p_d/R) / sum 1/R. Empty where flows and laws of the case do not determine it.

@@ -53,7 +53,7 @@ class GradientRecovery {
 
   const std::vector<int>& nodes() const { return at_; }
   std::size_t size() const { return at_.size(); }
-  /// Nodes at which the polynomial lacks some directions of the degree above the element's.
+  /// Nodes at which the polynomial is without some directions of the degree above the element's.
   std::size_t fallbacks() const { return fallbacks_; }
 
   /// GradientFit::error_directions() in space, of trace one; zero where no direction is left out.

@@ -82,7 +82,7 @@ std::optional<PeriodComparison::Extremes> PeriodComparison::add(double time, con
     std::swap(between, last_between);
     first = &last_between;
     from = 0;
-    // Of a mean that lacks more than its first half too little is known.
+    // Too little is known of a mean without more than its first half.
     if (before_.weight > 0.5 * spacing * (1 - time_rounding)) pass(static_cast<int>(passed_ % phases), before_);
     std::swap(before_, behind_);
     behind_.weight = 0;
@@ -124,7 +124,7 @@ void PeriodComparison::take(double from, double to, const PeriodicValues& first,
 
 void PeriodComparison::pass(int phase, const Around& around) {
   const auto at = static_cast<std::size_t>(phase);
-  // The first phase that is seen lacks what was before the run.
+  // The first phase that is seen is without what was before the run.
   const bool repeats = known_ > phases, first = phase == 0 || known_ == 0;
   const auto raise = [](double& largest, double value) { largest = std::max(largest, value); };
   for (std::size_t i = 0; i < 2 * openings_; ++i) {

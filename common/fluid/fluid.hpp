@@ -46,7 +46,7 @@ class Fluid {
   /// boundaries included: -p N, and those against backflow.
   /// \param pressures  from outside, kPa, of the open boundaries in their order; missing ones are zero
   /// \param jacobian   on the graph(): the derivatives that it has room for are overwritten, for given pressures from
-  ///                   outside: how these answer the flow, dp/dQ w w^T, w the normals of an opening, would fill the
+  ///                   outside: how these depend on the flow, dp/dQ w w^T, w the normals of an opening, would fill the
   ///                   matrix (linear/interface/low_rank_solver.hpp). Null: no derivatives
   virtual AssemblyResult assemble(const FluidInput& in, const std::vector<double>& pressures,
                                   std::vector<double>& residual, FluidJacobian<n>* jacobian = nullptr) = 0;

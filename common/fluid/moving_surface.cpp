@@ -179,7 +179,7 @@ class MovingFacets : public MovingSurface<Element::components> {
       for (int k = 0; k < n; ++k) x[a][Element::axis[k]] += Pack(mesh[Vector::vector(facet[a], k)]);
     }
   }
-  /// Ghosts lack the facets that touch no own node; their owners have them whole.
+  /// Ghosts are without the facets that touch no own node; their owners have them whole.
   void drop_ghosts(std::vector<double>& field, int entries) const {
     for (const int node : ghosts_)
       std::fill_n(field.begin() + static_cast<std::ptrdiff_t>(node) * entries, entries, 0.0);

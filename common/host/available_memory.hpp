@@ -52,7 +52,7 @@ class Activity {
   const char* before_;
 };
 
-/// Allocations of this thread that fail while this lives return null, for a caller who copes with that, instead of
+/// Allocations of this thread that fail while this lives return null, for a caller that copes with that, instead of
 /// ending the program (host/memory_guard.cpp).
 class MayFail {
  public:

@@ -24,6 +24,7 @@ struct Column {
   const char* name;
   double (*value)(const Record& record);
   Measure measure = Measure::none;
+  bool (*exists)(const Record& record) = nullptr;  ///< whether the record has such a number; null: all have
 };
 
 template <class Record>

@@ -8,7 +8,7 @@
 namespace fsi {
 
 /// Lets all processes know whether one of them has failed: where one hands over an exception, all throw one of the same
-/// kind (InputError, WriteError, ConvergenceError, others) with what the first of those who failed has to say. So all
+/// kind (InputError, WriteError, ConvergenceError, others) with the message of the first process that failed. So all
 /// end alike, and in order. For all processes together; alone, throws what it is given.
 /// \param mine  null: this process has not failed
 void agree_on_failure(const Communicator& processes, const std::exception_ptr& mine);

@@ -139,7 +139,7 @@ bool FolderLock::open_file() {
   return false;
 }
 
-/// One try. \returns false when it is worth another
+/// One try. \returns false when another may succeed
 bool FolderLock::take(const std::string& program, int tries) {
   const SignalsWait until_it_is_kept_for_removal;
   const auto made = make_folder(folder_);

@@ -53,7 +53,10 @@ ResultTable table_of(const std::string& file, const Columns<Record>& columns, Ro
   ResultTable table{file, per == RowsPer::step ? "step,time_ms" : "time_ms", per, std::move(names)};
   if (!named.empty()) table.header += "," + named;
   table.header = header_of(table.header, columns);
-  for (const auto& column : columns) table.measures.push_back(column.measure);
+  for (const auto& column : columns) {
+    table.measures.push_back(column.measure);
+    table.blanks = table.blanks || column.exists != nullptr;
+  }
   return table;
 }
 
@@ -64,7 +67,10 @@ TableRows rows_of(const std::string& file, std::vector<double> lead, const Colum
   TableRows found{file, std::move(lead), {}};
   for (const Record& record : records) {
     found.rows.emplace_back();
-    for (const auto& column : columns) found.rows.back().emplace_back(column.value(record));
+    for (const auto& column : columns)
+      found.rows.back().push_back(column.exists == nullptr || column.exists(record)
+                                      ? std::optional<double>(column.value(record))
+                                      : std::nullopt);
   }
   return found;
 }

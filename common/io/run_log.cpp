@@ -40,7 +40,7 @@ RunLog::RunLog(const std::filesystem::path& folder, bool append, FirstProcess& f
   if (!file_) return;
   logger_ = std::make_shared<spdlog::logger>("run", std::make_shared<CheckedSink>(file_));
   logger_->set_pattern("%Y-%m-%d %H:%M:%S.%e %-7l %v");
-  // The logger catches what a sink throws and calls this from the handler: the error goes on to who has logged.
+  // The logger catches what a sink throws and calls this from the handler: the error goes on to the caller that has logged.
   logger_->set_error_handler([](const std::string&) { throw; });
 }
 

@@ -1,5 +1,7 @@
 #include "io/summary.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "io/atomic_file.hpp"
 
 namespace fsi {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <optional>
 #include <vector>
 
@@ -28,7 +26,7 @@ struct CarreauYasuda {
   /// With mu_inf above mu_0 and n above 1 the viscosity would become negative.
   std::optional<ParameterMismatch> problem() const {
     if (mu_inf <= mu0) return std::nullopt;
-    return ParameterMismatch{"mu_inf", fmt::format("is more than mu0, {}", mu0), fmt::format("give at most {}", mu0)};
+    return above_limit("mu_inf", "mu0", mu0);
   }
 
   /// \param shear_rate  g, positive, 1/ms \return kPa ms

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <optional>
 #include <vector>
 
@@ -26,8 +24,7 @@ struct PowerLaw {
   }
   std::optional<ParameterMismatch> problem() const {
     if (lowest_viscosity <= highest_viscosity) return std::nullopt;
-    return ParameterMismatch{"lowest_viscosity", fmt::format("is more than highest_viscosity, {}", highest_viscosity),
-                             fmt::format("give at most {}", highest_viscosity)};
+    return above_limit("lowest_viscosity", "highest_viscosity", highest_viscosity);
   }
 
   /// \param shear_rate  g, positive, 1/ms \return kPa ms

@@ -4,7 +4,7 @@
 
 namespace fsi {
 
-/// What a wall's material answers to a deformation in the mixed form (docs/theory.md, section 4.1): with a measure g of
+/// The response of a wall's material to a deformation in the mixed form (docs/theory.md, section 4.1): with a measure g of
 /// the change of volume and G = dg/dF the first Piola-Kirchhoff stress is P = P' - p G, p = -K g.
 template <class T>
 struct Response {

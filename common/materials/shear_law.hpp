@@ -13,6 +13,9 @@ struct ParameterMismatch {
   std::string parameter, problem, remedy;
 };
 
+/// Of a parameter that must not be more than another one, `limit`, which has this value.
+ParameterMismatch above_limit(const std::string& parameter, const std::string& limit, double value);
+
 /// Of the exponent: below 1 the fluid thins with the shear rate, above it thickens.
 inline constexpr Bounds shear_exponent{0, 2, false, true};
 

@@ -6,7 +6,7 @@ namespace fsi {
 
 /// The strain measures that materials are written in: what differs from the undeformed state, without the ones and
 /// threes of that state. So stresses are accurate to rounding however small the strain is, and a load a million million
-/// times smaller has an answer as much smaller (docs/theory.md, section 5.1).
+/// times smaller has a response as much smaller (docs/theory.md, section 5.1).
 template <class T>
 struct Strain {
   Sym3<T> change;          ///< C - I, C = F^T F the right Cauchy-Green tensor

@@ -74,7 +74,7 @@ class VaryingLaw {
     return incompressible<0, Sym3<T>>(at, [&](const auto& law, const auto& fibres) { return law.stress(s, fibres); });
   }
 
-  /// What it answers to a deformation.
+  /// Its response to a deformation.
   /// \param h  grad d
   /// \param f  deformation(h)
   template <class T>

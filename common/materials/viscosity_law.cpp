@@ -1,5 +1,7 @@
 #include "materials/viscosity_law.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -30,6 +32,10 @@ NameTable<ViscosityKind> viscosity_table(std::index_sequence<i...>) {
 }
 
 }  // namespace
+
+ParameterMismatch above_limit(const std::string& parameter, const std::string& limit, double value) {
+  return {parameter, fmt::format("is more than {}, {}", limit, value), fmt::format("give at most {}", value)};
+}
 
 const Parameter* ViscosityKind::find(const std::string& name) const {
   const auto found = std::find_if(parameters.begin(), parameters.end(), [&](const auto& p) { return p.name == name; });

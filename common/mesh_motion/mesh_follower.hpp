@@ -27,7 +27,7 @@ struct SharedMesh {
       make_extension = {};
 };
 
-/// Takes a mesh of a nonlinear motion along with its boundary. Newton's method starts from the tangent's answer to the
+/// Takes a mesh of a nonlinear motion along with its boundary. Newton's method starts from the tangent's response to the
 /// boundary's motion; where that folds an element, or the iteration fails, the way is gone in halves. So any motion
 /// whose way holds unfolded meshes is followed.
 template <int n>
@@ -44,7 +44,7 @@ class MeshFollower {
   /// Moves `mesh`, an unfolded field along the axes of space, to where its given values are those of `target`.
   /// \throws ConvergenceError when there is no way; `mesh` is then as it was
   void follow(const std::vector<double>& target, std::vector<double>& mesh);
-  /// The next call makes a tangent of its own, so that its answer does not depend on those before.
+  /// The next call makes a tangent of its own, so that its result does not depend on those before.
   void forget() { linearised_ = false; }
   /// No element of the mesh is inverted.
   bool unfolded(const std::vector<double>& mesh);
@@ -60,7 +60,7 @@ class MeshFollower {
   /// Newton's method from `mesh`, given values fixed.
   bool settle(std::vector<double>& mesh);
   bool go(const std::vector<double>& step, std::vector<double>& mesh);
-  /// increment_ = what the tangent answers to the residual and to `given` values' change.
+  /// increment_ = the tangent's response to the residual and to the change of `given` values.
   void solve(const std::vector<double>& given);
   /// Rows of this process's equations stay, others become zero.
   void keep_equations();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_iterations = 60, most_halvings = 40;
 constexpr double rounding_of_valve = 1e-14;  // of a valve's equation, of the terms in it
-constexpr double least_decrease = 1e-4;      // of what valves lack, by a step
+constexpr double least_decrease = 1e-4;      // of the residual of valves, by a step
 
 double number_of(const double* numbers, std::size_t place, const NetworkElement& law) {
   return law.keeps() == NetworkElement::Keeps::nothing ? 0 : numbers[place];

@@ -96,7 +96,7 @@ class Network {
   /// Newton's method from a state.
   NetworkState solve_from(NetworkState state, const NetworkMoment& at, const double* reference,
                           const std::vector<double>& inflows) const;
-  /// What valves lack, as pressures: the sum of squares; `worst` becomes the one that lacks most, `rounded` whether all of
+  /// Residual of the valves, as pressures: the sum of squares; `worst` becomes the one of the largest, `rounded` whether all of
   /// it is rounding.
   double lack_of_valves(const std::vector<NetworkElement::Equation>& equations, const NetworkState& state,
                         std::size_t& worst, bool& rounded) const;

@@ -29,7 +29,7 @@ class Rounding {
     if (bound_ == unknown) bound_ = rounding_margin * problem_.rounding();
     return residual <= bound_;
   }
-  /// Whether an iteration that left this part of the residual is worth a question: not where the part is what kept Jacobians
+  /// Whether an iteration that left this part of the residual has to be judged: not where the part is what kept Jacobians
   /// leave and the increment is none of the last digits. Should that be all rounding, the next iteration leaves more.
   static bool is_likely(double left) { return !(left > 1e-3 && left < 0.4); }
 

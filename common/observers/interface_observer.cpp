@@ -1,6 +1,7 @@
 #include "observers/interface_observer.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "diagnostics/interface_watch.hpp"
 #include "fem/dimensions.hpp"
@@ -18,7 +19,7 @@ template <int n>
 class InterfaceObserver : public Observer {
  public:
   explicit InterfaceObserver(const RunView<n>& watched)
-      : voice_(watched.voice), watch_(watched.scene), partitioned_(watched.stepper.reports_coupling()) {}
+      : messages_(watched.messages), watch_(watched.scene), partitioned_(watched.stepper.reports_coupling()) {}
 
   bool wants_balances() const override { return true; }
   void begin(const State& state) override {
@@ -38,12 +39,12 @@ class InterfaceObserver : public Observer {
     const char* remedy = partitioned_ ? "lower partitioned.tolerance, or choose a scheme that iterates"
                                       : "lower the tolerance of [newton]";
     if (found.gap_share() > tolerable_share)
-      voice_.warn(
+      messages_.warn(
           fmt::format("where they meet, fluid and wall have come apart by {:.3g} mm, {:.2g} % of the interface's "
                       "largest displacement; {}",
                       std::max(found.largest_slip, found.largest_separation), 100 * found.gap_share(), remedy));
     if (found.traction_share() > tolerable_share)
-      voice_.warn(fmt::format(
+      messages_.warn(fmt::format(
           "where they meet, fluid and wall leave {:.3g} kPa unbalanced in the mean of its steps, {:.2g} % of "
           "the fluid's traction; {}",
           found.lasting_traction, 100 * found.traction_share(), remedy));
@@ -55,18 +56,18 @@ class InterfaceObserver : public Observer {
   /// An entry of the summary.
   InterfaceAgreement note() const {
     const InterfaceAgreement found = watch_.so_far();
-    voice_.note("interface", {{"slip_mm", found.slip},
-                              {"largest_slip_mm", found.largest_slip},
-                              {"largest_separation_mm", found.largest_separation},
-                              {"largest_displacement_mm", found.motion},
-                              {"lasting_unbalanced_traction_kPa", found.lasting_traction},
-                              {"largest_unbalanced_traction_kPa", found.largest_traction},
-                              {"largest_traction_kPa", found.traction},
-                              {"weighed_steps", found.weighed_steps}});
+    messages_.note("interface", {{"slip_mm", found.slip},
+                                 {"largest_slip_mm", found.largest_slip},
+                                 {"largest_separation_mm", found.largest_separation},
+                                 {"largest_displacement_mm", found.motion},
+                                 {"lasting_unbalanced_traction_kPa", found.lasting_traction},
+                                 {"largest_unbalanced_traction_kPa", found.largest_traction},
+                                 {"largest_traction_kPa", found.traction},
+                                 {"weighed_steps", found.weighed_steps}});
     return found;
   }
 
-  Messages& voice_;
+  Messages& messages_;
   InterfaceWatch<n> watch_;
   bool partitioned_;
 };

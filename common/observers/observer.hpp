@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -19,7 +19,7 @@ struct FinishedStep {
   const State& state;  ///< at its end
 };
 
-/// Someone who watches a run and changes nothing of it. Who watches a case, and where a new watcher is entered:
+/// An observer of a run, which changes nothing of it. Which observers a case has, and where a new one is entered:
 /// observers.cpp. Processes that share a scene call all of these together, and all get the same rows.
 class Observer {
  public:

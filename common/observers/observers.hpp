@@ -12,7 +12,7 @@
 
 namespace fsi {
 
-/// All who watch a run, in the order in which they look.
+/// All observers of a run, in the order in which they look.
 class Observers {
  public:
   /// Those that a case asks for.

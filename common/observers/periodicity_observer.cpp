@@ -1,6 +1,7 @@
 #include "observers/periodicity_observer.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
@@ -40,7 +41,7 @@ class PeriodicityObserver : public Observer {
  public:
   PeriodicityObserver(const RunView<n>& watched, std::vector<std::size_t> openings)
       : scene_(watched.scene),
-        voice_(watched.voice),
+        messages_(watched.messages),
         openings_(std::move(openings)),
         period_(*watched.setup.time->period),
         start_given_(watched.setup.time->start == StartOfOpenings::given),
@@ -63,7 +64,7 @@ class PeriodicityObserver : public Observer {
     changes_.push_back(change_of(*extremes, comparison_.last_end()));
     const PeriodChange& last = changes_.back();
     const PeriodicStanding standing = this->standing();
-    voice_.say(fmt::format(
+    messages_.say(fmt::format(
         "period {:.0f}, to {:g} ms, differs from the one before by {:.3g} % in pressure, {:.3g} % in flow, {:.3g} % in "
         "displacement, of their ranges; {}{}",
         last.end / period_, last.end, 100 * last.pressure, 100 * last.flow, 100 * last.displacement,
@@ -72,7 +73,7 @@ class PeriodicityObserver : public Observer {
         : standing.limited_by_steps ? ": the run ends"
                                     : ""));
     if (standing.limited_by_steps)
-      voice_.warn(
+      messages_.warn(
           fmt::format("the run is periodic within {:g} % but for its steps, which leave {:.3g} % from period to "
                       "period that do not fall: {}",
                       100 * demand_.largest, 100 * standing.change, advice_));
@@ -88,10 +89,10 @@ class PeriodicityObserver : public Observer {
     if (wants_end()) return;
     const PeriodicStanding standing = this->standing();
     if (changes_.empty())
-      return voice_.warn(fmt::format(
+      return messages_.warn(fmt::format(
           "the run is not periodic within {:g} %: no two periods were compared; continue it with a later time.end",
           100 * demand_.largest));
-    voice_.warn(fmt::format(
+    messages_.warn(fmt::format(
         "the run is not periodic within {:g} %: its last whole period differs from the one before by {:.3g} %, and {}; "
         "{}continue it with a later time.end{}",
         100 * demand_.largest, 100 * standing.change, text_of_distance(standing), cause(standing),
@@ -178,15 +179,15 @@ class PeriodicityObserver : public Observer {
       compared.push_back(std::move(entry));
     }
     const PeriodicStanding now = standing();
-    voice_.note("periodicity", {{"period_ms", period_},
-                                {"asked", demand_.largest},
-                                {"reached", now.reached},
-                                {"limited_by_steps", now.limited_by_steps},
-                                {"changes", std::move(compared)}});
+    messages_.note("periodicity", {{"period_ms", period_},
+                                   {"asked", demand_.largest},
+                                   {"reached", now.reached},
+                                   {"limited_by_steps", now.limited_by_steps},
+                                   {"changes", std::move(compared)}});
   }
 
   const Scene<n>& scene_;
-  Messages& voice_;
+  Messages& messages_;
   std::vector<std::size_t> openings_;  ///< numbers of those that the mesh has
   double period_;
   bool start_given_;

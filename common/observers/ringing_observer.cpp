@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "diagnostics/ringing_monitor.hpp"
 #include "fem/dimensions.hpp"
@@ -37,8 +38,9 @@ class RingingObserver : public Observer {
     const std::string said = said_of({amplitude, step.state.time, largest_pressure_, solver_error_,
                                       step.report.coupling.has_value(), watched_.scene.integrator->against_ringing()},
                                      watched_.setup);
-    watched_.voice.note("ringing", {{"amplitude_Pa", 1e3 * amplitude}, {"time_ms", step.state.time}, {"said", said}});
-    if (first) watched_.voice.warn(said);
+    watched_.messages.note("ringing",
+                           {{"amplitude_Pa", 1e3 * amplitude}, {"time_ms", step.state.time}, {"said", said}});
+    if (first) watched_.messages.warn(said);
   }
 
   RunView<n> watched_;

@@ -29,7 +29,7 @@ struct RunView {
   const std::vector<GridShare>& grid_shares;  ///< of these grids, where processes share them out; else empty
   std::filesystem::path folder;               ///< of results
   std::filesystem::path restarted_from;       ///< result folder that the run continues; empty: a new run
-  Messages& voice;
+  Messages& messages;
 };
 
 /// Time of the last level that tables and fields of a run hold, ms: where pressures lag behind the levels, the last but one.

@@ -26,13 +26,42 @@ std::array<double, 3> vector_at(const NodalSample& sample, const std::vector<dou
   return sum;
 }
 
-/// A table of samples without names.
-ResultTable begun(const char* file, const char* header, std::vector<Measure> measures) {
-  ResultTable table{file, header};
-  table.measures = std::move(measures);
-  table.blanks = true;
-  table.missing = no_samples;
-  return table;
+/// What a sample shows of a level.
+struct SampleReading {
+  bool in_fluid = false;
+  double pressure = 0;                               // Pa
+  std::array<double, 3> velocity{}, displacement{};  // mm/ms, mm
+};
+
+bool is_in_fluid(const SampleReading& reading) {
+  return reading.in_fluid;
+}
+
+/// Of a scene with these media: in the wall there is no velocity.
+Columns<SampleReading> sample_columns(bool fluid, bool wall) {
+  using Reading = const SampleReading&;
+  Columns<SampleReading> columns{{"pressure_Pa", [](Reading r) { return r.pressure; }, Measure::pressure}};
+  if (fluid)
+    columns.insert(columns.end(),
+                   {{"velocity_x_mm_per_ms", [](Reading r) { return r.velocity[0]; }, Measure::velocity, is_in_fluid},
+                    {"velocity_y_mm_per_ms", [](Reading r) { return r.velocity[1]; }, Measure::velocity, is_in_fluid},
+                    {"velocity_z_mm_per_ms", [](Reading r) { return r.velocity[2]; }, Measure::velocity, is_in_fluid}});
+  if (wall)
+    columns.insert(columns.end(),
+                   {{"displacement_x_mm", [](Reading r) { return r.displacement[0]; }, Measure::displacement},
+                    {"displacement_y_mm", [](Reading r) { return r.displacement[1]; }, Measure::displacement},
+                    {"displacement_z_mm", [](Reading r) { return r.displacement[2]; }, Measure::displacement}});
+  return columns;
+}
+
+/// Where a plane cuts nothing there is no pressure.
+const Columns<PlaneRow>& plane_columns() {
+  using Seen = const PlaneRow&;
+  static const Columns<PlaneRow> columns{{"flow_mm3_per_ms", [](Seen p) { return p.flow; }, Measure::flow},
+                                         {"pressure_Pa", [](Seen p) { return pascal_per_kilopascal * p.pressure; },
+                                          Measure::pressure, [](Seen p) { return p.area > 0; }},
+                                         {"area_mm2", [](Seen p) { return p.area; }, Measure::area}};
+  return columns;
 }
 
 }  // namespace
@@ -43,68 +72,64 @@ SampleTables<n>::SampleTables(const RequestedSamples& samples, const Scene<n>& s
   add(points_file, samples_.points, false);
   add(lines_file, samples_.lines, true);
   if (samples_.planes.empty()) return;
-  ResultTable table = begun(planes_file, "time_ms,plane,flow_mm3_per_ms,pressure_Pa,area_mm2",
-                            {Measure::flow, Measure::pressure, Measure::area});
-  for (const SampledPlane& plane : samples_.planes) table.names.push_back(plane.name);
-  tables_.push_back(table);
+  std::vector<std::string> names;
+  for (const SampledPlane& plane : samples_.planes) names.push_back(plane.name);
+  add(table_of(planes_file, plane_columns(), RowsPer::level, "plane", std::move(names)));
+}
+
+template <int n>
+void SampleTables<n>::add(ResultTable table) {
+  table.missing = no_samples;
+  tables_.push_back(std::move(table));
 }
 
 template <int n>
 void SampleTables<n>::add(const char* file, const std::vector<SampledPoint>& samples, bool along_line) {
   if (samples.empty()) return;
-  ResultTable table = begun(
-      file, along_line ? "time_ms,line,s_mm,x_mm,y_mm,z_mm,pressure_Pa" : "time_ms,point,x_mm,y_mm,z_mm,pressure_Pa",
-      {Measure::pressure});
-  if (scene_.fluid) {
-    table.header += ",velocity_x_mm_per_ms,velocity_y_mm_per_ms,velocity_z_mm_per_ms";
-    table.measures.insert(table.measures.end(), 3, Measure::velocity);
-  }
-  if (scene_.wall) {
-    table.header += ",displacement_x_mm,displacement_y_mm,displacement_z_mm";
-    table.measures.insert(table.measures.end(), 3, Measure::displacement);
-  }
+  std::vector<std::string> names;
   for (const SampledPoint& sample : samples) {
     std::string place = sample.name;
     if (along_line) place += ',' + number_text(sample.s);
     for (const double x : sample.at) place += ',' + number_text(x);
-    table.names.push_back(place);
+    names.push_back(place);
   }
-  tables_.push_back(table);
+  add(table_of(file, sample_columns(scene_.fluid != nullptr, scene_.wall != nullptr), RowsPer::level,
+               along_line ? "line,s_mm,x_mm,y_mm,z_mm" : "point,x_mm,y_mm,z_mm", std::move(names)));
 }
 
+namespace {
+
+/// The part of a process, whose samples have weights of own nodes alone.
 template <int n>
-TableRow SampleTables<n>::row(const SampledPoint& sample, const State& level) const {
+SampleReading reading_of(const SampledPoint& sample, const State& level, const Scene<n>& scene) {
   using Mixed = MixedLayout<n>;
   const auto& medium = sample.in_fluid ? level.now.fluid : level.now.wall;
-  TableRow row(1, 0.0);
+  SampleReading reading;
+  reading.in_fluid = sample.in_fluid;
   for (std::size_t a = 0; a < sample.scalars.nodes.size(); ++a)
-    *row[0] += pascal_per_kilopascal * sample.scalars.weights[a] * medium[Mixed::scalar(sample.scalars.nodes[a])];
-  if (scene_.fluid && !sample.in_fluid) row.resize(4);  // no velocity
-  if (sample.in_fluid)
-    for (const double u : vector_at<Mixed>(sample.vectors, medium, scene_.axes)) row.emplace_back(u);
-  if (scene_.wall) {
-    const auto moved = sample.in_fluid ? vector_at<VectorLayout<n>>(sample.vectors, level.now.mesh, scene_.axes)
-                                       : vector_at<Mixed>(sample.vectors, medium, scene_.axes);
-    for (const double d : moved) row.emplace_back(d);
-  }
-  return row;
+    reading.pressure +=
+        pascal_per_kilopascal * sample.scalars.weights[a] * medium[Mixed::scalar(sample.scalars.nodes[a])];
+  if (sample.in_fluid) reading.velocity = vector_at<Mixed>(sample.vectors, medium, scene.axes);
+  if (scene.wall)
+    reading.displacement = sample.in_fluid ? vector_at<VectorLayout<n>>(sample.vectors, level.now.mesh, scene.axes)
+                                           : vector_at<Mixed>(sample.vectors, medium, scene.axes);
+  return reading;
 }
+
+}  // namespace
 
 template <int n>
 std::vector<TableRow> SampleTables<n>::rows(const ResultTable& table, const State& level) const {
-  std::vector<TableRow> rows;
   if (table.file == planes_file) {
     std::vector<const PlaneCut*> planes;
     for (const SampledPlane& plane : samples_.planes) planes.push_back(plane.cut.get());
-    for (const PlaneRow& seen : look_at(planes, level.now.mesh, level.now.fluid, scene_.processes())) {
-      rows.push_back({seen.flow, std::nullopt, seen.area});
-      if (seen.area > 0) rows.back()[1] = pascal_per_kilopascal * seen.pressure;
-    }
-  } else {
-    for (const SampledPoint& sample : table.file == points_file ? samples_.points : samples_.lines)
-      rows.push_back(row(sample, level));
+    const auto seen = look_at(planes, level.now.mesh, level.now.fluid, scene_.processes());
+    return rows_of(table.file, {}, plane_columns(), seen).rows;
   }
-  return rows;
+  std::vector<SampleReading> readings;
+  for (const SampledPoint& sample : table.file == points_file ? samples_.points : samples_.lines)
+    readings.push_back(reading_of(sample, level, scene_));
+  return rows_of(table.file, {}, sample_columns(scene_.fluid != nullptr, scene_.wall != nullptr), readings).rows;
 }
 
 template <int n>

@@ -26,9 +26,9 @@ class SampleTables {
   std::vector<std::vector<TableRow>> rows(const State& level, PartialSums& sums) const;
 
  private:
+  void add(ResultTable table);
   void add(const char* file, const std::vector<SampledPoint>& samples, bool along_line);
   std::vector<TableRow> rows(const ResultTable& table, const State& level) const;
-  TableRow row(const SampledPoint& sample, const State& level) const;
 
   const Scene<n>& scene_;
   const RequestedSamples& samples_;

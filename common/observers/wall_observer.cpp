@@ -1,6 +1,7 @@
 #include "observers/wall_observer.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <string>
@@ -32,7 +33,7 @@ template <int n>
 class WallObserver : public Observer {
  public:
   explicit WallObserver(const RunView<n>& watched)
-      : voice_(watched.voice), scene_(watched.scene), layers_(scene_.layer_names.size()) {}
+      : messages_(watched.messages), scene_(watched.scene), layers_(scene_.layer_names.size()) {}
 
   std::vector<TableRows> after_step(const FinishedStep& step) override {
     bool news = false;
@@ -45,8 +46,8 @@ class WallObserver : public Observer {
   void end() override {
     for (std::size_t i = 0; i < layers_.size(); ++i)
       if (layers_[i].warned)
-        voice_.warn(fmt::format("{}: in this run the largest strain is {}, the largest rotation {}", title(i),
-                                text_of_strain(layers_[i].strain), text_of_rotation(layers_[i].rotation)));
+        messages_.warn(fmt::format("{}: in this run the largest strain is {}, the largest rotation {}", title(i),
+                                   text_of_strain(layers_[i].strain), text_of_rotation(layers_[i].rotation)));
   }
 
  private:
@@ -65,7 +66,7 @@ class WallObserver : public Observer {
     const bool strained = layer.strain.at.value > small_strain, turned = layer.rotation.at.value > small_rotation;
     if (!layer.warned && (strained || turned)) {
       layer.warned = true;
-      voice_.warn(
+      messages_.warn(
           fmt::format("{}: linear-elastic holds for small strains and rotations only, and here is {}: what comes of it "
                       "is no answer of "
                       "a wall; take material = \"saint-venant-kirchhoff\", or a hyperelastic one",
@@ -105,10 +106,10 @@ class WallObserver : public Observer {
         layer["largest_rotation"] = json(layers_[i].rotation);
       }
     }
-    voice_.note("wall_deformation", all);
+    messages_.note("wall_deformation", all);
   }
 
-  Messages& voice_;
+  Messages& messages_;
   const Scene<n>& scene_;
   std::vector<LayerRecord> layers_;
 };

@@ -11,7 +11,7 @@
 
 namespace fsi {
 
-/// What lies behind the surfaces through which fluid may pass, as far as it answers the flow, and all that openings keep
+/// What lies behind the surfaces through which fluid may pass, as far as its pressure depends on the flow, and all that openings keep
 /// from step to step. Solution::openings holds that: first the numbers of the laws, then those of the network, then
 /// pressure (kPa) and flow outward (mm^3/ms) of each opening that moves and whose flow is given; laws and such openings in
 /// the order of the openings. This class alone knows where. Processes that share the fluid ask together and get the same numbers.
@@ -19,7 +19,7 @@ namespace fsi {
 template <int n>
 class Openings {
  public:
-  /// An opening whose pressure answers the flow.
+  /// An opening whose pressure depends on the flow.
   struct Answering {
     std::size_t number;  ///< among the openings
     const OpenBoundary<n>* surface;

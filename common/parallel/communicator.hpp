@@ -68,7 +68,7 @@ class Communicator {
 
   const Traffic& traffic() const { return traffic_; }
 
-  /// Beneath it, for those who know what MPI is (parallel/mpi_handle.hpp).
+  /// Beneath it, for callers that use MPI (parallel/mpi_handle.hpp).
   struct Handle;
   const Handle* handle() const { return handle_.get(); }
 

@@ -55,7 +55,7 @@ void announce_steps(const RunParts<n>& parts, RunLog& log) {
 template <int n>
 void announce(RunParts<n>& parts, const RunCheckpoints<n>& checkpoints, Console& console, RunLog& log) {
   const auto& mesh = parts.loaded.mesh;
-  nlohmann::json& summary = parts.voice.summary;
+  nlohmann::json& summary = parts.messages.summary;
   const auto unknowns = summary["unknowns"]["coupled"].get<std::int64_t>();
   const auto text = fmt::format("{} {}: {} | {} nodes, {} {}, {} unknowns, {}{} threads{}, {}", parts.program, version,
                                 shortened(parts.setup.title, 200), mesh.nodes, mesh.cells, mesh.cell, unknowns,

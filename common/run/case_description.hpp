@@ -13,7 +13,7 @@ struct DescriptionLine {
 };
 using Description = std::vector<DescriptionLine>;
 
-// What a case says, in words, for who looks it through before a run. Units stand with the numbers.
+// What a case says, in words, for a look before a run. Units stand with the numbers.
 
 /// Of a plane scene that of an area.
 const char* unit_of_volume(const Case& setup);

@@ -5,7 +5,7 @@
 #include "case/case.hpp"
 #include "host/idle_cores.hpp"
 #include "run/command_line.hpp"
-#include "run/driver.hpp"
+#include "run/stepper_maker.hpp"
 
 namespace fsi {
 

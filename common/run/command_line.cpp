@@ -7,6 +7,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstring>
+#include <functional>
 
 #include "base/error.hpp"
 #include "base/names.hpp"
@@ -82,23 +83,12 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-}  // namespace
+/// Options of one kind of program, whose values go to `line`.
+using AddOptions = std::function<void(CLI::App& app, CommandLine& line)>;
 
-std::string restart_command(const CommandLine& line) {
-  std::vector<std::string> words;
-  if (line.processes > 1) words = {"mpirun", "-n", std::to_string(line.processes)};  // any number will do
-  words.insert(words.end(),
-               {line.program, line.case_file.string(), "--restart", line.output.string(), "-o", line.output.string()});
-  for (const auto& entry : line.overrides) words.insert(words.end(), {"--set", entry});
-  if (line.threads > 0) words.insert(words.end(), {"--threads", std::to_string(line.threads)});
-  if (line.quiet) words.emplace_back("-q");
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : " ") + quoted(word);
-  return text;
-}
-
-std::optional<CommandLine> parse_command_line(const std::string& program, const std::string& description, int argc,
-                                              const char* const* argv, const std::vector<ExtraOption>& extra) {
+/// What every program with a case has, with `add_own` behind -o.
+std::optional<CommandLine> parse(const std::string& program, const std::string& description, int argc,
+                                 const char* const* argv, const AddOptions& add_own) {
   CommandLine line;
   std::string threads;
   bool help = false, help_keys = false, show_version = false;
@@ -108,24 +98,13 @@ std::optional<CommandLine> parse_command_line(const std::string& program, const 
   app.allow_extras();
   app.add_option("case", line.case_file, "Case file (TOML)")->type_name("CASE.toml");
   auto* output = app.add_option("-o,--output", line.output, "Result folder, made where needed")->type_name("DIR");
-  auto* restart =
-      app.add_option("--restart", line.restart, "Continue the run in this result folder; without -o in place")
-          ->type_name("DIR");
+  add_own(app, line);
   app.add_option("--set", line.overrides, "Override an entry of the case file; may be repeated")
       ->type_name("key=value")
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
   app.add_option("--threads", threads, "Threads; 0: one per idle core, one on a small mesh (default)")->type_name("N");
-  for (const auto& option : extra) {
-    if (option.text)
-      app.add_option(option.name, *option.text, option.description)->type_name(option.type);
-    else
-      app.add_flag(option.name, *option.flag, option.description);
-  }
-  app.add_flag("--check", line.check,
-               "Say what a run would be: media, openings, unknowns, memory, time; writes nothing");
-  app.add_flag("--force", line.force, "Replace the results of an earlier run in the result folder");
   app.add_flag("-q,--quiet", line.quiet, "No progress, errors only");
   app.add_flag("-h,--help", help, "Print this help");
   app.add_flag("--help-keys", help_keys, "List the keys of a case file");
@@ -153,7 +132,8 @@ std::optional<CommandLine> parse_command_line(const std::string& program, const 
     throw InputError("", "", "no case file given", program + " CASE.toml -o DIR, or see " + program + " --help");
   if (output->count() > 0 && line.output.empty())
     throw InputError("", "--output", "the folder's name is empty", "give -o DIR");
-  if (restart->count() > 0 && line.restart.empty())
+  if (const auto* restart = app.get_option_no_throw("--restart");
+      restart != nullptr && restart->count() > 0 && line.restart.empty())
     throw InputError("", "--restart", "the folder's name is empty", "give --restart DIR");
   if (line.check && !line.restart.empty())
     throw InputError("", "--check", "looks at a case from its beginning, not at a run to go on with",
@@ -164,6 +144,44 @@ std::optional<CommandLine> parse_command_line(const std::string& program, const 
   line.program = argc > 0 ? argv[0] : program;
   if (!threads.empty()) line.threads = thread_count(threads);
   return line;
+}
+
+}  // namespace
+
+std::string restart_command(const CommandLine& line) {
+  std::vector<std::string> words;
+  if (line.processes > 1) words = {"mpirun", "-n", std::to_string(line.processes)};  // any number will do
+  words.insert(words.end(),
+               {line.program, line.case_file.string(), "--restart", line.output.string(), "-o", line.output.string()});
+  for (const auto& entry : line.overrides) words.insert(words.end(), {"--set", entry});
+  if (line.threads > 0) words.insert(words.end(), {"--threads", std::to_string(line.threads)});
+  if (line.quiet) words.emplace_back("-q");
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : " ") + quoted(word);
+  return text;
+}
+
+std::optional<CommandLine> parse_command_line(const std::string& program, const std::string& description, int argc,
+                                              const char* const* argv) {
+  return parse(program, description, argc, argv, [](CLI::App& app, CommandLine& line) {
+    app.add_option("--restart", line.restart, "Continue the run in this result folder; without -o in place")
+        ->type_name("DIR");
+    app.add_flag("--check", line.check,
+                 "Say what a run would be: media, openings, unknowns, memory, time; writes nothing");
+    app.add_flag("--force", line.force, "Replace the results of an earlier run in the result folder");
+  });
+}
+
+std::optional<CommandLine> parse_command_line(const std::string& program, const std::string& description, int argc,
+                                              const char* const* argv, const std::vector<ExtraOption>& own) {
+  return parse(program, description, argc, argv, [&](CLI::App& app, CommandLine&) {
+    for (const auto& option : own) {
+      if (option.text)
+        app.add_option(option.name, *option.text, option.description)->type_name(option.type);
+      else
+        app.add_flag(option.name, *option.flag, option.description);
+    }
+  });
 }
 
 }  // namespace fsi

@@ -7,9 +7,10 @@
 
 namespace fsi {
 
-/// An option of one program alone. With a value, `text` receives it; without, `flag` is set.
+/// An option of a program that does something else with a case than a run. With a value, `text` receives it; without,
+/// `flag` is set.
 struct ExtraOption {
-  std::string name;         ///< "--linear-systems"
+  std::string name;         ///< "--systems"
   std::string type;         ///< what the value is called in the help; empty: a flag
   std::string description;  ///< one sentence
   std::string* text = nullptr;
@@ -37,9 +38,13 @@ std::string restart_command(const CommandLine& line);
 /// Parses a driver's arguments. Empty when --help, --help-keys or --version was asked for and has been printed.
 /// \param program      name of the program, for help and version
 /// \param description  one sentence for the help
-/// \param extra        options of this program alone
 /// \throws InputError naming the option and the offending value
 std::optional<CommandLine> parse_command_line(const std::string& program, const std::string& description, int argc,
-                                              const char* const* argv, const std::vector<ExtraOption>& extra = {});
+                                              const char* const* argv);
+
+/// The same for a program that takes a case and makes no run of it: in place of --restart, --check and --force it has
+/// options of its own.
+std::optional<CommandLine> parse_command_line(const std::string& program, const std::string& description, int argc,
+                                              const char* const* argv, const std::vector<ExtraOption>& own);
 
 }  // namespace fsi

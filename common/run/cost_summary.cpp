@@ -1,5 +1,7 @@
 #include "run/cost_summary.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "host/machine.hpp"
 #include "math/pack.hpp"
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "system/work_unit.hpp"
 
 namespace fsi {
 
-/// What summary.json says of where a run was made: who compares seconds has to know.
+/// What summary.json says of where a run was made, which a comparison of seconds needs.
 /// {"processor"}, the model of those of the first process
 nlohmann::json machine_json();
 /// {"instruction_set", "doubles_per_pack", "compiler"}

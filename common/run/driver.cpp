@@ -22,19 +22,8 @@
 
 namespace fsi {
 
-namespace {
-
-/// What is done in place of a run is done by one process.
-void require_no_other_task(const OtherTask& other) {
-  for (const ExtraOption& option : other.options)
-    if ((option.flag != nullptr && *option.flag) || (option.text != nullptr && !option.text->empty()))
-      throw InputError("mpirun", option.name, "works on one process", "start the program by itself");
-}
-
-}  // namespace
-
 int run_driver(const std::string& program, const std::string& description, int argc, const char* const* argv,
-               const StepperMaker& make_stepper, const OtherTask& other) {
+               const StepperMaker& make_stepper) {
   guard_standard_streams();
   wait_briefly(argv);
   end_at_signals(program, "before the first step; nothing is lost by starting again");
@@ -46,10 +35,10 @@ int run_driver(const std::string& program, const std::string& description, int a
     const Communicator& processes = Communicator::world();
     keep_streams_silent(!processes.is_first());
     if (!processes.is_alone()) expect_launcher();
-    auto line = parse_command_line(program, description, argc, argv, other.options);
+    auto line = parse_command_line(program, description, argc, argv);
     if (!line) return static_cast<int>(exit_done);
     line->processes = processes.size();
-    set_threads(line->threads);  // for the other task; a run chooses
+    set_threads(line->threads);  // a run chooses anew
     const Case setup = read_case(line->case_file, line->overrides);
     set_petsc_options(setup.petsc.options, setup.path.string());
     for (const auto& warning : setup.warnings) warn(program, warning);
@@ -58,9 +47,6 @@ int run_driver(const std::string& program, const std::string& description, int a
       return components_of(setup) == 2 ? check_case<2>(program, *line, setup, make_stepper, watch)
                                        : check_case<3>(program, *line, setup, make_stepper, watch);
     }
-    if (!processes.is_alone()) require_no_other_task(other);
-    if (other.run)
-      if (const auto code = other.run(*line, setup)) return *code;
     std::optional<FolderLock> lock;
     at_first(processes, [&] {
       require_no_run_in_source(*line);

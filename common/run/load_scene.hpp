@@ -41,7 +41,7 @@ struct LoadedScene {
   std::optional<Checkpoint> prestress;  ///< what a run keeps of its wall's, where it has one
 };
 
-/// Who follows while a scene is loaded, and what is left out. What is empty tells nobody.
+/// What is called while a scene is loaded, and what is left out. An empty function is not called.
 struct LoadingScene {
   std::function<void(std::size_t cells)> mesh_known;             ///< before the scene is built
   std::function<void(const std::string& warning)> mesh_strange;  ///< before anything is computed on it

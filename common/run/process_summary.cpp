@@ -1,6 +1,7 @@
 #include "run/process_summary.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <string>

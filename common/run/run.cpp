@@ -1,6 +1,7 @@
 #include "run/run.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -62,7 +63,7 @@ RunView<n> watched(RunParts<n>& parts) {
           *parts.stepper,     parts.state,       parts.scene.is_static() ? 0 : scene_time(parts.setup, parts.scene),
           loaded.points,      loaded.derived,    loaded.grids,
           loaded.grid_shares, parts.line.output, parts.line.restart,
-          parts.voice};
+          parts.messages};
 }
 
 template <int n>
@@ -126,7 +127,7 @@ class Run {
     observers_.begin(state());
     parts_.loading.end();
     console_.emplace(last_step(), Console::style_for(line.quiet || !parts_.first.is_here()));
-    parts_.voice.to(*log_, *console_);
+    parts_.messages.to(*log_, *console_);
     answer_signals_within({});
     parts_.first.now([&] { require_no_run_in_source(line); });  // while it was read
     account_.begin();
@@ -178,7 +179,7 @@ class Run {
   /// What is left to do after the last step, whose state is saved.
   void end() {
     if (const std::string open = parts_.stepper->unchecked(); !open.empty()) {
-      parts_.voice.note("unchecked", open);
+      parts_.messages.note("unchecked", open);
       log_->warning(open);
       warn(parts_.program, open);
     }
@@ -196,7 +197,7 @@ class Run {
   /// apart. Empty, and said, where there is none: then tables and fields end with the level before.
   std::optional<State> settled_last_level() {
     const auto start = Clock::now();
-    auto& account = parts_.voice.summary["step_behind_the_end"];
+    auto& account = parts_.messages.summary["step_behind_the_end"];
     const auto leave_out = [&](const std::string& why) {
       account["failure"] = why;
       const auto said = fmt::format(
@@ -237,7 +238,7 @@ class Run {
   [[noreturn]] void without_solution(const ConvergenceError& failure) {
     const std::string hint = failure_hint(parts_.setup, parts_.scene, parts_.loads, state());
     std::string said = hint.empty() ? failure.what() : fmt::format("{} [{}]", failure.what(), hint);
-    parts_.voice.note("failure", said);
+    parts_.messages.note("failure", said);
     // What cannot be written now must not hide why the run ends.
     const std::string not_logged = write_error_of([&] {
       for (const auto& entry : parts_.stepper->report().history) log_->info("  " + entry);
@@ -287,7 +288,7 @@ class Run {
     if (!parts_.line.quiet) answer_signals(parts_.program, seconds, console_->rewrites());
   }
 
-  /// Says once that progress cannot be shown any more. A reader who went away has seen what he wanted.
+  /// Says once that progress cannot be shown any more. A reader that has closed the stream has seen what it wanted.
   void watch_console() {
     if (console_->error() == 0 || console_failed_) return;
     console_failed_ = true;

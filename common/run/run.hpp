@@ -7,7 +7,7 @@
 #include "host/idle_cores.hpp"
 #include "io/folder_lock.hpp"
 #include "run/command_line.hpp"
-#include "run/driver.hpp"
+#include "run/stepper_maker.hpp"
 
 namespace fsi {
 

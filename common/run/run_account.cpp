@@ -1,6 +1,7 @@
 #include "run/run_account.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -50,7 +51,7 @@ nlohmann::json scene_json(const std::string& program, const Case& setup, const s
 
 template <int n>
 void RunAccount<n>::begin() {
-  auto& summary = parts_.voice.summary;
+  auto& summary = parts_.messages.summary;
   summary = scene_json(parts_.program, parts_.setup, parts_.case_hash, parts_.loaded.mesh, parts_.scene);
   if (parts_.scene.fibre_frame) summary["fibre_frame"] = fibre_frames().name_of(*parts_.scene.fibre_frame);
   first_step_ = parts_.state.step;
@@ -77,7 +78,7 @@ void RunAccount<n>::measure_work_unit() {
 
 template <int n>
 void RunAccount<n>::take_stock() {
-  auto& summary = parts_.voice.summary;
+  auto& summary = parts_.messages.summary;
   const WorkUnit& unit = parts_.work_unit.unit();
   const Attempts& attempts = parts_.march.attempts();
   const int steps = parts_.state.step - first_step_;
@@ -106,8 +107,8 @@ void RunAccount<n>::write(const std::string& status) {
 
 template <int n>
 void RunAccount<n>::write_status(const std::string& status) {
-  parts_.voice.summary["status"] = status;
-  parts_.first.now([&] { write_summary(parts_.line.output, parts_.voice.summary); });
+  parts_.messages.summary["status"] = status;
+  parts_.first.now([&] { write_summary(parts_.line.output, parts_.messages.summary); });
 }
 
 template <int n>

@@ -16,14 +16,14 @@ namespace fsi {
 
 namespace {
 
-// What stands before the names of what is kept, by who keeps it.
+// What stands before the names of what is kept, by the owner.
 constexpr const char* of_stepper = "stepper.";
 constexpr const char* of_march = "march.";
 constexpr const char* of_tables = "table.";
 
 constexpr const char* scheme_name = "time_scheme";  // the run's, as the number of its TimeScheme
 
-/// Who may have kept what this run does not go on with: another method, another watcher.
+/// What may have kept numbers that this run does not go on with: another method, another observer.
 std::vector<std::string> others() {
   auto words = words_of_observers();
   words.insert(words.end(), {of_stepper, of_march, of_tables});

@@ -63,10 +63,10 @@ RunParts<n>::RunParts(const std::string& named, const CommandLine& of_line, cons
       loads(setup),
       stepper(make_stepper.make(scene, loads, setup)),
       march(
-          setup, scene, *stepper, loads, [this](const std::string& said) { voice.log_only(said); },
-          [this](const std::string& said) { voice.warn(said); }),
+          setup, scene, *stepper, loads, [this](const std::string& said) { messages.log_only(said); },
+          [this](const std::string& said) { messages.warn(said); }),
       state(scene.at_rest()) {
-  set_memory_notices([this](const std::string& said) { voice.log_only(said); });
+  set_memory_notices([this](const std::string& said) { messages.log_only(said); });
   if (scene.is_static()) return;
   scheme = time_scheme_of(setup, scene);
   require_resolvable(setup, scene);

@@ -11,13 +11,13 @@
 #include "io/folder_lock.hpp"
 #include "restart/array_orders.hpp"
 #include "run/command_line.hpp"
-#include "run/driver.hpp"
 #include "run/load_scene.hpp"
 #include "run/loading_report.hpp"
 #include "run/process_summary.hpp"
 #include "run/process_threads.hpp"
 #include "run/run_messages.hpp"
 #include "run/step_controller.hpp"
+#include "run/stepper_maker.hpp"
 #include "scene/loads.hpp"
 #include "system/work_unit.hpp"
 
@@ -36,7 +36,7 @@ struct RunParts {
 
   /// Whether a level is looked at one step later, when its pressures are known.
   bool lagging() const { return scene.integrator->pressures_lag(); }
-  /// The last level but one as a state, for those who look at it.
+  /// The last level but one as a state, for observers of it.
   const State& level_before(const State& at);
   /// The last level whose pressures are known.
   const State& shown_level() { return lagging() ? level_before(state) : state; }
@@ -60,7 +60,7 @@ struct RunParts {
   ArrayOrders<n> orders;
   Loads loads;
   std::unique_ptr<Stepper> stepper;
-  RunMessages voice;
+  RunMessages messages;
   StepController<n> march;
   std::string scheme;  ///< in time; empty in statics
   State state;

@@ -19,7 +19,7 @@ struct LostPressures {
   bool corner() const { return pressures == 1 && velocities == 0; }
 };
 
-/// A remark of a scene that begins so says where, and what helps: it does not concern who solves both media at once.
+/// A remark of a scene that begins so says where, and what helps: it does not concern drivers that solve both media at once.
 inline constexpr const char* interface_takes_equations = "if the fluid is given its velocity on the wall,";
 
 /// Looks for them by a maximum matching of pressures with free components of the velocity of the same cells

@@ -79,7 +79,7 @@ class Scene {
   std::vector<std::string> notices;  ///< what was taken in place of what the case asks for, sentences for the user
   std::vector<std::string> remarks;  ///< what else a user may want to know of it, for the log
   int predictor = 1;                 ///< order of the extrapolated start of each step
-  mutable Profile profile;           ///< also of those who only read the scene
+  mutable Profile profile;           ///< also of callers that only read the scene
 
   bool coupled() const { return fluid && wall; }
   /// Of its nodes, the first so many are this process's: what sums over the interface count.

@@ -75,7 +75,7 @@ void cut_out_regions(const Case& setup, SimplexMesh<Dim, Order>& mesh, std::vect
   for (const auto& [name, layer] : structure.layers) {
     const int index = mesh.region_index(name);
     if (std::find(mesh.cell_region.begin(), mesh.cell_region.end(), index) != mesh.cell_region.end()) continue;
-    if (layer.part_of.empty() && index < 0) continue;  // told by who looks for layers
+    if (layer.part_of.empty() && index < 0) continue;  // reported where layers are looked up
     throw InputError(setup.path.string(), "structure.regions",
                      fmt::format("later regions leave no element to {}", name),
                      layer.part_of.empty() ? "leave some, or give the volume as a layer the constants that it has"

@@ -8,7 +8,7 @@
 
 namespace fsi {
 
-/// The openings of a scene that move and whose flow is given (docs/theory.md, section 3.8): what their flows lack, and
+/// The openings of a scene that move and whose flow is given (docs/theory.md, section 3.8): the residual of their flows, and
 /// what that counts in the norm of a residual. Processes that share the scene ask together and get the same numbers.
 template <int n>
 class GivenFlows {
@@ -24,12 +24,12 @@ class GivenFlows {
   auto& pressure(std::size_t i, AnySolution& solution) const {
     return Openings<n>::pressure(*flows_[i].opening, solution.openings);
   }
-  /// What it lacks to what is given, outward, mm^3/ms, at the last compare().
+  /// Residual to what is given, outward, mm^3/ms, at the last compare().
   double gap(std::size_t i) const { return flows_[i].gap; }
 
   /// Finds the gaps of state.now. \returns the sum of squares of the forces that they are worth
   double compare(const State& state, const StepData& data);
-  /// What 1 mm^3/ms of a gap is worth, kPa mm^2: the force on the opening of a pressure which within a step accelerates
+  /// The weight of 1 mm^3/ms of a gap, kPa mm^2: the force on the opening of a pressure which within a step accelerates
   /// the flow over the opening's width, and widens the wall by what has come in. \param fluid_factor  of the step, 1/ms
   double force_of_gap(std::size_t i, double fluid_factor) const;
 

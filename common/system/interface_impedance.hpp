@@ -13,8 +13,8 @@ struct InterfaceImpedance {
   std::vector<int> nodes;         ///< of the medium
   std::vector<double> impedance;  ///< c per node, kPa mm^2 / (mm/ms): any numbers, zero and negative ones too
   std::vector<double> velocity;   ///< v, n numbers per node, mm/ms
-  /// v is at each residual the one with which these rows vanish, and `velocity` is not read: what the fluid's own rows
-  /// lack is then another system's to balance.
+  /// v is at each residual the one with which these rows vanish, and `velocity` is not read: another system balances the
+  /// residual of the fluid's own rows.
   bool balanced = false;
   Medium medium = Medium::fluid;     ///< not `balanced` of the wall
   std::vector<double> displacement;  ///< x of the wall, n numbers per node, mm; `velocity` is not read there

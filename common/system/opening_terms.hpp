@@ -10,7 +10,7 @@
 
 namespace fsi {
 
-/// What openings add to the equations of the fluid beside its block matrices: how pressures answer the flow, and pressures
+/// What openings add to the equations of the fluid beside its block matrices: how pressures depend on the flow, and pressures
 /// that are unknowns where the flow is given, with an equation each.
 template <int n>
 class OpeningTerms {
@@ -28,14 +28,14 @@ class OpeningTerms {
   bool move() const;
   /// Whether slopes of pressures depend on more than the step: where a network joins openings.
   bool vary() const { return !scene_.openings.joined().empty(); }
-  /// What given flows lack, outward, at the last residual, mm^3/ms.
+  /// Residual of given flows, outward, at the last residual of the system, mm^3/ms.
   std::vector<double> gaps() const;
 
   /// Finds the gaps of state.now. \returns the sum of squares of the forces that they are worth, a part of the residual's
   double compare(const State& state, const StepData& data) { return given_flows_.compare(state, data); }
   /// The terms as they are at a solution. \param of_mesh  the mesh has unknowns
   void linearise(const Solution& now, const StepRates& rates, bool of_mesh);
-  /// Before a linear solve: what the equations of given flows lack.
+  /// Before a linear solve: the residual of the equations of given flows.
   void set_gaps();
   /// Before a further one with other forces: nothing, they are solved for already.
   void close_gaps();

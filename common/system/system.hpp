@@ -57,7 +57,7 @@ class System : public NewtonProblem {
   /// Rows of the fluid's last residual before boundary conditions: on the interface the force of the fluid on the wall.
   const std::vector<double>& fluid_residual() const { return fluid_residual_; }
 
-  /// What the flows through openings that move lack to what is given there, outward, at the last residual, mm^3/ms.
+  /// Residual of the flows through openings that move to what is given there, outward, at the last evaluation, mm^3/ms.
   std::vector<double> flow_gaps() const { return openings_.gaps(); }
 
   /// The state and step that evaluate(), linearise() and move() refer to from now on.

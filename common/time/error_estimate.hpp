@@ -25,7 +25,7 @@ struct StepErrors {
 ///   displacement, velocity: what the step adds, as terms of the scheme's error say, times `scene_time` / dt: what such
 ///                           steps add while the scene swings once;
 ///   pressure:               constant dt^order times its derivative of that order, through the last balances: a
-///                           pressure answers to accelerations of the same step and adds nothing up.
+///                           pressure follows accelerations of the same step and adds nothing up.
 /// Norms are means over the volume. Displacement and velocity are relative to their largest norm so far, pressure to
 /// its largest of late: what the load made of it is forgotten within `scene_time`.
 /// \tparam n  components of a vector

@@ -44,7 +44,7 @@ struct ArrayRule {
   Range each{};
 };
 
-/// What a restart needs to go on bit for bit. Who has such numbers goes over them in one function,
+/// What a restart needs to go on bit for bit. The owner of such numbers goes over them in one function,
 ///   void keep(RestartArchive& memory) { memory.number("age", age_, count_range); memory.array("load", kind, load_); }
 /// which tells the name of each, its kind and what it may be, and serves both ways: an archive that is written takes the
 /// values; one that recalls puts those of an earlier run in their place, if it can believe them. So an entry is one line.
@@ -68,7 +68,7 @@ class RestartArchive {
 
   /// Of entries that an earlier run has all or none of: whether they are to be gone over.
   bool wants(std::initializer_list<std::string> names) const;
-  /// An entry that an earlier run, or another method, may lack; then the value stays.
+  /// An entry that an earlier run, or another method, may not have; then the value stays.
   void number_if_there(const std::string& name, double& value, const Range& range = {});
   /// A count that is kept among numbers; as above.
   void count_if_there(const std::string& name, int& value);

@@ -20,8 +20,8 @@ struct CouplingReport {
   int columns = 0;                   ///< differences that the last quasi-Newton or Krylov correction used
   double displacement_residual = 0;  ///< |d~ - d| / |d~| on the interface
   double displacement_gap = 0;       ///< |d~ - d|, mm
-  double force_residual = 0;         ///< what the momentum balance lacks there, relative to the force
-  double pressure_residual = 0;      ///< the pressure that the gap is worth, relative to that between fluid and wall
+  double force_residual = 0;         ///< residual of the momentum balance there, relative to the force
+  double pressure_residual = 0;      ///< the pressure that would close the gap, relative to that between fluid and wall
   double gap_pressure = 0;           ///< the same in kPa, root mean square over the interface
   double traction_gap = 0;           ///< kPa, alike: between the fluid's traction and what the wall was loaded with
   double domain_gap = 0;             ///< mm, alike: between the wall and the boundary of the fluid's domain
@@ -79,9 +79,9 @@ class Stepper {
   /// Solves the next step and makes it the latest level of the state, unless the judge rejects it.
   /// \throws ConvergenceError; the state's finished levels are then untouched
   virtual StepReport advance(State& state) = 0;
-  /// Whether reports of steps have their balances, for those who look at what the equations did.
+  /// Whether reports of steps have their balances, for callers that look at what the equations did.
   void keep_balances(bool keep) { keep_balances_ = keep; }
-  /// Who may refuse the solution of a step from now on, not owned; null: nobody. A step that was refused, or that failed,
+  /// What may refuse the solution of a step from now on, not owned; null: nothing. A step that was refused, or that failed,
   /// can be taken again with another length.
   void judge_by(StepJudge* judge) { judge_ = judge; }
   /// Steps are taken by a slower way, if it has one, where the usual one fails.

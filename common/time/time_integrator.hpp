@@ -43,7 +43,7 @@ class TimeIntegrator {
   /// What a user should know of it with steps of these lengths (ms), for the log; empty: nothing.
   virtual std::string about(double /*shortest*/, double /*longest*/) const { return {}; }
   /// Period of u = (d - r) / period (InterfaceKinematics) in each stage of equal steps of this length, ms: how long the step
-  /// is to those who solve it.
+  /// is to their solvers.
   virtual double period(double step) const { return step; }
   /// Gives a state at rest, or with initial values, the history that the scheme keeps.
   virtual void prepare(State&) const {}

@@ -30,7 +30,6 @@
 #include "monolithic/linear_solvers.hpp"
 #include "monolithic/study/sub_problem_study.hpp"
 #include "run/console.hpp"
-#include "run/interruption.hpp"
 #include "run/load_scene.hpp"
 #include "system/newton_stepper.hpp"
 
@@ -70,9 +69,9 @@ double median_seconds(int most, const std::function<void()>& work) {
 std::vector<std::string> parse_solvers(const std::string& text) {
   const auto known = linear_solver_names();
   auto names = split(text, ',');
-  if (names.empty()) throw InputError("", "--linear-solvers", "no solver named", "give some of " + one_of(known));
+  if (names.empty()) throw InputError("", "--solvers", "no solver named", "give some of " + one_of(known));
   for (const auto& name : names)
-    if (std::find(known.begin(), known.end(), name) == known.end()) refuse_name("--linear-solvers", name, known);
+    if (std::find(known.begin(), known.end(), name) == known.end()) refuse_name("--solvers", name, known);
   return names;
 }
 
@@ -80,7 +79,7 @@ double parse_tolerance(const std::string& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !(value > 0 && value < 1))
-    throw InputError("", "--linear-tolerance", "\"" + text + "\" is no tolerance", "give a number between 0 and 1");
+    throw InputError("", "--tolerance", "\"" + text + "\" is no tolerance", "give a number between 0 and 1");
   return value;
 }
 
@@ -119,36 +118,37 @@ class LinearStudy {
         loaded_(load_scene<n>(setup)),
         scene_(loaded_.scene.get()),
         loads_(setup) {
-    if (!scene_->processes().is_alone())
-      throw InputError("", "--linear-systems", "works on one process", "start it without mpirun");
     if (!scene_->coupled())
-      throw InputError(setup.path.string(), "", "--linear-systems needs a scene of fluid and wall",
+      throw InputError(setup.path.string(), "", "a study of linear systems needs a scene of fluid and wall",
                        "give [fluid] and [structure]");
-    refuse_pressures_per_layer(setup, scene_->wall->nodes(), "--linear-systems");
-    refuse_nonlinear_mesh_motion(setup, "--linear-systems");
-    refuse_turned_frames<n>(setup, &scene_->fluid_frames, &scene_->wall_frames, "--linear-systems");
+    refuse_pressures_per_layer(setup, scene_->wall->nodes(), linear_study_program);
+    refuse_nonlinear_mesh_motion(setup, linear_study_program);
+    refuse_turned_frames<n>(setup, &scene_->fluid_frames, &scene_->wall_frames, linear_study_program);
     for (const auto& opening : scene_->openings.answering())
-      throw InputError(setup.path.string(), "opening." + opening.surface->name(),
-                       "--linear-systems studies matrices, and the pressure of a resistance or a windkessel is in none",
-                       "give this opening a pressure");
+      throw InputError(
+          setup.path.string(), "opening." + opening.surface->name(),
+          "a study of linear systems is about matrices, and the pressure of a resistance or a windkessel is in none",
+          "give this opening a pressure");
     for (const auto& opening : scene_->openings.joined().openings())
-      throw InputError(setup.path.string(), "opening." + opening.surface->name(),
-                       "--linear-systems studies matrices, and the pressures that a network gives are in none",
-                       "give this opening a pressure");
+      throw InputError(
+          setup.path.string(), "opening." + opening.surface->name(),
+          "a study of linear systems is about matrices, and the pressures that a network gives are in none",
+          "give this opening a pressure");
     for (const auto& opening : scene_->openings.driven())
-      throw InputError(setup.path.string(), "opening." + opening.surface->name(),
-                       "--linear-systems studies matrices, and the pressure that drives the flow which is given at an "
-                       "opening that moves is in none",
-                       "give this opening a pressure, or clamp the wall there");
+      throw InputError(
+          setup.path.string(), "opening." + opening.surface->name(),
+          "a study of linear systems is about matrices, and the pressure that drives the flow which is given at an "
+          "opening that moves is in none",
+          "give this opening a pressure, or clamp the wall there");
     if (systems_.back().step > loads_.steps())
-      throw InputError("", "--linear-systems", fmt::format("the run has no step {}", systems_.back().step),
+      throw InputError("", "--systems", fmt::format("the run has no step {}", systems_.back().step),
                        fmt::format("give steps up to {}", loads_.steps()));
   }
 
-  /// Everything of the answer; `complete` is false when a solver failed or a named system did not come up.
+  /// The whole result; `complete` is false when a solver failed or a named system did not come up.
   Json run(bool& complete) {
     Json json;
-    json["program"] = "fsi-monolithic";
+    json["program"] = linear_study_program;
     json["version"] = version;
     json["title"] = setup_.title;
     json["case_hash"] = hash_of_case(setup_);
@@ -289,7 +289,7 @@ class LinearStudy {
     return answer;
   }
 
-  /// What one solver takes for J x = b, with its answer x. \param product  seconds of one product with the matrix
+  /// What one solver takes for J x = b, with its solution x. \param product  seconds of one product with the matrix
   Json solved_by(const std::string& name, const JacobianBlocks<n>& blocks, JacobianProduct<n>& jacobian,
                  const std::vector<double>& b, double product, std::vector<double>& x) {
     std::unique_ptr<LinearSolver> solver;
@@ -390,11 +390,11 @@ std::vector<NamedSystem> parse_systems(const std::string& text) {
       return error == std::errc() && end == from.data() + from.size() && to >= 1;
     };
     if (numbers.size() != 2 || !read(numbers[0], system.step) || !read(numbers[1], system.iteration))
-      throw InputError("", "--linear-systems", "\"" + part + "\" names no system",
+      throw InputError("", "--systems", "\"" + part + "\" names no system",
                        "give STEP:ITERATION, both from 1 on, for example 1:1,12:2");
     systems.push_back(system);
   }
-  if (systems.empty()) throw InputError("", "--linear-systems", "no system named", "give for example 1:1,12:2");
+  if (systems.empty()) throw InputError("", "--systems", "no system named", "give for example 1:1,12:2");
   std::sort(systems.begin(), systems.end(), [](const NamedSystem& a, const NamedSystem& b) {
     return a.step != b.step ? a.step < b.step : a.iteration < b.iteration;
   });
@@ -404,31 +404,18 @@ std::vector<NamedSystem> parse_systems(const std::string& text) {
 std::vector<ExtraOption> LinearStudyRequest::options() {
   // fsi-compare looks for this.
   const std::string without = has_petsc() ? "" : "; petsc is not in this build";
-  return {
-      {"--linear-systems", "STEP:ITERATION,...",
-       "In place of a run: solve these Newton systems with the named linear solvers, write linear_solvers.json",
-       &systems_, nullptr},
-      {"--linear-solvers", "NAME,...", "Solvers for --linear-systems; default fast,direct" + without, &solvers_,
-       nullptr},
-      {"--linear-tolerance", "NUMBER", "Relative residual for --linear-systems, default 1e-9", &tolerance_, nullptr},
-      {"--sub-problems", "", "With --linear-systems: the sub-problems' multigrid as solvers of their own", nullptr,
-       &sub_problems_}};
+  return {{"--systems", "STEP:ITERATION,...", "The Newton systems that are solved, default 1:1", &systems_, nullptr},
+          {"--solvers", "NAME,...", "Linear solvers, default fast,direct" + without, &solvers_, nullptr},
+          {"--tolerance", "NUMBER", "Relative residual, default 1e-9", &tolerance_, nullptr},
+          {"--sub-problems", "", "The multigrid of the sub-problems, too, as solvers of their own", nullptr,
+           &sub_problems_}};
 }
 
-std::optional<int> LinearStudyRequest::run(const CommandLine& line, const Case& setup) const {
-  if (systems_.empty()) {
-    for (const auto& [name, given] :
-         {std::pair("--linear-solvers", !solvers_.empty()), std::pair("--linear-tolerance", !tolerance_.empty()),
-          std::pair("--sub-problems", sub_problems_)})
-      if (given) throw InputError("", name, "says nothing without --linear-systems", "add --linear-systems 1:1");
-    return {};
-  }
-  if (!line.restart.empty())
-    throw InputError("", "--restart", "cannot go with --linear-systems", "leave one of them out");
-  end_at_signals("fsi-monolithic", "before the end; nothing has been written");
+int LinearStudyRequest::run(const CommandLine& line, const Case& setup) const {
   const auto file = line.output / "linear_solvers.json";
   require_regular_or_absent(file, false);  // before anything is computed
-  LinearStudy study(setup, parse_systems(systems_), parse_solvers(solvers_.empty() ? "fast,direct" : solvers_),
+  LinearStudy study(setup, parse_systems(systems_.empty() ? "1:1" : systems_),
+                    parse_solvers(solvers_.empty() ? "fast,direct" : solvers_),
                     tolerance_.empty() ? 1e-9 : parse_tolerance(tolerance_), sub_problems_, line.quiet);
   std::vector<RemovedOnSignal> on_signal;
   {

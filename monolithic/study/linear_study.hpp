@@ -1,26 +1,29 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "run/driver.hpp"
+#include "case/case.hpp"
+#include "run/command_line.hpp"
 
 namespace fsi {
+
+inline constexpr const char* linear_study_program = "fsi-linear-study";
 
 /// A Newton system of a run: the k-th of a time step, both counted from 1.
 struct NamedSystem {
   int step = 0, iteration = 0;
 };
 
-/// `--linear-systems 1:1,12:2 --linear-solvers lower,fast`: in place of a run, its time steps up to the last named
-/// Newton system; each of these is solved with every named solver, and DIR/linear_solvers.json tells iterations, times,
-/// residuals and memory. Systems come from Newton's method with a new Jacobian in each iteration.
+/// `--systems 1:1,12:2 --solvers lower,fast`: the time steps of a case up to the last named Newton system; each of these
+/// is solved with every named solver, and DIR/linear_solvers.json tells iterations, times, residuals and memory. Systems
+/// come from Newton's method with a new Jacobian in each iteration.
 class LinearStudyRequest {
  public:
   std::vector<ExtraOption> options();
+  /// \returns the exit code
   /// \throws InputError naming the option and the value that is wrong
-  std::optional<int> run(const CommandLine& line, const Case& setup) const;
+  int run(const CommandLine& line, const Case& setup) const;
 
  private:
   std::string systems_, solvers_, tolerance_;

@@ -20,8 +20,11 @@ class ErrorPlaces(unittest.TestCase):
     def test_a_tree(self):
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
-            (root / "common/mesh").mkdir(parents=True)
-            (root / "common/sampling/point_sampling.cpp").write_text('throw InputError("", "inner wall", "no surface", "");\n')
+            for room in ("mesh", "sampling"):
+                (root / "common" / room).mkdir(parents=True)
+            (root / "common/sampling/point_sampling.cpp").write_text(
+                'throw InputError("", "inner wall", "no surface", "");\n'
+            )
             (root / "common/mesh/axis.cpp").write_text('throw InputError("", "structure.axis_direction", "", "");\n')
             self.assertEqual(problems(root), ["common/sampling/point_sampling.cpp:1: an InputError without file"])
 

@@ -56,7 +56,7 @@ class Layering(unittest.TestCase):
         self.write("common/mesh/mesh.hpp", '#include "base/error.hpp"\n\n#include "fluid/field.hpp"\n')
         self.assert_problem(
             'common/mesh/mesh.hpp:3: #include "fluid/field.hpp" from common/mesh',
-            "allowed: common/base, common/math, common/parallel, common/mesh",
+            "allowed: common/base, common/host, common/math, common/parallel, common/mesh",
         )
 
     def test_upwards_through_the_root(self):

@@ -89,7 +89,8 @@ bool SingleFactors::serve() const {
   compute_residual(b, x, residual_);
   double error = 0;
   for (const double value : x) error += (value + 1) * (value + 1);
-  return serial_norm(residual_) <= largest_error * serial_norm(b) && std::sqrt(error) <= largest_error * serial_norm(ones);
+  return serial_norm(residual_) <= largest_error * serial_norm(b) &&
+         std::sqrt(error) <= largest_error * serial_norm(ones);
 }
 
 void SingleFactors::compute_residual(const std::vector<double>& b, const std::vector<double>& x,

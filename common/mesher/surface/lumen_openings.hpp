@@ -24,7 +24,7 @@ struct OpenedLumen {
 };
 
 /// Takes the flat parts (mesh/flat_regions.hpp) and domed ends (mesher/surface/domed_ends.hpp) out of a surface. One of several openings whose area is below a thousandth of
-/// the largest is a hole like the others: who names openings sees it.
+/// the largest is a hole like the others: a user that names openings sees it.
 /// \param surface  sound (mesher/surface/sound_surface.hpp)
 OpenedLumen opened(const TriangleSurface& surface);
 

@@ -55,7 +55,12 @@ def _digest(path: Path) -> str:
 
 
 def find_mesh_maker(monolithic: Program) -> Optional[Path]:
-    return _beside(monolithic.path, "fsi-mesh")
+    return find_beside(monolithic, "fsi-mesh")
+
+
+def find_beside(program: Program, name: str) -> Optional[Path]:
+    """The program of this name beside another one, else the one on the path."""
+    return _beside(program.path, name)
 
 
 def _beside(program: Path, name: str) -> Optional[Path]:

@@ -18,6 +18,7 @@ from results import contents, differences
 STEPS = 3
 LONG = 3000  # more than are made before a signal
 MONOLITHIC = DRIVERS[0]
+LINEAR_STUDY = "fsi-linear-study"
 NOBODY = 65534  # the user without rights
 RESULT_FILES = (
     "centerline_pressure.csv",
@@ -381,19 +382,19 @@ class Folders:
             self.harness.count("refused" if good else "not refused", f"mesh {name[:30]}: {ended}")
 
     def linear_systems(self):
-        options = ("--linear-systems", "1:1", "--linear-solvers", "fast")
+        options = ("--systems", "1:1", "--solvers", "fast")
         for make in NO_FILES:
             folder = self.fresh()
             folder.mkdir()
             make(folder / "linear_solvers.json")
             self.refused(
-                f"linear systems by {make.__name__}", MONOLITHIC, folder, *options, says=("linear_solvers.json",)
+                f"linear systems by {make.__name__}", LINEAR_STUDY, folder, *options, says=("linear_solvers.json",)
             )
         file = self.fresh()
         file.write_text("mine")
-        self.refused("linear systems into a file", MONOLITHIC, file, *options)
+        self.refused("linear systems into a file", LINEAR_STUDY, file, *options)
         folder = self.fresh()
-        code, _, errors = self.run(MONOLITHIC, folder, *options)
+        code, _, errors = self.run(LINEAR_STUDY, folder, *options)
         good = code == 0 and errors == "" and os.listdir(folder) == ["linear_solvers.json"]
         self.harness.count("done" if good else "not done", f"linear systems: exit {code}, {errors!r}")
 

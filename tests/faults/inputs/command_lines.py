@@ -6,8 +6,10 @@ from trial import Trial
 
 WORDS = ("", " ", "-", "--", "---", "-1", "0", "1", "2", "1e300", "nan", "2147483648", "9223372036854775808", "a", "out",
          "case.toml", "x" * 5000, "\x1b[31m", "a\nb", "=", "time.end=", "/dev/null/out", ".", "..", "/", "%s%n", "@")  # fmt: skip
-DRIVER_OPTIONS = ("-o", "--output", "--set", "--threads", "--restart", "--force", "-q", "--quiet", "--outptu", "-x")
-STUDY_OPTIONS = ("--linear-systems", "--linear-solvers", "--linear-tolerance")
+LINEAR_STUDY = "fsi-linear-study"
+OPTIONS = ("-o", "--output", "--set", "--threads", "-q", "--quiet", "--outptu", "-x")
+DRIVER_OPTIONS = ("--restart", "--force")
+STUDY_OPTIONS = ("--systems", "--solvers", "--tolerance", "--sub-problems")
 MESH_OPTIONS = ("-o", "--output", "--inner-radius", "--media", "--adventitia", "--length", "--level", "--size",
                 "--axial-size", "--lumen-cells", "--media-cells", "--adventitia-cells", "--around", "--axial-cells",
                 "--lumen-grading", "--axial-grading", "--order", "--sector", "--for", "--error", "--format", "--threads",
@@ -20,9 +22,9 @@ def drivers_lines(case, mesh, drivers, seed):
     """Trials without end: an ordinary command line with words put in, doubled, taken out."""
     chance = random.Random(seed)
     while True:
-        driver = chance.choice(drivers)
+        driver = chance.choice((*drivers, LINEAR_STUDY))
         words = ["case.toml", "-o", "out", "-q", "--threads", "1"]
-        options = DRIVER_OPTIONS + (STUDY_OPTIONS if driver == "fsi-monolithic" else ())
+        options = OPTIONS + (STUDY_OPTIONS if driver == LINEAR_STUDY else DRIVER_OPTIONS)
         for _ in range(chance.randrange(1, 4)):
             kind = chance.randrange(4)
             at = chance.randrange(len(words) + 1)

@@ -15,6 +15,7 @@ SIGNALS = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
 STEPS = 30
 LONG = 3000  # more than are made before the signal
 MONOLITHIC = DRIVERS[0]
+LINEAR_STUDY = "fsi-linear-study"
 
 
 class Signals:
@@ -226,15 +227,17 @@ class Signals:
         for moment in moments:
             for number, code_of in SIGNALS.items():
                 folder = self.fresh()
-                options = ("--linear-systems", "30:1", "--linear-solvers", "fast")
-                process = self.start(*self.command(MONOLITHIC, folder, *options))
+                options = ("--systems", "30:1", "--solvers", "fast")
+                process = self.start(*self.command(LINEAR_STUDY, folder, *options))
                 self.wait_until_it_watches(process)
                 time.sleep(moment * self.seconds[MONOLITHIC])
                 process.send_signal(number)
                 code, errors = self.end(process)
                 left = sorted(os.listdir(folder)) if folder.exists() else []
                 good = (
-                    code == code_of and errors.startswith(f"{MONOLITHIC}: interrupted before ") and not folder.exists()
+                    code == code_of
+                    and errors.startswith(f"{LINEAR_STUDY}: interrupted before ")
+                    and not folder.exists()
                 )
                 good |= code == 0 and errors == "" and left == ["linear_solvers.json"]
                 good |= code == -number and errors == "" and left == []

@@ -15,6 +15,7 @@ sys.path[:0] = [str(TOP / "compare"), str(TOP / "compare/research"), str(TOP / "
 import fake_drivers  # noqa: E402
 from fsi_research import start  # noqa: E402
 from fsi_research.linear import command as linear_command, study as linear_study  # noqa: E402
+from fsi_research.paper import linear as paper_linear  # noqa: E402
 from fsi_compare.reporting import matplotlib_loader  # noqa: E402
 from fsi_compare.starting.processes import End  # noqa: E402
 from fsi_compare.starting.programs import Program  # noqa: E402
@@ -109,9 +110,11 @@ class Stand:
         for name in ("tube", "pipe"):
             (base / f"{name}.toml").write_text('title = "A tube"\n')
         known = {name: Program(programs / name, "0.1.0", "00") for name in fake_drivers.DRIVERS}
+        single = Program(programs / fake_drivers.LINEAR_STUDY, "0.1.0", "00")
         study_command.find_programs = lambda options: known
         study_command.find_mesh_maker = lambda program: programs / "fsi-mesh"
-        linear_command.find_monolithic = lambda named: known["fsi-monolithic"]
+        linear_command.find_linear_study = lambda named: single
+        paper_linear.linear_study_beside = lambda monolithic: single
         linear_study.execute = self._execute
         runner.execute = self._execute
         runner.run_jobs = self._run_jobs
@@ -133,7 +136,7 @@ class Stand:
         return End(code, said.getvalue().strip(), 0.1)
 
     def _drive(self, words):
-        if "--linear-systems" in words:
+        if Path(words[0]).name == fake_drivers.LINEAR_STUDY:
             return fake_drivers.main(words)
         folder = Path(words[words.index("-o") + 1])
         folder.mkdir(parents=True, exist_ok=True)

@@ -12,7 +12,7 @@
   "meet"      number: each run goes on when so many have begun
   "sleep"     seconds that each run takes; it writes its process number to `pid`
 Each run adds its command line to `calls.txt`. Behind the `mpirun` of install_mpirun() it says that it was several
-processes, as fast as that many. Single linear systems are left to fake_monolithic.
+processes, as fast as that many. Single linear systems are left to fake_linear_study.
 """
 
 import json
@@ -22,24 +22,25 @@ import sys
 import time
 from pathlib import Path
 
-import fake_monolithic
+import fake_linear_study
 
 DRIVERS = ("fsi-monolithic", "fsi-partitioned")
+LINEAR_STUDY = "fsi-linear-study"
 
 
 def install(folder):
-    """Makes both programs; returns their folder."""
+    """Makes both programs and fsi-linear-study; returns their folder."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    for name in DRIVERS:
-        fake_monolithic.install(folder, name, "fake_drivers")
+    for name in (*DRIVERS, LINEAR_STUDY):
+        fake_linear_study.install(folder, name, "fake_drivers")
     return folder
 
 
 def install_mpirun(folder):
     """A program of this name that starts the command behind its options once; returns its folder, for the path."""
     folder.mkdir(parents=True, exist_ok=True)
-    fake_monolithic.make_executable(
+    fake_linear_study.make_executable(
         folder / "mpirun",
         f"#!{sys.executable} -EB\nimport os, sys\n"
         "words = sys.argv\n"
@@ -74,11 +75,8 @@ def main(words):
     if words[1] == "--version":
         print(f"{program.name} {behaviour.get('version', '0.1.0')}")
         return 0
-    if words[1] == "--help":
-        print("  --linear-systems STEP:IT,...")
-        return 0
-    if "--linear-systems" in words:
-        return fake_monolithic.main(words)
+    if program.name == LINEAR_STUDY:
+        return fake_linear_study.main(words)
     line = " ".join(words)
     with open(home / "calls.txt", "a") as log:
         log.write(line + "\n")

@@ -26,7 +26,7 @@ import time
 import tomllib
 from pathlib import Path
 
-import fake_monolithic
+import fake_linear_study
 
 BY_ERROR = ("robin-neumann-inexact", "block-newton")  # partitioned schemes that end by the error of a step
 
@@ -36,7 +36,7 @@ A, B, SIZE, STEP = 0.02, 0.01, 1.0, 0.5
 def install(folder):
     folder.mkdir(parents=True, exist_ok=True)
     for name in ("fsi-mesh", "fsi-monolithic", "fsi-partitioned"):
-        fake_monolithic.install(folder, name, "fake_family")
+        fake_linear_study.install(folder, name, "fake_family")
     return folder
 
 
@@ -59,9 +59,6 @@ def main(words):
     home = program.parent
     if words[1] == "--version":
         print(f"{program.name} 0.1.0")
-        return 0
-    if words[1] == "--help":
-        print("  --linear-systems STEP:IT,...")
         return 0
     file = home / "behaviour.json"
     behaviour = json.loads(file.read_text()) if file.exists() else {}

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 from fake_drivers import DRIVERS
-from fake_monolithic import make_executable
+from fake_linear_study import make_executable
 from folder_case import FolderCase
 from synthetic import Z
 

@@ -419,12 +419,12 @@ class WholeStudy(StudyCase):
         linear = len(list(self.out.glob("linear/runs/*/request.json")))
         made = len(calls(self.programs))
         self.assertGreater(linear, 0)
-        build_anew(self.programs, "fsi-monolithic")
+        build_anew(self.programs, "fsi-linear-study")
         code, _, err = call("--fresh")
         self.assertEqual((code, len(calls(self.programs))), (0, 2 * made - linear), err)
         self.assertIn(
             f"warning: {linear} of {linear} runs of linear systems were made by another build of "
-            "fsi-monolithic 0.1.0: removing `linear/runs` makes them again\n",
+            "fsi-linear-study 0.1.0: removing `linear/runs` makes them again\n",
             err,
         )
         self.assertNotIn("finished runs", err)

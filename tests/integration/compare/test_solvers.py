@@ -8,7 +8,7 @@ import time
 import unittest
 from unittest import mock
 
-from fake_monolithic import behave, calls, install
+from fake_linear_study import behave, calls, install
 from folder_case import FolderCase
 from synthetic import COMPARE
 
@@ -240,9 +240,7 @@ class Tables(StudyTest):
 
 
 class WithoutPetsc(StudyTest):
-    HELP = (
-        "  --linear-systems STEP:IT,...\n  --linear-solvers NAME,...  default fast,direct; petsc is not in this build"
-    )
+    HELP = "  --systems STEP:IT,...\n  --solvers NAME,...  default fast,direct; petsc is not in this build"
     FEW = ("--materials", "neo-hookean", "--meshes", "coarse", "--systems", "1:1")
 
     def setUp(self):
@@ -393,8 +391,8 @@ class Restart(StudyTest):
         self.assertEqual(
             calls(self.program),
             [
-                f"{self.cases}/neo-hookean.toml -o {self.out}/runs/neo-hookean-coarse -q --linear-systems 1:1 "
-                "--linear-solvers amg,amg_fgmres,direct --linear-tolerance 1e-09 --sub-problems --threads 1 "
+                f"{self.cases}/neo-hookean.toml -o {self.out}/runs/neo-hookean-coarse -q --systems 1:1 "
+                "--solvers amg,amg_fgmres,direct --tolerance 1e-09 --sub-problems --threads 1 "
                 "--set structure.density=2 --set mesh.level=coarse"
             ],
         )
@@ -487,7 +485,7 @@ class Stress(StudyTest):
         self.assertEqual(code, 2)
         self.assertEqual(len(calls(self.program)), self.ROWS - 2)
         self.assertIn(
-            "failed: edge along/across axis 20: fsi-mesh is neither beside fsi-monolithic nor on the path", out
+            "failed: edge along/across axis 20: fsi-mesh is neither beside fsi-linear-study nor on the path", out
         )
 
     def test_not_converged(self):
@@ -563,13 +561,11 @@ class WrongUse(StudyTest):
             "/nowhere: --program: no such program; build it", "--program", "/nowhere", own_program=False
         )
         self.assert_refused("--program: is not a program", "--program", self.cases, own_program=False)
-        self.assert_refused("--program: is not fsi-monolithic", "--program", "/bin/echo", own_program=False)
+        self.assert_refused("--program: is not fsi-linear-study", "--program", "/bin/echo", own_program=False)
         with mock.patch.dict(os.environ, PATH=""), mock.patch("sys.argv", ["/nowhere/fsi-compare"]):
             self.assert_refused(
-                "fsi-monolithic: --program: is neither beside fsi-compare nor on the path", own_program=False
+                "fsi-linear-study: --program: is neither beside fsi-compare nor on the path", own_program=False
             )
-        behave(self.program, help="nothing of the kind")
-        self.assert_refused("version 0.1.0 does not know --linear-systems; take the program built")
 
     def test_found_beside_fsi_compare(self):
         with mock.patch("sys.argv", [str(self.base / "fsi-compare")]):

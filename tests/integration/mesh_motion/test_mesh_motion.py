@@ -4,6 +4,7 @@ import unittest
 
 from programs import (
     DRIVERS,
+    LINEAR_STUDY,
     MONOLITHIC,
     NEO_HOOKEAN,
     PARTITIONED,
@@ -106,9 +107,9 @@ class Drivers(FolderTest):
         self.assertEqual(counts["nonlinear-elastic"]["mesh motion factorisations"], 4, "one a step")
 
     def test_solvers_of_the_harmonic_operator_are_refused(self):
-        for options in (("--set", "monolithic.linear_solver=amg_gmres"), ("--linear-systems", "1:1")):
+        for program, options in ((MONOLITHIC, ("--set", "monolithic.linear_solver=amg_gmres")), (LINEAR_STUDY, ())):
             process = attempt(
-                MONOLITHIC,
+                program,
                 NEO_HOOKEAN,
                 "-q",
                 *options,

@@ -8,18 +8,17 @@ import unittest
 from pathlib import Path
 
 from msh import Mesh
-from programs import MONOLITHIC, FolderTest, execute
+from programs import LINEAR_STUDY, MONOLITHIC, FolderTest, execute
 
 COMPARE_FOLDER = Path(__file__).resolve().parents[3] / "compare"
 sys.path[:0] = [str(COMPARE_FOLDER), str(COMPARE_FOLDER / "research")]
 sys.path.append(str(Path(__file__).resolve().parents[1] / "compare"))
 
-import fake_monolithic  # noqa: E402
+import fake_linear_study  # noqa: E402
 from fsi_compare.starting.programs import Program  # noqa: E402
 from fsi_research.linear.stress import ASPECT_RATIO, make_stretched_mesh  # noqa: E402
 
 COMPARE = os.environ["FSI_COMPARE"]
-SINGLE_SYSTEMS = "--linear-systems" in execute(MONOLITHIC, "--help").stdout
 
 
 def shape(value):
@@ -45,10 +44,9 @@ def rows(file):
         return list(csv.DictReader(opened))
 
 
-@unittest.skipUnless(SINGLE_SYSTEMS, "fsi-monolithic does not solve single systems yet")
 class Study(FolderTest):
     def study(self, *words):
-        return execute(COMPARE, "solvers", "--program", MONOLITHIC, "-o", self.base / "study", "--threads", 1, *words)
+        return execute(COMPARE, "solvers", "--program", LINEAR_STUDY, "-o", self.base / "study", "--threads", 1, *words)
 
     def test_first_and_later_system(self):
         words = ("--methods", "lower,amg_fgmres,direct", "--materials", "neo-hookean", "--meshes", "coarse")
@@ -88,10 +86,10 @@ class Study(FolderTest):
     def assert_the_stand_in_says_nothing_else(self, result):
         """What the stand-in for the program in the tests of `compare.solvers` writes, the program writes."""
         folder = self.base / "stand-in"
-        options = ["--linear-systems", "1:1,12:2", "--linear-solvers", "lower,amg_fgmres,direct"]
-        words = [folder / "fsi-monolithic", "neo-hookean.toml", "-o", folder, *options, "--linear-tolerance", "1e-9"]
+        options = ["--systems", "1:1,12:2", "--solvers", "lower,amg_fgmres,direct"]
+        words = [folder / Path(LINEAR_STUDY).name, "neo-hookean.toml", "-o", folder, *options, "--tolerance", "1e-9"]
         folder.mkdir()
-        self.assertEqual(fake_monolithic.main([str(word) for word in words]), 0)
+        self.assertEqual(fake_linear_study.main([str(word) for word in words]), 0)
         said = shape(json.loads((folder / result.name).read_text()))
         self.assertEqual(common(shape(json.loads(result.read_text())), said), said)
 

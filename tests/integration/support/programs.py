@@ -15,6 +15,7 @@ from result_data import arrays, differing_arrays, without_seconds  # noqa: F401
 
 MESH, MONOLITHIC, PARTITIONED = (os.environ[name] for name in ("FSI_MESH", "FSI_MONOLITHIC", "FSI_PARTITIONED"))
 DRIVERS = (MONOLITHIC, PARTITIONED)
+LINEAR_STUDY = str(Path(MONOLITHIC).with_name("fsi-linear-study"))
 CASES = Path(os.environ["FSI_CASES"])
 NEO_HOOKEAN, MOONEY_RIVLIN, ARTERY = (CASES / f"{name}.toml" for name in ("neo-hookean", "mooney-rivlin", "artery"))
 

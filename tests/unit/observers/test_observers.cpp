@@ -76,7 +76,7 @@ class Watchers : public FolderTest {
   Watchers() { setup_.output.energy = false; }
   Observers observers() {
     return Observers(RunView<3>{
-        setup_, *scene_, loads_, stepper_, state_, 1.0, points_, derived_, grids_, shares_, folder_, {}, voice_});
+        setup_, *scene_, loads_, stepper_, state_, 1.0, points_, derived_, grids_, shares_, folder_, {}, messages_});
   }
 
   Case setup_ = coupled_case("artery");
@@ -88,7 +88,7 @@ class Watchers : public FolderTest {
   DerivedQuantities<3> derived_;
   std::vector<FieldGrid> grids_;
   std::vector<GridShare> shares_;
-  Silent voice_;
+  Silent messages_;
 };
 
 TEST_F(Watchers, WriteTheColumnsThatScriptsRelyOn) {

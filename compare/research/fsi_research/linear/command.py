@@ -18,7 +18,7 @@ from fsi_compare.reporting.layout import show_tables, write_tables
 from fsi_compare.reporting.matplotlib_loader import load_matplotlib
 from fsi_compare.starting.programs import Program
 from . import stress as stress_study
-from .programs import find_monolithic, has_petsc
+from .programs import find_linear_study, has_petsc
 from .results import System
 from .study import Outcome, Request, run_study
 
@@ -27,7 +27,7 @@ STRESS_METHODS = "fast,amg_fgmres"
 STUDY_OWN = ("mesh.level", "mesh.file")  # chosen by --meshes
 
 DESCRIPTION = """\
-Solves single Newton systems of the artery by several methods, one run of fsi-monolithic for each material and mesh.
+Solves single Newton systems of the artery by several methods, one run of fsi-linear-study for each material and mesh.
 Prints the paper's Tables 3 (Newton), 4 (block preconditioners) and 5 (coupled AMG and AMLI) with its numbers beside
 ours, then what each method costs. Writes to OUTDIR:
   table3_newton.csv, table4_*.csv, table5_*.csv, cost_*.csv, sub_problems.csv    with units in the column names
@@ -100,9 +100,9 @@ def add_parser(commands: Commands, version: str) -> None:
         help="folder with a case file per material, e.g. neo-hookean.toml (default: meshes/artery of the sources)",
     )
     command.add_argument(
-        "--program", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program, else on the path)"
+        "--program", metavar="PATH", type=Path, help="fsi-linear-study (default: beside this program, else on the path)"
     )
-    command.add_argument("--threads", metavar="N", type=int, help="of fsi-monolithic; 0: one per core (its default)")
+    command.add_argument("--threads", metavar="N", type=int, help="of fsi-linear-study; 0: one per core (its default)")
     command.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
     command.add_argument("--version", action="version", version=f"fsi-compare {version}")
 
@@ -127,7 +127,7 @@ def solvers(options: argparse.Namespace) -> int:
     settings = read_settings(options.settings, options.stress)
     for material in materials:
         check_case(options.case_dir, material)
-    program = find_monolithic(options.program)
+    program = find_linear_study(options.program)
     if "petsc" in methods and not has_petsc(program):
         methods = leave_out_petsc(options, program, methods)
     with output_folder(options.output), locked(options.output):

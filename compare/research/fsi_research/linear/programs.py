@@ -1,27 +1,23 @@
-"""fsi-monolithic as a solver of single Newton systems."""
+"""fsi-linear-study, which solves single Newton systems."""
 
 from pathlib import Path
 from typing import Optional
 
-from fsi_compare.base.errors import InputError
-from fsi_compare.starting.programs import Program, answer_to, find_program
+from fsi_compare.starting.programs import Program, answer_to, find_beside, find_program
+
+NAME = "fsi-linear-study"
 
 
-def find_monolithic(named: Optional[Path]) -> Program:
-    """The program named, else the one beside fsi-compare, else the one on the path. It must answer, and know how to
-    solve single systems."""
-    program = find_program("fsi-monolithic", named)
-    require_linear_systems(program)
-    return program
+def find_linear_study(named: Optional[Path]) -> Program:
+    """The program named, else the one beside fsi-compare, else the one on the path. It must answer."""
+    return find_program(NAME, named)
 
 
-def require_linear_systems(program: Program) -> None:
-    """Raises InputError unless fsi-monolithic knows how to solve single systems."""
-    if "--linear-systems" not in answer_to(program.path, "--help"):
-        remedy = "take the program built from the same sources as fsi-compare"
-        raise InputError(program.path, "--program", f"version {program.version} does not know --linear-systems", remedy)
+def linear_study_beside(monolithic: Program) -> Program:
+    """The one beside fsi-monolithic, else the one on the path. It must answer."""
+    return find_program(NAME, find_beside(monolithic, NAME))
 
 
 def has_petsc(program: Program) -> bool:
-    """Whether fsi-monolithic was built with PETSc: it says where not."""
+    """Whether the program was built with PETSc: it says where not."""
     return "petsc is not in this build" not in answer_to(program.path, "--help")

@@ -1,4 +1,4 @@
-"""`linear_solvers.json`: what fsi-monolithic found when it solved single Newton systems by several methods."""
+"""`linear_solvers.json`: what fsi-linear-study found when it solved single Newton systems by several methods."""
 
 import math
 from dataclasses import dataclass
@@ -7,6 +7,7 @@ from typing import Any, Callable, Dict, List, NoReturn, Optional, Tuple, Union
 
 from fsi_compare.base.errors import InputError
 from fsi_compare.base.files import read_json
+from .programs import NAME
 
 FILE = "linear_solvers.json"
 System = Tuple[int, int]  # time step, Newton iteration; both from 1
@@ -93,8 +94,8 @@ def read_linear_solvers(path: Path) -> LinearSolvers:
     """Raises InputError naming file and key unless the file is complete."""
     data = read_json(path, "", "")
     top = _Object(path, "", data)
-    if top.text("program") != "fsi-monolithic":
-        raise InputError(path, "program", f"'{top.text('program')}' is not fsi-monolithic")
+    if top.text("program") != NAME:
+        raise InputError(path, "program", f"'{top.text('program')}' is not {NAME}")
     tolerance = top.number("tolerance")
     systems = [_system(entry, tolerance) for entry in top.objects("systems")]
     return LinearSolvers(

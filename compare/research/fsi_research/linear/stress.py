@@ -108,7 +108,7 @@ def make_stretched_mesh(program: Program, file: Path, mesh: str, stretch: float)
     stretched. Returns what went wrong, nothing if all is well."""
     maker = find_mesh_maker(program)
     if maker is None:
-        return "fsi-mesh is neither beside fsi-monolithic nor on the path"
+        return "fsi-mesh is neither beside fsi-linear-study nor on the path"
     if exists(file):
         return ""
     make_folder(file.parent)

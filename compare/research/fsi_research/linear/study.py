@@ -1,4 +1,4 @@
-"""Runs of fsi-monolithic that solve single Newton systems by several methods, each in a folder of its own. A study can
+"""Runs of fsi-linear-study that solve single Newton systems by several methods, each in a folder of its own. A study can
 be stopped at any moment and called again: what is finished stays."""
 
 import hashlib
@@ -43,11 +43,11 @@ class Request:
             "-o",
             str(folder),
             "-q",
-            "--linear-systems",
+            "--systems",
             ",".join(f"{step}:{iteration}" for step, iteration in self.systems),
-            "--linear-solvers",
+            "--solvers",
             ",".join(self.solvers),
-            "--linear-tolerance",
+            "--tolerance",
             repr(self.tolerance),
         ]
         if self.sub_problems:

@@ -13,7 +13,7 @@ from fsi_compare.base.suggestions import check_keys, nearest
 from ..linear.results import System
 from ..linear.grid import Grid
 from ..linear.study import Request, finished, run_study
-from ..linear.programs import require_linear_systems
+from ..linear.programs import linear_study_beside
 from fsi_compare.study.builds import Builds
 from fsi_compare.study.context import Context
 from fsi_compare.study.runner import Runner, Standing
@@ -81,8 +81,7 @@ def solve(context: Context) -> Tuple[Optional[Grid], Optional[Grid]]:
     if wanted is None:
         return None, None
     runner = context.runner
-    program = runner.programs["fsi-monolithic"]
-    require_linear_systems(program)
+    program = linear_study_beside(runner.programs["fsi-monolithic"])
     folder = runner.folder / FOLDER / "runs"
     make_folder(folder)
     first, later = _requests(context.study, wanted, runner.threads)
@@ -101,7 +100,7 @@ def standing(study: Study, runner: Runner) -> Standing:
     if wanted is None:
         return Standing(0, 0, 0)
     folder = runner.folder / FOLDER / "runs"
-    version = runner.programs["fsi-monolithic"].version
+    version = linear_study_beside(runner.programs["fsi-monolithic"]).version
     first, later = _requests(study, wanted, runner.threads)
     there = [finished(folder / request.name, request, version) for request in (*first, *later)]
     return Standing(len(there), sum(one is not None for one in there), 0)

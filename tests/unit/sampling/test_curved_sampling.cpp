@@ -8,10 +8,10 @@
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/quality.hpp"
-#include "meshes.hpp"
 #include "sampling/point_sampling.hpp"
 #include "sampling/wall_sampling.hpp"
 #include "support/meshes.hpp"
+#include "unit/mesh/meshes.hpp"
 
 namespace fsi {
 namespace {

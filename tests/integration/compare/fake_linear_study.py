@@ -1,4 +1,4 @@
-"""Stands in for fsi-monolithic in tests of `fsi-compare solvers`: answers at once, with numbers known beforehand.
+"""Stands in for fsi-linear-study in tests of `fsi-compare solvers`: answers at once, with numbers known beforehand.
 
 `behaviour.json` beside the program says where it departs from them:
   "version"      its version (0.1.0)
@@ -44,7 +44,7 @@ def make_executable(path, text):
     path.chmod(path.stat().st_mode | stat.S_IXUSR)
 
 
-def install(folder, name="fsi-monolithic", module="fake_monolithic"):
+def install(folder, name="fsi-linear-study", module="fake_linear_study"):
     """Makes the program, which is `main` of the module; returns its path."""
     program = Path(folder) / name
     make_executable(
@@ -71,10 +71,10 @@ def main(words):
     behaviour = json.loads(file.read_text()) if file.exists() else {}
     version = behaviour.get("version", "0.1.0")
     if words[1] == "--version":
-        print(f"fsi-monolithic {version}")
+        print(f"fsi-linear-study {version}")
         return 0
     if words[1] == "--help":
-        print(behaviour.get("help", "  --linear-systems STEP:IT,..."))
+        print(behaviour.get("help", "  --systems STEP:IT,..."))
         return 0
     with open(home / "calls.txt", "a") as log:
         log.write(" ".join(words[1:]) + "\n")
@@ -93,12 +93,12 @@ def main(words):
     material, mesh = Path(words[1]).stem, settings.get("mesh.level", "coarse")
     if f"{material} {mesh}" in behaviour.get("end", {}):
         code, message = behaviour["end"][f"{material} {mesh}"]
-        print(f"fsi-monolithic: error: {message}", file=sys.stderr)
+        print(f"fsi-linear-study: error: {message}", file=sys.stderr)
         return code
 
-    tolerance = float(options["--linear-tolerance"])
-    systems = [tuple(map(int, system.split(":"))) for system in options["--linear-systems"].split(",")]
-    solvers = [name for name in options["--linear-solvers"].split(",") if name not in behaviour.get("omit", [])]
+    tolerance = float(options["--tolerance"])
+    systems = [tuple(map(int, system.split(":"))) for system in options["--systems"].split(",")]
+    solvers = [name for name in options["--solvers"].split(",") if name not in behaviour.get("omit", [])]
 
     def solver(name, step, iteration):
         count = PAPER[name.replace("_exact", "")][list(NODES).index(mesh)]
@@ -128,7 +128,7 @@ def main(words):
         }
 
     result = {
-        "program": "fsi-monolithic",
+        "program": "fsi-linear-study",
         "version": version,
         "title": "A tube",
         "case_hash": "0123456789abcdef",

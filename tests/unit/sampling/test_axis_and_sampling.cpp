@@ -6,9 +6,9 @@
 #include "base/error.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/point_math.hpp"
-#include "meshes.hpp"
 #include "sampling/point_sampling.hpp"
 #include "sampling/wall_sampling.hpp"
+#include "unit/mesh/meshes.hpp"
 
 namespace fsi {
 namespace {
