@@ -8,7 +8,7 @@
 
 namespace fsi {
 
-/// RestartArchive that this process may still take.
+/// Memory that this process may still take.
 struct MemoryRoom {
   std::uint64_t bytes = 0;
   const char* bound = "";  ///< what sets it, e.g. "ulimit -v"
@@ -30,7 +30,7 @@ std::string memory_text(double bytes);
 /// The same into `text`; allocates nothing.
 void write_memory_text(double bytes, char* text, std::size_t size) noexcept;
 
-/// RestartArchive ran out, or would. Programs print what() and exit with code 1.
+/// Memory ran out, or would. Programs print what() and exit with code 1.
 /// The message reads `out of memory (DOING): ASKED, ROOM available; REMEDY`, DOING being the current activity.
 class OutOfMemory : public std::runtime_error {
  public:

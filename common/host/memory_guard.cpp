@@ -6,7 +6,7 @@
 // library that allocate and that start a thread. Those of a program come before those of all libraries in the order in
 // which the dynamic linker looks for them. They call the next ones in that order.
 //
-// A caller who copes with a failure says so by MayFail (base/memory.hpp).
+// A caller that copes with a failure says so by MayFail (host/available_memory.hpp).
 #include <dlfcn.h>
 #include <malloc.h>
 #include <pthread.h>
@@ -18,7 +18,6 @@
 #include <cstdlib>
 
 #include "host/available_memory.hpp"
-#include "host/begin_again.hpp"
 
 namespace {
 
@@ -110,8 +109,7 @@ void fault(int signal) {
 }
 
 /// Runs before the constructors of libraries, which allocate as well.
-void prepare(int, char** argv, char** environment) {
-  fsi::begin_again_with_settings(argv, environment);
+void prepare(int, char**, char**) {
   static char stack[1 << 16];
   stack_t other{};
   other.ss_sp = stack;

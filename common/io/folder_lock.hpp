@@ -1,3 +1,4 @@
+// Keeps two runs from working in one result folder.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +12,18 @@ namespace fsi {
 /// Name of the lock file in a result folder.
 constexpr const char* lock_name = "run.lock";
 
-/// One run, one folder: while it lives, no other run can have the folder. The file run.lock names program, host and
-/// process; the process holds the kernel's lock (flock) on it, which vanishes with the process, however it ends. Where
-/// a file system has no such locks, the process is looked for: its number and the time when it was started.
+/// One run, one folder: while it lives, no other run can have the folder. The process holds the kernel's lock (flock) on
+/// the file run.lock, which vanishes with the process, however it ends. The file's one line names the process, as it is
+/// said to others: "fsi-monolithic, process 4711 on host gauss". Where a file system has no such locks, the file itself is
+/// the lock, and stays behind when the process is killed.
+///
+/// fsi-compare locks the folders of its studies alike (compare/fsi_compare/starting/folder_lock.py).
 class FolderLock {
  public:
   /// Makes the folder where needed and takes its lock. A lock that a process of this host has left behind is taken
   /// over, see `said`.
-  /// \throws InputError when a run works in the folder, when the lock is of another host (whose processes cannot be
-  ///         seen from here), or when the folder cannot be made or written
+  /// \throws InputError when a run works in the folder, when a lock of another host was left there (locks of some network
+  ///         file systems are known to one host only), or when the folder cannot be made or written
   FolderLock(const std::filesystem::path& folder, const std::string& program);
   /// Removes the lock, and the folders that were made for it and are empty.
   ~FolderLock();
@@ -33,7 +37,10 @@ class FolderLock {
   void require_held() const;
 
  private:
-  bool take(const std::string& program);
+  bool take(const std::string& program, int tries);
+  bool open_file();
+  void close_file();
+  void write_holder(const std::string& program);
   bool is_ours() const;
   void release();
 
@@ -41,7 +48,6 @@ class FolderLock {
   std::vector<std::filesystem::path> made_;  ///< folders, the deepest first
   std::vector<RemovedOnSignal> on_signal_;
   int descriptor_ = -1;
-  bool kernel_locks_ = true;
   std::string said_;
 };
 

@@ -83,7 +83,7 @@ class PlacedArray {
   Vec view_;
 };
 
-/// RestartArchive of a matrix on this process.
+/// Memory of a matrix on this process.
 double petsc_bytes(Mat matrix);
 
 }  // namespace fsi

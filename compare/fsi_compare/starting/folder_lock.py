@@ -1,7 +1,7 @@
 """One study, one folder: while a study works in a folder, no other one can have it.
 
-The file `run.lock` is that of the C++ programs (common/io/folder_lock.cpp): it names program, host and process, and the
-process holds the kernel's lock (flock) on it, which vanishes with the process, however it ends.
+The lock is that of the C++ programs, which own its rules (common/io/folder_lock.hpp): the process holds the kernel's lock
+(flock) on `run.lock`, and the one line of that file names it. The test compare.folder_lock holds both against each other.
 """
 
 import errno
@@ -11,13 +11,14 @@ import socket
 import time
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Dict, Iterator
+from typing import Iterator
 
 from ..base.errors import PROGRAM, InputError, say_note
 
 NAME = "run.lock"
-TRIES, PAUSE = 300, 0.01  # s; another study may be about to write its name, or to remove the file
-WAIT = "wait for its end, or name another folder with -o"
+# A file without text is about to get it, or to be removed. One that is locked may be so for a moment, by a look at it.
+TRIES_WITHOUT_TEXT, TRIES_WITH_TEXT, PAUSE = 300, 20, 0.01  # s
+ELSEWHERE = "name another folder with -o"
 
 
 @contextmanager
@@ -35,59 +36,70 @@ def locked(folder: Path) -> Iterator[None]:
 
 
 def _taken(folder: Path, path: Path) -> int:
-    """Descriptor of the locked file."""
-    for _ in range(TRIES):
+    """Descriptor of the locked file, which names this process."""
+    for tries in range(TRIES_WITHOUT_TEXT + 1):
         try:
             handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
         except OSError as error:
             raise _not_written(folder, error) from None
+        taken = False
         try:
-            if _take(handle, folder, path):
+            taken = _take(handle, folder, path, tries)
+            if taken:
+                _write_holder(handle, folder, path)
                 return handle
-        except BaseException:
-            os.close(handle)
-            raise
-        os.close(handle)
+        finally:
+            if not taken:
+                os.close(handle)
         time.sleep(PAUSE)
     raise _nameless(folder, path)
 
 
-def _take(handle: int, folder: Path, path: Path) -> bool:
+def _take(handle: int, folder: Path, path: Path, tries: int) -> bool:
     """One try; False when it is worth another."""
+    blocked = _is_blocked(handle, folder)
+    text = os.pread(handle, 4096, 0).decode("utf-8", "replace")
+    holder = text.partition("\n")[0]
+    if blocked and tries < (TRIES_WITH_TEXT if text else TRIES_WITHOUT_TEXT):
+        return False
+    if not blocked and not _is_at(handle, path):
+        return False  # removed by its owner after it was opened here
+    if not blocked and not text:
+        return True
+    if not (", process " in holder and " on host " in holder):
+        raise _nameless(folder, path)
+    if blocked:
+        wait = f"wait for its end, or {ELSEWHERE}"
+        raise InputError(folder, "", f"a run works in it ({holder})", wait)
+    if not holder.endswith(f" on host {socket.gethostname()}"):
+        problem = f"is locked by {holder}; from here it cannot be seen whether that still runs"
+        raise InputError(folder, "", problem, f"if it does not, remove {path}")
+    say_note(f"{folder}: took over the lock of {holder}, which has ended")
+    return True
+
+
+def _is_blocked(handle: int, folder: Path) -> bool:
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        blocked = False
+        return False
     except OSError as error:
-        if error.errno not in (errno.EWOULDBLOCK, errno.EACCES):
-            raise InputError(
-                folder, "", f"cannot be locked ({error.strerror})", "name another folder with -o"
-            ) from None
-        blocked = True
-    said = os.pread(handle, 4096, 0).decode("utf-8", "replace")
-    holder = _parsed(said)
-    if blocked:
-        if not holder:
-            return False
-        raise InputError(folder, "", f"a run works in it ({_name(holder)})", WAIT)
-    if not _is_at(handle, path):
-        return False  # removed by its owner after it was opened here
-    if said and not holder:
-        raise _nameless(folder, path)
-    if holder:
-        if holder["host"] != socket.gethostname():
-            problem = f"is locked by {_name(holder)}; from here it cannot be seen whether that still runs"
-            raise InputError(folder, "", problem, f"if it does not, remove {path}")
-        if _runs(holder):  # on a file system whose locks are known to one host only
-            raise InputError(folder, "", f"a run works in it ({_name(holder)})", WAIT)
-        say_note(f"{folder}: took over the lock of {_name(holder)}, which has ended")
-    text = f"program {PROGRAM}\nhost {socket.gethostname()}\nprocess {os.getpid()}\nstart {start_of(os.getpid())}\n"
+        if error.errno in (errno.EWOULDBLOCK, errno.EACCES):
+            return True
+        raise InputError(folder, "", f"cannot be locked ({error.strerror})", ELSEWHERE) from None
+
+
+def _write_holder(handle: int, folder: Path, path: Path) -> None:
     try:
         os.ftruncate(handle, 0)
-        os.pwrite(handle, f"{text}boot {_boot()}\n".encode(), 0)
+        os.pwrite(handle, f"{PROGRAM}, process {os.getpid()} on host {socket.gethostname()}\n".encode(), 0)
     except OSError as error:
         os.unlink(path)
+        os.close(handle)
         raise _not_written(folder, error) from None
-    return True
+
+
+def _not_written(folder: Path, error: OSError) -> InputError:
+    return InputError(folder, "", f"cannot be written ({error.strerror})", ELSEWHERE)
 
 
 def _nameless(folder: Path, path: Path) -> InputError:
@@ -96,47 +108,8 @@ def _nameless(folder: Path, path: Path) -> InputError:
     )
 
 
-def _not_written(folder: Path, error: OSError) -> InputError:
-    return InputError(folder, "", f"cannot be written ({error.strerror})", "name another folder with -o")
-
-
 def _is_at(handle: int, path: Path) -> bool:
     try:
         return os.path.samestat(os.fstat(handle), os.lstat(path))
     except OSError:
         return False
-
-
-def _parsed(text: str) -> Dict[str, str]:
-    """Entries of a lock; empty: it says not whose it is."""
-    entries = dict(line.split(" ", 1) for line in text.splitlines() if " " in line)
-    known = all(key in entries for key in ("program", "host", "process", "start"))
-    return entries if known and entries["process"].isdigit() else {}
-
-
-def _name(holder: Dict[str, str]) -> str:
-    return f"{holder['program']}, process {holder['process']} on host {holder['host']}"
-
-
-def _runs(holder: Dict[str, str]) -> bool:
-    """Whether the process is there, and no later one of the same number. This process's own, since a lock of it would
-    block, is a leftover."""
-    started = start_of(int(holder["process"]))
-    return holder.get("boot", _boot()) == _boot() and started > 0 and holder["start"] == str(started)
-
-
-def _boot() -> str:
-    """The kernel's name for the time since the host was started."""
-    try:
-        return Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii").strip()
-    except OSError:
-        return ""
-
-
-def start_of(process: int) -> int:
-    """When a process was started, in ticks since the host was (proc(5), field 22); 0: it has ended."""
-    try:
-        fields = Path(f"/proc/{process}/stat").read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()
-    except OSError:
-        return 0
-    return 0 if fields[0] in ("Z", "X") else int(fields[19])

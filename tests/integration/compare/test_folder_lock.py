@@ -4,15 +4,19 @@ import contextlib
 import io
 import os
 import subprocess
+import time
 import unittest
+from pathlib import Path
 
 from folder_case import FolderCase
 from synthetic import parabola, write_run
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.starting.folder_lock import NAME, locked, start_of
+from fsi_compare.starting.folder_lock import NAME, locked
 
 HOST = os.uname().nodename
+DRIVER = Path(os.environ.get("FSI_COMPARE", "")).parent / "fsi-monolithic"
+CASE = Path(__file__).resolve().parents[3] / "meshes" / "artery" / "neo-hookean.toml"
 
 
 class Lock(FolderCase):
@@ -20,9 +24,8 @@ class Lock(FolderCase):
         super().setUp()
         self.file = self.base / NAME
 
-    def text(self, host=HOST, process=2**22 + 1, start=1):
-        with open("/proc/sys/kernel/random/boot_id") as boot:
-            return f"program x\nhost {host}\nprocess {process}\nstart {start}\nboot {boot.read()}"
+    def text(self, host=HOST, process=2**22 + 1):
+        return f"x, process {process} on host {host}\n"
 
     def said(self):
         err = io.StringIO()
@@ -33,10 +36,7 @@ class Lock(FolderCase):
 
     def test_it_names_the_process(self):
         with locked(self.base):
-            lines = dict(line.split(" ", 1) for line in self.file.read_text().splitlines())
-            self.assertEqual(lines["program"], "fsi-compare")
-            self.assertEqual((lines["host"], lines["process"]), (HOST, str(os.getpid())))
-            self.assertEqual(int(lines["start"]), start_of(os.getpid()))
+            self.assertEqual(self.file.read_text(), f"fsi-compare, process {os.getpid()} on host {HOST}\n")
         self.assertEqual(self.said(), "")
 
     def test_a_folder_that_another_works_in_is_refused(self):
@@ -47,20 +47,30 @@ class Lock(FolderCase):
         self.assertEqual(self.said(), "")
 
     def test_a_lock_that_was_left_is_taken_over_with_a_word(self):
-        ended = subprocess.Popen(["true"])
-        ended.wait()
-        for text in (self.text(), self.text(process=ended.pid), self.text(process=os.getpid())):
+        for text in (self.text(), self.text(process=os.getppid())):  # a number that is another's by then
             self.file.write_text(text)
             said = self.said()
             self.assertEqual(said.count("\n"), 1)
             self.assertIn("fsi-compare: note: ", said)
             self.assertIn("which has ended", said)
 
-    def test_a_lock_of_a_process_that_runs_holds_without_the_kernel(self):
-        self.file.write_text(self.text(process=os.getppid(), start=start_of(os.getppid())))
-        with self.assertRaises(InputError), locked(self.base):
-            pass
-        self.assertTrue(self.file.exists())
+    @unittest.skipUnless(DRIVER.exists(), "beside no driver")
+    def test_a_driver_and_a_study_keep_each_other_out(self):
+        command = [DRIVER, CASE, "-q", "-o", self.base, "--threads", "1", "--set", "time.end=1000"]
+        with locked(self.base):
+            refused = subprocess.run(command, stderr=subprocess.PIPE, text=True)
+        self.assertEqual((refused.returncode, refused.stderr.count("\n")), (1, 1))
+        self.assertIn(f"a run works in it (fsi-compare, process {os.getpid()} on host {HOST})", refused.stderr)
+        with subprocess.Popen(command, stderr=subprocess.DEVNULL) as driver:
+            while not (self.file.exists() and self.file.read_text()):
+                self.assertIsNone(driver.poll())
+                time.sleep(0.01)
+            with self.assertRaises(InputError) as caught, locked(self.base):
+                pass
+            driver.kill()
+        holder = f"fsi-monolithic, process {driver.pid} on host {HOST}"
+        self.assertIn(f"a run works in it ({holder})", str(caught.exception))
+        self.assertIn(f"took over the lock of {holder}, which has ended", self.said())
 
     def test_a_lock_of_another_host_is_not_touched(self):
         self.file.write_text(self.text(host="elsewhere"))

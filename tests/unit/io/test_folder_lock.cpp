@@ -42,15 +42,14 @@ class Lock : public FolderTest {
     }
     return "";
   }
-  /// The text of a lock with one line replaced.
-  std::string text_with(const std::string& key, const std::string& value) {
+  /// The text of a lock, from the host's name on replaced.
+  std::string text_on(const std::string& host) {
     std::string text;
     {
       const FolderLock lock(run_, "fsi-x");
       text = contents_of(file_);
     }
-    const auto from = text.find(key + " "), to = text.find('\n', from);
-    return text.replace(from, to - from, key + " " + value);
+    return text.substr(0, text.find(" on host ")) + " on host " + host + "\n";
   }
 };
 
@@ -59,8 +58,8 @@ TEST_F(Lock, NamesItsProcessAndGoesWithTheFoldersMadeForIt) {
     const FolderLock lock(run_, "fsi-x");
     EXPECT_EQ(lock.said(), "");
     const auto text = contents_of(file_);
-    EXPECT_NE(text.find("program fsi-x\nhost "), std::string::npos) << text;
-    EXPECT_NE(text.find("\nprocess " + std::to_string(getpid()) + "\n"), std::string::npos) << text;
+    EXPECT_EQ(text.find("fsi-x, process " + std::to_string(getpid()) + " on host "), 0U) << text;
+    EXPECT_EQ(text.find('\n'), text.size() - 1) << text;
   }
   EXPECT_FALSE(fs::exists(folder_ / "above"));
 }
@@ -99,27 +98,8 @@ TEST_F(Lock, OfAnEndedProcessIsTakenOver) {
   EXPECT_NE(lock.said().find("took over the lock of fsi-x, process " + std::to_string(child)), std::string::npos);
 }
 
-TEST_F(Lock, OfAProcessWhoseNumberIsUsedAgainIsTakenOver) {
-  const auto later = text_with("start", "1"), earlier_boot = text_with("boot", "another");
-  fs::create_directories(run_);
-  for (const auto& text : {later, earlier_boot}) {
-    write_text(file_, text);
-    EXPECT_EQ(refusal_of_looking(), "");
-    EXPECT_NE(FolderLock(run_, "fsi-y").said(), "");
-  }
-}
-
-TEST_F(Lock, OfAProcessThatRunsHoldsWhereTheKernelHasNoLocks) {
-  const auto text = text_with("program", "fsi-z");
-  fs::create_directories(run_);
-  write_text(file_, text);
-  EXPECT_NE(refusal_of_taking().find("a run works in it (fsi-z, process "), std::string::npos);
-  EXPECT_NE(refusal_of_looking().find("a run works in it (fsi-z, process "), std::string::npos);
-  EXPECT_EQ(contents_of(file_), text);
-}
-
 TEST_F(Lock, OfAnotherHostIsLeftToTheUser) {
-  const auto text = text_with("host", "elsewhere");
+  const auto text = text_on("elsewhere");
   fs::create_directories(run_);
   write_text(file_, text);
   for (const auto& said : {refusal_of_taking(), refusal_of_looking()}) {
@@ -127,6 +107,20 @@ TEST_F(Lock, OfAnotherHostIsLeftToTheUser) {
     EXPECT_NE(said.find("if it does not, remove " + file_.string()), std::string::npos) << said;
   }
   EXPECT_EQ(contents_of(file_), text);
+}
+
+TEST_F(Lock, ThatNamesNobodyIsLeftToTheUser) {
+  fs::create_directories(run_);
+  for (const std::string text : {"mine\n", "program fsi-x\nhost h\n"}) {
+    write_text(file_, text);
+    for (const auto& said : {refusal_of_taking(), refusal_of_looking()})
+      EXPECT_NE(said.find("does not say by whom; if no run works in the folder, remove that file"), std::string::npos)
+          << said;
+    EXPECT_EQ(contents_of(file_), text);
+  }
+  write_text(file_, "");  // its owner was killed before it could write its name
+  EXPECT_EQ(refusal_of_looking(), "");
+  EXPECT_EQ(FolderLock(run_, "fsi-y").said(), "");
 }
 
 TEST_F(Lock, ThatVanishesIsNoticed) {
