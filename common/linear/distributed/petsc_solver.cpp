@@ -11,7 +11,7 @@
 #include "linear/distributed/petsc_momentum_solver.hpp"
 #include "linear/distributed/petsc_options.hpp"
 #include "linear/distributed/velocity_pressure_system.hpp"
-#include "linear/krylov/single_gmres.hpp"
+#include "linear/krylov/gmres.hpp"
 #include "linear/velocity_pressure/condensed_iteration.hpp"
 
 namespace fsi {

@@ -7,7 +7,7 @@
 #include "algebra/vector_operations.hpp"
 #include "fem/dimensions.hpp"
 #include "linear/direct/direct_solver.hpp"
-#include "linear/krylov/single_gmres.hpp"
+#include "linear/krylov/gmres.hpp"
 #include "linear/velocity_pressure/condensed_iteration.hpp"
 #include "linear/velocity_pressure/factorised_flow.hpp"
 #include "linear/velocity_pressure/velocity_pressure_preconditioner.hpp"
@@ -308,8 +308,9 @@ LinearReport FastSolver<n>::iterate(const std::vector<double>& b, double toleran
     // Scaled to one, so that small residuals do not leave the range of single precision.
     it.single_right.resize(it.matrix.size());
     it.matrix.take(right, 1 / scale, it.single_right);
-    const auto solved = it.gmres.solve([&](const auto& r, auto& z, auto& y) { it.preconditioner.apply(r, z, y); },
-                                       it.single_right, it.single_solution, wanted, options_.restart);
+    const auto solved =
+        it.gmres.solve_from_zero([&](const auto& r, auto& z, auto& y) { it.preconditioner.apply(r, z, y); },
+                                 it.single_right, it.single_solution, wanted, options_.restart);
     it.matrix.give(it.single_solution, scale, solution);
     return solved.iterations;
   };
