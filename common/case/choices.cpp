@@ -1,5 +1,7 @@
 #include "case/choices.hpp"
 
+#include <iterator>
+
 #include "case/coupled_multigrid_options.hpp"
 
 namespace fsi {
@@ -15,6 +17,10 @@ std::vector<std::string> strings(const List& list) {
 
 std::vector<std::string> general_solver_names() {
   return strings(general_solver_list);
+}
+
+std::vector<std::string> flow_preconditioner_names() {
+  return {std::begin(flow_preconditioner_list), std::end(flow_preconditioner_list)};
 }
 
 std::vector<std::string> linear_solver_names() {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/name_table.hpp"
+#include "case/preconditioner_list.hpp"
 #include "mesh_motion/mesh_motion_options.hpp"
 
 namespace fsi {
@@ -16,6 +17,9 @@ namespace fsi {
 /// partitioned.linear_solver, and the first of monolithic.linear_solver: solvers for any scene and sub-problem. Their
 /// factories: linear/choice/general_solvers.hpp.
 inline constexpr std::array<std::string_view, 3> general_solver_list{"fast", "direct", "petsc"};
+
+/// Names of linear.preconditioner, as preconditioner_list.hpp has them.
+std::vector<std::string> flow_preconditioner_names();
 
 /// The other names of monolithic.linear_solver, for scenes of fluid and wall. Their table:
 /// monolithic/linear_solvers.cpp.

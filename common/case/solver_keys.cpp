@@ -6,6 +6,7 @@
 #include "case/derived_keys.hpp"
 #include "case/key_values.hpp"
 #include "case/sample_keys.hpp"
+#include "linear/policy/solver_policy.hpp"
 
 namespace fsi {
 
@@ -17,13 +18,14 @@ constexpr int most_steps_between = 1'000'000'000, most_unknowns = 2'000'000'000;
 constexpr Bounds tolerance{0, 1, false, false}, tolerance_or_none{0, 1, true, false};
 
 std::string direct_below_standards() {
-  return fmt::format("default {} in three dimensions, {} in two", FastOptions::standard_direct_below(3),
-                     FastOptions::standard_direct_below(2));
+  return fmt::format("default {} in three dimensions, {} in two",
+                     SolverPolicy::standard_limit(SolvedSystem::jacobian, 3),
+                     SolverPolicy::standard_limit(SolvedSystem::jacobian, 2));
 }
 
-std::string where_the_wall_judges() {
+std::string where_the_wall_decides() {
   return fmt::format("from {} on not where the wall's stiffness is below {:g} times its inertia",
-                     FastOptions::judged_from, FastOptions::judged_below);
+                     SolverPolicy::wall_decides_from, SolverPolicy::wall_iterates_below);
 }
 
 std::vector<CaseKey<MultigridData>> multigrid_keys() {
@@ -115,10 +117,15 @@ std::vector<CaseKey<Case>> linear_keys() {
            in_case(whole(at(&L::krylov, &KrylovOptions::restart), 1, most_directions), &Case::linear)),
       leaf("direct_below", optional,
            "unknowns below which fast factorises the matrix, " + direct_below_standards() + ", but " +
-               where_the_wall_judges() +
+               where_the_wall_decides() +
                "; of the whole system, of a sub-problem, or with robin-neumann-inexact and block-newton of both media "
                "together",
            in_case(whole(at(&L::fast, &FastOptions::direct_below), 0, most_unknowns), &Case::linear)),
+      leaf("preconditioner", optional,
+           "of fast where it iterates, on one process: {}; block-factors: pressures, then velocities; simple: "
+           "velocities, then "
+           "pressures, which correct them",
+           in_case(name_from(at(&L::fast, &FastOptions::preconditioner), flow_preconditioner_names()), &Case::linear)),
   };
 }
 

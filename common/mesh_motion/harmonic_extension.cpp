@@ -10,6 +10,7 @@
 #include "algebra/register_blocks.hpp"
 #include "fem/nodal_layout.hpp"
 #include "host/parallel_for.hpp"
+#include "linear/policy/solver_policy.hpp"
 
 namespace fsi {
 
@@ -173,7 +174,8 @@ void HarmonicExtension<n>::set_up(Group& group) {
   group.followers = FollowerElimination(a, reduced);
   const int rows = reduced.rows();
   const int nodes = group.mixed ? rows / static_cast<int>(group.components.size()) : rows;
-  group.iterative = nodes >= options_.iterative_from.value_or(HarmonicExtensionOptions::standard_iterative_from(n));
+  group.iterative =
+      SolverPolicy(SolvedSystem::harmonic_mesh_motion, n, {options_.iterative_from}).decide(nodes).iterates;
   if (!group.iterative) {
     if (rows > 0) factorise(group, reduced);
     return;

@@ -15,19 +15,12 @@ namespace fsi {
 
 /// How a harmonic extension is computed. Defaults by measurement (docs/solver-measurements.md).
 struct HarmonicExtensionOptions {
-  /// Inner nodes from which the iteration serves; without it standard_iterative_from().
+  /// Inner nodes from which the iteration serves; without it SolverPolicy decides.
   std::optional<int> iterative_from;
   double tolerance = 1e-12;  ///< of the iteration: its residual over that of zero inner values
   int max_iterations = 100;  ///< of conjugate gradients; a solve that needs more is done by factorisation
   /// Factors are kept in single precision, where they serve: for callers that ask for a few digits. More are reached by corrections.
   bool single_precision = false;
-
-  /// Inner nodes, without followers, from which the iteration takes the place of the factor. To three digits both take the same time at
-  /// 18,000 inner nodes of an even mesh; on a graded one of 12,000 the factor is three times as quick. The factor's memory
-  /// grows faster than the mesh, so that it ends somewhere: larger ones were not measured. Those of a plane graph hardly
-  /// fill in.
-  /// \param dimension  components of a node
-  static constexpr int standard_iterative_from(int dimension) { return dimension == 2 ? 200000 : 30000; }
 };
 
 /// The mesh motion's equations. Components do not couple: each distinct one has a scalar matrix, whose components are

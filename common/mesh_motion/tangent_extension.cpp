@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
 #include "fem/nodal_layout.hpp"
+#include "linear/policy/solver_policy.hpp"
 
 namespace fsi {
 
@@ -25,7 +26,7 @@ TangentExtension<n>::TangentExtension(const MeshMotionTangent<n>& tangent, std::
       entry_.push_back(i);
     }
   const int nodes = static_cast<int>(entry_.size()) / n;
-  iterative_ = nodes >= options_.iterative_from.value_or(TangentExtensionOptions::standard_iterative_from(n));
+  iterative_ = SolverPolicy(SolvedSystem::tangent_mesh_motion, n, {options_.iterative_from}).decide(nodes).iterates;
   given_.resize(inner_.size());
   boundary_rows_ = given_;
 }

@@ -14,17 +14,12 @@ namespace fsi {
 
 /// How a linearised nonlinear mesh motion is solved.
 struct TangentExtensionOptions {
-  /// Inner nodes from which the iteration serves; without it standard_iterative_from().
+  /// Inner nodes from which the iteration serves; without it SolverPolicy decides.
   std::optional<int> iterative_from;
   double tolerance = 1e-12;  ///< of the iteration: its residual over that of zero inner values
   int max_iterations = 200;  ///< of conjugate gradients; a solve that needs more is done by factorisation
   /// Factors are kept in single precision, where they serve: for callers that ask for a few digits. More are reached by corrections.
   bool single_precision = false;
-
-  /// Inner nodes from which a tangent with the sixty solves that a driver does with it is about as quick by iteration,
-  /// which takes a tenth of the memory. In space factors of 6700 nodes take 0.6 s, a solve by them 0.02 s, by iteration
-  /// 0.014 s to 1e-3 and 0.05 s to 1e-12; on the artery's 1900 nodes the drivers lose a tenth to a quarter by it.
-  static constexpr int standard_iterative_from(int dimension) { return dimension == 2 ? 50000 : 6000; }
 };
 
 /// The linearised equations of a nonlinear mesh motion, whose components couple: by a factorisation or, where that is

@@ -77,8 +77,11 @@ void announce(RunParts<n>& parts, const RunCheckpoints<n>& checkpoints, Console&
   const auto& monolithic = parts.setup.monolithic;
   const auto& partitioned = parts.setup.partitioned;
   const bool by_parts = parts.stepper->reports_coupling();
-  if (const std::string other = other_solver_on_processes(
-          by_parts ? partitioned.linear_solver : monolithic.linear_solver, parts.setup.linear.fast, n, parts.processes);
+  const std::string& solver = by_parts ? partitioned.linear_solver : monolithic.linear_solver;
+  const std::string in_words = linear_solver_in_words(solver, parts.setup.linear.fast, parts.processes);
+  log.info("linear solver: " + in_words);
+  summary["linear_solver"] = in_words;
+  if (const std::string other = other_solver_on_processes(solver, parts.setup.linear.fast, n, parts.processes);
       !other.empty())
     log.info(other);
   for (const auto& choice : parts.stepper->choices()) {

@@ -179,8 +179,10 @@ int check_case(const std::string& program, const CommandLine& line, const Case& 
   }
   for (const auto& choice : stepper->choices()) lines.push_back({choice.key, choice.value + ": " + choice.reason});
   const bool by_parts = stepper->reports_coupling();
-  lines.push_back({"linear solver", by_parts ? setup.partitioned.linear_solver + ", of fluid and wall each"
-                                             : setup.monolithic.linear_solver});
+  const std::string solver =
+      linear_solver_in_words(by_parts ? setup.partitioned.linear_solver : setup.monolithic.linear_solver,
+                             setup.linear.fast, scene.processes());
+  lines.push_back({"linear solver", by_parts ? solver + ", of fluid and wall each" : solver});
   lines.push_back({"threads", fmt::format("{}, {}", threads.count, threads.reason)});
   for (const auto& remark : scene.remarks) lines.push_back({"note", remark});
   for (const auto& notice : scene.notices) warn(program, notice);

@@ -9,6 +9,7 @@
 
 #include "algebra/vector_operations.hpp"
 #include "fem/dimensions.hpp"
+#include "linear/policy/attempts.hpp"
 #include "partitioned/interface/gap_pressure.hpp"
 #include "partitioned/interface/sub_problem.hpp"
 #include "system/newton_stepper.hpp"
@@ -185,11 +186,17 @@ template <int n>
 double BlockNewtonProblem<n>::solve(double tolerance) {
   linear_iterations_ = 0;
   ++cost.newton_iterations;
-  if (!solve_jointly(tolerance) && !solve_jointly_with_stiffer_datum(tolerance))
-    for (int stiffenings = 0; !solve_by_passes(tolerance); ++stiffenings) {
-      if (stiffenings == most_stiffenings) return std::numeric_limits<double>::quiet_NaN();
-      stiffen(stiffening * stiffness_);
-    }
+  const double former = stiffness_;
+  const auto stiffen_datum = [this] { stiffen(stiffening * stiffness_); };
+  const bool both_iterate = fluid_.is_iterative() && wall_.is_iterative();
+  const Attempts by_passes{[&] { return solve_by_passes(tolerance); }, stiffen_datum, most_stiffenings, {}};
+  const Attempts jointly{[&] { return solve_jointly(tolerance); }, stiffen_datum,
+                         both_iterate ? most_joint_stiffenings : 0,
+                         [&] {
+                           if (both_iterate) stiffen(former);
+                           return by_passes.run();
+                         }};
+  if (!jointly.run()) return std::numeric_limits<double>::quiet_NaN();
   return std::hypot(fluid_.increment_norm(), wall_.increment_norm());
 }
 
@@ -202,18 +209,6 @@ void BlockNewtonProblem<n>::stiffen(double stiffness) {
   joint_is_current_ = false;
   const Stopwatch watch(cost.fluid_seconds);
   fluid_.linearise();
-}
-
-template <int n>
-bool BlockNewtonProblem<n>::solve_jointly_with_stiffer_datum(double tolerance) {
-  if (!fluid_.is_iterative() || !wall_.is_iterative()) return false;
-  const double former = stiffness_;
-  for (int stiffenings = 0; stiffenings < most_joint_stiffenings; ++stiffenings) {
-    stiffen(stiffening * stiffness_);
-    if (solve_jointly(tolerance)) return true;
-  }
-  stiffen(former);
-  return false;
 }
 
 template <int n>

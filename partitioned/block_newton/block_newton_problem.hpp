@@ -82,7 +82,8 @@ class BlockNewtonProblem : public NewtonProblem {
   BlockNewtonCost cost;  ///< of the step; its owner sets it back
 
  private:
-  /// Of what is tried when fluid and wall do not come to agree: C so much stiffer, so often.
+  /// Of what is tried when fluid and wall do not come to agree: C so much stiffer, so often. A pressure that turns with the
+  /// interface makes the fluid by itself indefinite where C is small beside it.
   static constexpr double stiffening = 10;
   static constexpr int most_stiffenings = 4, most_joint_stiffenings = 2;
 
@@ -112,10 +113,6 @@ class BlockNewtonProblem : public NewtonProblem {
   /// The same where both media iterate, by one iteration over both (joint_iteration.hpp), in which a pass takes one cycle
   /// of each. \returns whether it gets there
   bool solve_jointly(double tolerance);
-  /// Again where it does not get there, with C made stiffer most_joint_stiffenings times at most. A pressure that turns
-  /// with the interface makes the fluid by itself indefinite where C is small beside it. \returns whether it gets there;
-  /// else C is the former one
-  bool solve_jointly_with_stiffer_datum(double tolerance);
   void stiffen(double stiffness);
   /// linear_residual_ of the increments and of the datum as they are.
   void find_linear_residual();

@@ -129,8 +129,8 @@ int JointIteration<n>::solve(std::vector<float>& right, double tolerance, int mo
                              std::vector<float>& solution, const Seconds& seconds) {
   for (float& value : layout_.view(right).datum) value *= weight_of_gap;
   return gmres_
-      .solve([&](const auto& residual, auto& z, auto& y) { pass(residual, z, y, seconds); }, right, solution, tolerance,
-             most_iterations)
+      .solve_from_zero([&](const auto& residual, auto& z, auto& y) { pass(residual, z, y, seconds); }, right, solution,
+                       tolerance, most_iterations)
       .iterations;
 }
 

@@ -6,7 +6,7 @@
 #include "fem/nodal_frames.hpp"
 #include "linear/interface/field_numbering.hpp"
 #include "linear/interface/medium_preconditioner.hpp"
-#include "linear/krylov/single_gmres.hpp"
+#include "linear/krylov/gmres.hpp"
 #include "partitioned/block_newton/block_vector.hpp"
 #include "scene/scene.hpp"
 

@@ -20,7 +20,7 @@ FLOORS = (
     ("common/mesh_io", "common/fields"),
     ("common/mesher",),
     ("common/algebra", "common/nonlinear"),
-    ("common/linear/direct", "common/linear/krylov"),
+    ("common/linear/direct", "common/linear/krylov", "common/linear/policy"),
     ("common/linear/amg",),
     ("common/fem",),
     ("common/sampling",),

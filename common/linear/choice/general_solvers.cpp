@@ -6,9 +6,9 @@
 
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
-#include "linear/choice/judged_on_processes.hpp"
+#include "linear/choice/fast_on_processes.hpp"
 #include "linear/distributed/petsc_factories.hpp"
-#include "linear/distributed/small_systems.hpp"
+#include "linear/distributed/petsc_options.hpp"
 #include "linear/interface/direct_linear_solver.hpp"
 #include "linear/velocity_pressure/fast_solver.hpp"
 
@@ -19,19 +19,31 @@ namespace {
 template <int n>
 using Blocks = JacobianBlocks<n>;
 
+/// Refuses a preconditioner that is named for `fast` on one process where nothing iterates with it.
+void refuse_preconditioner(const FastOptions& fast, const std::string& where) {
+  if (fast.preconditioner == flow_preconditioner_list[0]) return;
+  throw InputError(
+      case_of_petsc_options(), "linear.preconditioner",
+      "\"" + fast.preconditioner + "\" is a preconditioner of \"fast\" on one process, and there is none for " + where,
+      "leave it out, or start the program without mpirun and with linear_solver = \"fast\"");
+}
+
 template <int n>
 std::unique_ptr<LinearSolver> make_fast(const Blocks<n>& blocks, const FastOptions& fast) {
   if (blocks.numbering.processes->is_alone()) return std::make_unique<FastSolver<n>>(blocks, fast);
-  const auto unknowns = blocks.numbering.whole_size();
-  if (is_factorised_at_first(unknowns, n, fast)) {
-    if (blocks.coupled() && fast.are_judged(n, unknowns)) return std::make_unique<JudgedOnProcesses<n>>(blocks, fast);
-    return std::make_unique<CentralDirectSolver<n>>(blocks);
-  }
+  refuse_preconditioner(fast, "several processes");
+  return std::make_unique<FastOnProcesses<n>>(blocks, fast, JacobianPolicy<n>(blocks, fast, has_petsc_options()));
+}
+
+template <int n>
+std::unique_ptr<LinearSolver> make_petsc(const Blocks<n>& blocks, const FastOptions& fast) {
+  refuse_preconditioner(fast, "\"petsc\"");
   return make_petsc_solver<n>(blocks, fast);
 }
 
 template <int n>
-std::unique_ptr<LinearSolver> make_direct(const Blocks<n>& blocks, const FastOptions&) {
+std::unique_ptr<LinearSolver> make_direct(const Blocks<n>& blocks, const FastOptions& fast) {
+  refuse_preconditioner(fast, "\"direct\"");
   if (!blocks.numbering.processes->is_alone()) return make_petsc_direct_solver<n>(blocks);
   return std::make_unique<DirectLinearSolver<n>>(blocks);
 }
@@ -45,7 +57,7 @@ struct GeneralSolver {
 
 template <int n>
 constexpr std::array<GeneralSolver<n>, 3> general_solvers{
-    {{"fast", make_fast<n>}, {"direct", make_direct<n>}, {"petsc", make_petsc_solver<n>}}};
+    {{"fast", make_fast<n>}, {"direct", make_direct<n>}, {"petsc", make_petsc<n>}}};
 
 /// Null when no such solver serves any scene.
 template <int n>
@@ -85,17 +97,24 @@ std::unique_ptr<LinearSolver> make_fast_or_direct(const std::string& name, const
   return make_general_solver<n>(name, setup.linear.fast, blocks);
 }
 
+std::string linear_solver_in_words(const std::string& name, const FastOptions& fast, const Communicator& processes) {
+  if (name != "fast" || !processes.is_alone()) return name;
+  return fmt::format("{}, where it iterates preconditioned by {}", name, fast.preconditioner);
+}
+
 std::string other_solver_on_processes(const std::string& name, const FastOptions& fast, int dimension,
                                       const Communicator& processes) {
   if (processes.is_alone()) return "";
   if (name == "fast") {
     const std::string other = "linear_solver = \"petsc\" in place of \"fast\", which works on one process";
-    const auto bound = factorised_at_first_below(dimension, fast);
+    const SolverPolicy policy(SolvedSystem::jacobian, dimension,
+                              {fast.direct_below, has_petsc_options(), processes.size()});
+    const auto bound = policy.factorises_below();
     return bound == 0 ? other
                       : fmt::format("{}; systems below {} unknowns are factorised at the first process{}", other, bound,
-                                    fast.are_judged(dimension, bound - 1)
+                                    policy.wall_decides(bound - 1)
                                         ? fmt::format(", but for coupled ones from {} on that the wall decides about",
-                                                      FastOptions::judged_from)
+                                                      SolverPolicy::wall_decides_from)
                                         : "");
   }
   if (name == "direct") return "linear_solver = \"direct\" factorises by MUMPS, since UMFPACK works on one process";

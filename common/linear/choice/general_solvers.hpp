@@ -12,8 +12,7 @@ namespace fsi {
 bool is_general_solver(const std::string& name);
 
 /// Makes the linear solver `name`, one of general_solver_names(), for a scene or sub-problem of as many processes as
-/// share out the blocks' numbering: on several `petsc` stands in for "fast", but for what is_factorised_at_first(), and
-/// MUMPS for the sparse factorisation.
+/// share out the blocks' numbering: on several FastOnProcesses stands in for "fast", and MUMPS for the sparse factorisation.
 /// \throws InputError for "petsc" in a build without it
 template <int n>
 std::unique_ptr<LinearSolver> make_general_solver(const std::string& name, const FastOptions& fast,
@@ -29,6 +28,9 @@ LinearSolverFactory<n> general_solver_factory(const std::string& name, const Fas
 template <int n>
 std::unique_ptr<LinearSolver> make_fast_or_direct(const std::string& name, const Case& setup,
                                                   const JacobianBlocks<n>& blocks);
+
+/// The linear solver that a case names, with the preconditioner of `fast`, for log and summary.
+std::string linear_solver_in_words(const std::string& name, const FastOptions& fast, const Communicator& processes);
 
 /// What is taken in place of the linear solver that the case names, a sentence for the user; empty: nothing is.
 /// \param fast       options of "fast"

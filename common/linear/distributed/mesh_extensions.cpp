@@ -7,10 +7,22 @@
 #include "mesh_motion/tangent_extension.hpp"
 #ifdef FSI_WITH_MPI
 #include "linear/distributed/petsc_extension.hpp"
-#include "linear/distributed/small_systems.hpp"
+#include "linear/distributed/petsc_options.hpp"
+#include "linear/policy/solver_policy.hpp"
 #endif
 
 namespace fsi {
+
+#ifdef FSI_WITH_MPI
+namespace {
+
+std::int64_t factorised_at_first_below(int dimension) {
+  return SolverPolicy(SolvedSystem::shared_mesh_motion, dimension, {std::nullopt, has_petsc_options()})
+      .factorises_below();
+}
+
+}  // namespace
+#endif
 
 template <int n>
 std::unique_ptr<MeshExtension<n>> make_harmonic_extension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner,

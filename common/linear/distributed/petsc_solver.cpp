@@ -11,7 +11,9 @@
 #include "linear/distributed/petsc_momentum_solver.hpp"
 #include "linear/distributed/petsc_options.hpp"
 #include "linear/distributed/velocity_pressure_system.hpp"
-#include "linear/krylov/single_gmres.hpp"
+#include "linear/interface/linear_attempts.hpp"
+#include "linear/krylov/gmres.hpp"
+#include "linear/policy/solver_policy.hpp"
 #include "linear/velocity_pressure/condensed_iteration.hpp"
 
 namespace fsi {
@@ -29,10 +31,6 @@ std::unique_ptr<MeshExtension<n>> make_extension(const JacobianBlocks<n>& blocks
 
 template <int n>
 struct PetscSolver<n>::Iterative {
-  /// Pressures below which S is factorised: half the iterations, and a solve takes no longer than a cycle.
-  static constexpr double factorised_pressures =
-      BlockPreconditionerChoices::factorises_schur_complement(n) ? 20000 : 2000;
-
   VelocityPressureLayout<n> layout;
   VelocityPressureSystem<n> system;
   PetscMomentumSolver<n> momentum;
@@ -86,7 +84,8 @@ struct PetscSolver<n>::Iterative {
     petsc_check(KSPSetType(pressure, KSPPREONLY));
     PC pc = nullptr;
     petsc_check(KSPGetPC(pressure, &pc));
-    if (system.shared().whole_pressures < factorised_pressures && !has_petsc_options(prefix)) {
+    const SolverPolicy policy(SolvedSystem::shared_schur_complement, n, {std::nullopt, has_petsc_options(prefix)});
+    if (!policy.decide(static_cast<std::int64_t>(system.shared().whole_pressures)).iterates) {
       factorise_by_each(pc);
       return;
     }
@@ -221,29 +220,34 @@ void PetscSolver<n>::set_up_preconditioner(bool strong) {
 
 template <int n>
 LinearReport PetscSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
+  return solve(b, tolerance, x, true);
+}
+
+template <int n>
+LinearReport PetscSolver<n>::try_to_solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
+  return solve(b, tolerance, x, false);
+}
+
+template <int n>
+LinearReport PetscSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x,
+                                   bool may_factorise) {
   const OneDenseThread same_bits_for_any_number;
   if (direct_) return direct_->solve(b, tolerance, x);
   const auto inner = [&](const std::vector<double>& right, double, double wanted, std::vector<double>& solution) {
     return iterative_->solve(right, wanted, solution);
   };
-  LinearReport report = iterative_->iteration.solve(b, tolerance, inner, x);
-  if (report.converged) return report;
-  if (!strengthened_) {
-    count("linear solves repeated with a stronger preconditioner");
-    set_up_preconditioner(true);
-    LinearReport second = iterative_->iteration.solve(b, tolerance, inner, x);
-    second.iterations += report.iterations;
-    if (second.converged) return second;
-    report = second;
-  }
-  count("linear solves rescued by factorisation");
-  direct_ = std::make_unique<PetscDirectSolver<n>>(blocks_);
-  direct_->update();
-  const LinearReport third = direct_->solve(b, tolerance, x);
-  report.converged = third.converged;
-  report.relative_residual = third.relative_residual;
-  if (!third.converged) report.failure = third.failure;
-  return report;
+  LinearAttempts attempts;
+  attempts.profile = blocks_.profile;
+  attempts.iterate = [&] { return iterative_->iteration.solve(b, tolerance, inner, x); };
+  attempts.strengthen = [&] { set_up_preconditioner(true); };
+  attempts.strengthenings = strengthened_ ? 0 : SolverPolicy(SolvedSystem::jacobian, n).strengthenings();
+  if (may_factorise)
+    attempts.factorise = [&] {
+      direct_ = std::make_unique<PetscDirectSolver<n>>(blocks_);
+      direct_->update();
+      return direct_->solve(b, tolerance, x);
+    };
+  return attempts.run();
 }
 
 template <int n>
@@ -259,11 +263,6 @@ LinearStatistics PetscSolver<n>::statistics() const {
   s.memory_mib += iterative_->system.bytes() / (1 << 20);
   if (const auto* extension = iterative_->iteration.extension()) s.memory_mib += extension->memory_mib();
   return s;
-}
-
-template <int n>
-void PetscSolver<n>::count(const char* event) const {
-  if (blocks_.profile) blocks_.profile->count(event);
 }
 
 #define FSI_INSTANTIATE(n) template class PetscSolver<n>;

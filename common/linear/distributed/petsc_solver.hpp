@@ -24,6 +24,7 @@ class PetscSolver : public LinearSolver {
   /// What a failure led to is forgotten here, as by FastSolver.
   void update() override;
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
+  LinearReport try_to_solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
   double keep_contraction() const override;
   LinearStatistics statistics() const override;
 
@@ -35,7 +36,7 @@ class PetscSolver : public LinearSolver {
 
   /// \param strong  more sweeps, and coarse levels for the wall however stiff it is
   void set_up_preconditioner(bool strong);
-  void count(const char* event) const;
+  LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x, bool may_factorise);
 
   JacobianBlocks<n> blocks_;
   FastOptions options_;

@@ -83,7 +83,7 @@ class LinearSolver {
   /// \param tolerance  demanded |b - J x| / |b|; direct solvers solve to rounding
   /// \param x          overwritten: Numbering::columns() entries; those of ghosts are the caller's to update
   virtual LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) = 0;
-  /// The same for who has another way where an iteration fails: no factorisation comes to its rescue.
+  /// Like solve(), but an iteration that fails never falls back to a factorisation; for callers with a fallback of their own.
   virtual LinearReport try_to_solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
     return solve(b, tolerance, x);
   }

@@ -1,68 +1,87 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <type_traits>
 #include <vector>
 
 #include "linear/krylov/krylov.hpp"
 
 namespace fsi {
 
-namespace detail {
+/// What the preconditioner of a Krylov method is.
+enum class Preconditioning {
+  fixed,   ///< one linear map M^-1. If it is not, the update M^-1 (V y) differs from what was minimised [Saad1986]
+  varying  ///< another map in each iteration, an inner iteration say: its answers are kept beside the basis [Saad1993]
+};
 
-/// Restarted GMRES, right-preconditioned, plain or flexible; [Saad2003],
-/// algorithms 9.5 and 9.6. Arnoldi by modified Gram-Schmidt, repeated where cancellation spoils orthogonality.
-/// Vectors are kept between calls.
-class RestartedGmres {
+/// Right-preconditioned GMRES in the precision of `Number`: minimises |b - A x| over x0 + M^-1 K_m(A M^-1, r0); [Saad2003],
+/// algorithms 9.5 and 9.6. Vectors are kept between calls. Sums are taken by fixed chunks: results do not depend on the
+/// number of threads.
+///
+/// In double precision Arnoldi's method is by modified Gram-Schmidt, repeated where cancellation spoils orthogonality. In
+/// single precision, for a few digits at a time, it is by classical Gram-Schmidt over chunks, which reads each basis vector
+/// twice an iteration; the loss of orthogonality is far below the digits asked for.
+template <class Number, Preconditioning kind>
+class BasicGmres {
  public:
-  explicit RestartedGmres(bool flexible) : flexible_(flexible) {}
-  KrylovReport solve(const LinearOperator& a, const LinearOperator& inverse, const std::vector<double>& b,
-                     std::vector<double>& x, const KrylovOptions& options);
+  using Vector = std::vector<Number>;
+  /// y = L x. `y` has its size already and is overwritten; x and y are different vectors.
+  using Operator = std::function<void(const Vector& x, Vector& y)>;
+  /// z = M^-1 v and y = A z, for callers that find both together more cheaply.
+  using PreconditionedOperator = std::function<void(const Vector& v, Vector& z, Vector& y)>;
+  /// Of solve_from_zero(), relative.
+  static constexpr double smallest_tolerance = std::is_same_v<Number, float> ? 1e-4 : 1e-12;
+
+  /// Restarts from its iterate, whose residual is computed each time, until that is small enough.
+  /// \param a        y = A x
+  /// \param inverse  y = M^-1 x; empty: no preconditioner
+  /// \param x        initial guess on entry, solution on return
+  KrylovReport solve(const Operator& a, const Operator& inverse, const Vector& b, Vector& x,
+                     const KrylovOptions& options = {});
+
+  struct Estimate {
+    bool converged = false;
+    int iterations = 0;
+    double relative_residual = 1;  ///< not computed from the solution
+  };
+  /// One cycle from x = 0 that believes its estimate of the residual: the inner iteration of a refinement.
+  /// \param tolerance   smallest_tolerance at least
+  /// \param directions  at most
+  Estimate solve_from_zero(const PreconditionedOperator& both, const Vector& b, Vector& x, double tolerance,
+                           int directions);
+  Estimate solve_from_zero(const Operator& a, const Operator& inverse, const Vector& b, Vector& x, double tolerance,
+                           int directions);
+
   std::size_t bytes() const;
 
  private:
   struct Cycle {
-    int iterations = 0;
+    int products = 0;  ///< with A
+    int columns = 0;   ///< of the triangular system
     bool finite = true;
+    double relative_residual = 1;  ///< estimate
   };
-  Cycle run_cycle(const LinearOperator& a, const LinearOperator& inverse, double norm_b, double residual_norm,
-                  int directions, double tolerance, std::vector<double>& x, std::vector<double>& history);
-  void begin_cycle(double residual_norm, int directions);
-  /// M^-1 v_k
-  const std::vector<double>& preconditioned(const LinearOperator& inverse, int k);
-  /// Takes v_0 to v_k off w = v_{k+1} by modified Gram-Schmidt, a second time where the first removed most of w ("twice is
-  /// enough"). \returns |w|, not yet one
-  double orthogonalise(int k, double length);
-  /// Givens' rotations of column k. \returns false where the column has nothing above `smallest`
-  bool rotate(int k, double smallest);
-  /// x += M^-1 V y of the least squares' y.
-  void update(const LinearOperator& inverse, int usable, std::vector<double>& x);
-  std::vector<double>& direction(std::vector<std::vector<double>>& set, int k) const;
+  /// \param residual_norm  of what stands in the first basis vector once it is scaled
+  /// \param history        gets the estimates; null: they are not wanted
+  Cycle run_cycle(const PreconditionedOperator& both, const Vector& residual, double residual_norm, double norm_b,
+                  int directions, double tolerance, std::vector<double>* history);
+  /// Givens' rotations of column k. \returns its length behind them: of its diagonal entry
+  double rotate(int k);
+  /// x += M^-1 V y, y solving the least squares problem.
+  void update(const Operator& inverse, int columns, Vector& x);
+  Vector& vector_at(std::vector<Vector>& set, int k) const;
   double& h(int row, int column) { return hessenberg_[static_cast<std::size_t>(column) * stride_ + row]; }
 
-  bool flexible_;
-  int stride_ = 0;                                           ///< of a column of the Hessenberg matrix
-  std::vector<std::vector<double>> basis_, preconditioned_;  ///< V, and Z = M^-1 V if flexible
-  std::vector<double> residual_, work_;
-  std::vector<double> hessenberg_, cosine_, sine_, right_, coefficients_;
+  std::size_t size_ = 0;
+  int stride_ = 0;                              ///< of a column of the Hessenberg matrix
+  std::vector<Vector> basis_, preconditioned_;  ///< V, and Z = M^-1 V where the preconditioner varies
+  Vector residual_, work_;
+  std::vector<double> hessenberg_, cosine_, sine_, right_, coefficients_, partial_sums_;
 };
 
-}  // namespace detail
-
-/// Right-preconditioned restarted GMRES [Saad1986]: minimises |b - A x| over x0 + M^-1 K_m(A M^-1, r0). The
-/// preconditioner should be one fixed linear map. If it is not, the update M^-1 (V y) differs from what was minimised;
-/// the residual is then recomputed, and the method goes on from the true one.
-class Gmres {
- public:
-  /// \param a        y = A x
-  /// \param inverse  y = M^-1 x; empty: no preconditioner
-  /// \param x        initial guess on entry, solution on return
-  KrylovReport solve(const LinearOperator& a, const LinearOperator& inverse, const std::vector<double>& b,
-                     std::vector<double>& x, const KrylovOptions& options = {}) {
-    return method_.solve(a, inverse, b, x, options);
-  }
-  std::size_t bytes() const { return method_.bytes(); }
-
- private:
-  detail::RestartedGmres method_{false};
-};
+using Gmres = BasicGmres<double, Preconditioning::fixed>;
+using Fgmres = BasicGmres<double, Preconditioning::varying>;
+using SingleGmres = BasicGmres<float, Preconditioning::varying>;
 
 }  // namespace fsi

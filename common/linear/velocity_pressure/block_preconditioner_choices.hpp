@@ -23,9 +23,6 @@ struct BlockPreconditionerChoices {
   double added_diagonal = 2;
   double added_from = 39;
 
-  /// S is factorised, not cycled over: what is in the plane.
-  static constexpr bool factorises_schur_complement(int dimension) { return dimension == 2; }
-
   /// Most velocity nodes carry none, as with Taylor-Hood elements.
   static bool has_few_pressures(double pressures, double velocities) { return 2 * pressures < velocities; }
 

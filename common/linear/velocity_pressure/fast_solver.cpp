@@ -7,10 +7,11 @@
 #include "algebra/vector_operations.hpp"
 #include "fem/dimensions.hpp"
 #include "linear/direct/direct_solver.hpp"
-#include "linear/krylov/single_gmres.hpp"
+#include "linear/interface/linear_attempts.hpp"
+#include "linear/krylov/gmres.hpp"
 #include "linear/velocity_pressure/condensed_iteration.hpp"
 #include "linear/velocity_pressure/factorised_flow.hpp"
-#include "linear/velocity_pressure/velocity_pressure_preconditioner.hpp"
+#include "linear/velocity_pressure/flow_preconditioner.hpp"
 #include "mesh_motion/harmonic_extension.hpp"
 #include "mesh_motion/tangent_extension.hpp"
 
@@ -51,7 +52,7 @@ template <int n>
 struct FastSolver<n>::Iterative : MediumPreconditioner {
   VelocityPressureLayout<n> layout;
   VelocityPressureMatrix<n> matrix;
-  VelocityPressurePreconditioner<n> preconditioner;
+  std::unique_ptr<FlowPreconditioner<n>> preconditioner;
   CondensedIteration<n> iteration;
   SingleGmres gmres;
   std::vector<float> single_right, single_solution;
@@ -61,7 +62,7 @@ struct FastSolver<n>::Iterative : MediumPreconditioner {
   Iterative(const JacobianBlocks<n>& blocks, const FastOptions& options)
       : layout(blocks),
         matrix(blocks, layout),
-        preconditioner(matrix),
+        preconditioner(make_flow_preconditioner<n>(options.preconditioner, matrix)),
         iteration(blocks, layout, make_extension<n>, options.max_iterations) {}
 
   std::size_t size() const override { return matrix.size(); }
@@ -70,8 +71,8 @@ struct FastSolver<n>::Iterative : MediumPreconditioner {
     return velocity < 0 ? -1 : velocity * VelocityPressureMatrix<n>::lanes;
   }
   void multiply(Input x, Output y) const override { matrix.multiply(x, y); }
-  void apply(Input x, Output y) override { preconditioner.apply(x, y); }
-  void apply(Input x, Output y, Output product) override { preconditioner.apply(x, y, product); }
+  void apply(Input x, Output y) override { preconditioner->apply(x, y); }
+  void apply(Input x, Output y, Output product) override { preconditioner->apply(x, y, product); }
   void gather(const std::vector<double>& of_system, Output mine) const override {
     layout.take(of_system, gathered);
     matrix.take(gathered, 1, mine);
@@ -125,6 +126,7 @@ struct FastSolver<n>::Factorised {
     return false;
   }
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
+    const OneDenseThread same_bits_for_any_number;
     return iteration.solve(b, std::min(tolerance, loosest), inner_solver(), x);
   }
 
@@ -138,16 +140,13 @@ struct FastSolver<n>::Factorised {
 };
 
 template <int n>
-FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options,
-                          std::shared_ptr<IterationJudge> judge)
-    : blocks_(blocks), options_(options), judge_(std::move(judge)) {
-  if (judge_) return;
-  const std::int64_t size = blocks.numbering.size;
-  if (size >= options.direct_below.value_or(FastOptions::standard_direct_below(n))) return;
-  if (blocks.coupled() && options.are_judged(n, size))
-    judge_ = std::make_shared<PlaneJudge<n>>(blocks);
-  else
-    make_factors();
+FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options)
+    : FastSolver(blocks, options, JacobianPolicy<n>(blocks, options)) {}
+
+template <int n>
+FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options, JacobianPolicy<n> policy)
+    : blocks_(blocks), options_(options), policy_(std::move(policy)) {
+  if (!policy_.wall_decides() && !policy_.iterates()) make_factors();
 }
 
 template <int n>
@@ -169,24 +168,18 @@ void FastSolver<n>::make_whole_factors() {
 
 template <int n>
 const char* FastSolver<n>::preparation() {
-  if (judge_) return judged_to_iterate() ? LinearSolver::preparation() : "factorisation";
+  if (policy_.wall_decides()) return policy_.iterates() ? LinearSolver::preparation() : "factorisation";
   return iterative_ || !uses_factorisation() ? LinearSolver::preparation() : "factorisation";
 }
 
 template <int n>
 std::string FastSolver<n>::decides() const {
-  return judge_ ? PlaneJudge<n>::says() : "";
-}
-
-template <int n>
-bool FastSolver<n>::judged_to_iterate() {
-  if (!verdict_) verdict_ = judge_->iterates();
-  return *verdict_;
+  return policy_.rule();
 }
 
 template <int n>
 void FastSolver<n>::choose() {
-  if (judged_to_iterate()) {
+  if (policy_.iterates()) {
     direct_.reset();
     factorised_.reset();
     return;
@@ -197,11 +190,11 @@ void FastSolver<n>::choose() {
 
 template <int n>
 void FastSolver<n>::update() {
-  if (judge_)
+  if (policy_.wall_decides())
     choose();
   else if (iterative_)
     direct_.reset();
-  verdict_.reset();
+  policy_.forget();
   const OneDenseThread same_bits_for_any_number;
   if (factorised_ && factorised_->update(blocks_.numbering.columns())) {
     direct_.reset();
@@ -221,40 +214,35 @@ void FastSolver<n>::update() {
 
 template <int n>
 LinearReport FastSolver<n>::try_to_solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
-  if (direct_) {
-    const OneDenseThread same_bits_for_any_number;
-    return direct_->solve(b, tolerance, x);
-  }
-  if (factorised_) {
-    const OneDenseThread same_bits_for_any_number;
-    const LinearReport report = factorised_->solve(b, tolerance, x);
-    return report.converged ? report : rescue(report, b, tolerance, x);
-  }
-  LinearReport report = iterate(b, tolerance, x);
-  if (report.converged || strengthened_) return report;
-  count("linear solves repeated with a stronger preconditioner");
-  set_up_preconditioner(true);
-  LinearReport second = iterate(b, tolerance, x);
-  second.iterations += report.iterations;
-  return second;
+  return solve(b, tolerance, x, false);
 }
 
 template <int n>
 LinearReport FastSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
-  const LinearReport report = try_to_solve(b, tolerance, x);
-  return direct_ || report.converged ? report : rescue(report, b, tolerance, x);
+  return solve(b, tolerance, x, true);
 }
 
 template <int n>
-LinearReport FastSolver<n>::rescue(const LinearReport& failed, const std::vector<double>& b, double tolerance,
-                                   std::vector<double>& x) {
-  count("linear solves rescued by factorisation");
-  direct_ = std::make_unique<DirectLinearSolver<n>>(blocks_);
-  const OneDenseThread same_bits_for_any_number;
-  direct_->update();
-  LinearReport report = direct_->solve(b, tolerance, x);
-  report.iterations = failed.iterations;
-  return report;
+LinearReport FastSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x,
+                                  bool may_factorise) {
+  const auto by_factors = [&] {
+    const OneDenseThread same_bits_for_any_number;
+    return direct_->solve(b, tolerance, x);
+  };
+  if (direct_) return by_factors();
+  LinearAttempts attempts;
+  attempts.profile = blocks_.profile;
+  attempts.iterate = [&] { return factorised_ ? factorised_->solve(b, tolerance, x) : iterate(b, tolerance, x); };
+  attempts.strengthen = [&] { set_up_preconditioner(true); };
+  attempts.strengthenings = factorised_ || strengthened_ ? 0 : policy_.policy().strengthenings();
+  if (may_factorise || factorised_)  // factors of a part become factors of the whole
+    attempts.factorise = [&] {
+      direct_ = std::make_unique<DirectLinearSolver<n>>(blocks_);
+      const OneDenseThread same_bits_for_any_number;
+      direct_->update();
+      return by_factors();
+    };
+  return attempts.run();
 }
 
 template <int n>
@@ -271,12 +259,12 @@ LinearStatistics FastSolver<n>::statistics() const {
     if (const auto* extension = factorised_->iteration.extension()) s.memory_mib += extension->memory_mib();
   }
   if (iterative_) {
-    s.memory_mib += static_cast<double>(iterative_->matrix.bytes() + iterative_->preconditioner.bytes() +
+    s.memory_mib += static_cast<double>(iterative_->matrix.bytes() + iterative_->preconditioner->bytes() +
                                         iterative_->gmres.bytes()) /
                     (1 << 20);
     if (const auto* extension = iterative_->iteration.extension()) s.memory_mib += extension->memory_mib();
-    s.operator_complexity = iterative_->preconditioner.inverse_schur().operator_complexity();
-    s.levels = iterative_->preconditioner.inverse_schur().levels();
+    s.operator_complexity = iterative_->preconditioner->operator_complexity();
+    s.levels = iterative_->preconditioner->levels();
   }
   return s;
 }
@@ -288,11 +276,10 @@ MediumPreconditioner* FastSolver<n>::medium_preconditioner() {
 
 template <int n>
 void FastSolver<n>::set_up_preconditioner(bool strong) {
-  typename VelocityPressurePreconditioner<n>::Options options;
-  options.momentum_sweeps = strong ? options_.strong_sweeps : options_.momentum_sweeps;
-  if (strong) options.coarse_from = 0;
-  iterative_->preconditioner.options() = options;
-  iterative_->preconditioner.set_up();
+  BlockPreconditionerChoices choices;
+  choices.momentum_sweeps = strong ? options_.strong_sweeps : options_.momentum_sweeps;
+  if (strong) choices.coarse_from = 0;
+  iterative_->preconditioner->set_up(choices);
   strengthened_ = strong;
 }
 
@@ -308,8 +295,9 @@ LinearReport FastSolver<n>::iterate(const std::vector<double>& b, double toleran
     // Scaled to one, so that small residuals do not leave the range of single precision.
     it.single_right.resize(it.matrix.size());
     it.matrix.take(right, 1 / scale, it.single_right);
-    const auto solved = it.gmres.solve([&](const auto& r, auto& z, auto& y) { it.preconditioner.apply(r, z, y); },
-                                       it.single_right, it.single_solution, wanted, options_.restart);
+    const auto solved =
+        it.gmres.solve_from_zero([&](const auto& r, auto& z, auto& y) { it.preconditioner->apply(r, z, y); },
+                                 it.single_right, it.single_solution, wanted, options_.restart);
     it.matrix.give(it.single_solution, scale, solution);
     return solved.iterations;
   };

@@ -2,14 +2,13 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "case/fast_options.hpp"
 #include "linear/interface/direct_linear_solver.hpp"
 #include "linear/interface/linear_solver.hpp"
-#include "linear/velocity_pressure/plane_judge.hpp"
+#include "linear/velocity_pressure/jacobian_policy.hpp"
 
 namespace fsi {
 
@@ -17,15 +16,15 @@ namespace fsi {
 /// velocity on the interface, and the mesh displacement follows from it by a harmonic extension whose matrix is
 /// factorised once. An outer iteration computes residuals of the whole system in double precision; corrections come
 /// from GMRES in single precision for velocities and pressures of both media without shape derivatives,
-/// preconditioned by VelocityPressurePreconditioner. The shape derivatives, small against the rest, come back through
+/// preconditioned by a FlowPreconditioner. The shape derivatives, small against the rest, come back through
 /// the residual. Small systems are factorised; so is one that defeats the iteration, and a larger one in two dimensions
 /// whose wall is stiff.
 template <int n>
 class FastSolver : public LinearSolver {
  public:
-  /// \param judge  decides in place of the system's size; null: size does, and in the plane the wall's stiffness
-  explicit FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options = {},
-                      std::shared_ptr<IterationJudge> judge = nullptr);
+  explicit FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options = {});
+  /// \param policy  decides in place of that of a system by itself
+  FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options, JacobianPolicy<n> policy);
 
   ~FastSolver() override;
 
@@ -60,12 +59,8 @@ class FastSolver : public LinearSolver {
   void make_factors();
   void make_whole_factors();
 
-  /// By factors of the whole, where those of a part do not get there, however long it takes: better than no answer.
-  LinearReport rescue(const LinearReport& failed, const std::vector<double>& b, double tolerance,
-                      std::vector<double>& x);
+  LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x, bool may_factorise);
 
-  /// What the judge says of the values that the blocks hold, until the next update().
-  bool judged_to_iterate();
   /// Sets up what the present Jacobian is solved by, where that depends on its numbers.
   void choose();
 
@@ -76,8 +71,7 @@ class FastSolver : public LinearSolver {
 
   JacobianBlocks<n> blocks_;
   FastOptions options_;
-  std::shared_ptr<IterationJudge> judge_;  ///< null where size alone decides
-  std::optional<bool> verdict_;            ///< on the present values
+  JacobianPolicy<n> policy_;
   std::unique_ptr<Iterative> iterative_;
   std::unique_ptr<Factorised> factorised_;         ///< of a plane system with a mesh motion
   std::unique_ptr<DirectLinearSolver<n>> direct_;  ///< of others, and where the other two do not serve

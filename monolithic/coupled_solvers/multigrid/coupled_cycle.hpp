@@ -7,7 +7,7 @@
 
 #include "case/coupled_multigrid_options.hpp"
 #include "linear/direct/direct_solver.hpp"
-#include "linear/krylov/fgmres.hpp"
+#include "linear/krylov/gmres.hpp"
 #include "monolithic/coupled_solvers/amg/transfer.hpp"
 #include "monolithic/coupled_solvers/block/block_gauss_seidel.hpp"
 #include "monolithic/coupled_solvers/block/block_preconditioners.hpp"

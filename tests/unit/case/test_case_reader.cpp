@@ -8,6 +8,7 @@
 
 #include "case/case_keys.hpp"
 #include "case/choices.hpp"
+#include "linear/policy/solver_policy.hpp"
 #include "materials/material.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -377,7 +378,7 @@ TEST(CaseReader, HelpHasUnitsNamesAndDefaultsFromWhereTheyAreOwned) {
     EXPECT_NE(line(key).find(text), std::string::npos) << line(key) << "\nlacks: " << text;
   };
   says("fluid.density", "mg/mm^3");
-  says("linear.direct_below", fmt::format("default {}", FastOptions::standard_direct_below(3)));
+  says("linear.direct_below", fmt::format("default {}", SolverPolicy::standard_limit(SolvedSystem::jacobian, 3)));
   says("linear.restart", fmt::format("default {}", KrylovOptions().restart));
   says("newton.max_iterations", fmt::format("default {}", NewtonOptions().max_iterations));
   says("partitioned.columns", fmt::format("default {}", QuasiNewtonOptions().columns));

@@ -5,7 +5,6 @@
 
 #include "algebra/block_products.hpp"
 #include "host/threads.hpp"
-#include "linear/krylov/fgmres.hpp"
 #include "linear/krylov/gmres.hpp"
 #include "linear/krylov/richardson.hpp"
 #include "unit/linear/grid_matrices.hpp"
@@ -71,6 +70,16 @@ TYPED_TEST(BothGmres, ConvergesOverRestarts) {
   EXPECT_TRUE(report.converged) << report.failure;
   EXPECT_GT(report.iterations, 8);
   EXPECT_LT(problem.error(x), 1e-8);
+}
+
+TYPED_TEST(BothGmres, OneCycleFromZeroBelievesItsEstimate) {
+  Convection problem;
+  TypeParam method;
+  Vector x(3, 7.0);
+  const auto report = method.solve_from_zero(problem.apply, problem.jacobi, problem.b, x, 1e-6, 60);
+  EXPECT_TRUE(report.converged);
+  EXPECT_LE(report.relative_residual, 1e-6);
+  EXPECT_NEAR(report.relative_residual, problem.true_residual(x), 1e-12);
 }
 
 TYPED_TEST(BothGmres, ReportsTheIterationLimit) {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "host/threads.hpp"
-#include "linear/krylov/fgmres.hpp"
+#include "linear/krylov/gmres.hpp"
 #include "monolithic/coupled_solvers/amg/sub_problem_options.hpp"
 #include "monolithic/study/sub_problem_study.hpp"
 #include "unit/linear/artery_matrices.hpp"

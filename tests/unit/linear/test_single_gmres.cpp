@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "csr_laplacian.hpp"
-#include "linear/krylov/single_gmres.hpp"
+#include "linear/krylov/gmres.hpp"
 
 namespace fsi::test {
 
@@ -16,7 +16,8 @@ TEST(SingleGmres, ReachesTheToleranceItReports) {
   const auto a = converted<float>(csr_laplacian(10));
   std::vector<float> b(a.rows(), 1.0f), x, r(b);
   SingleGmres gmres;
-  const auto report = gmres.solve([&](const auto& in, auto& out) { multiply(a, in, out); }, identity, b, x, 1e-3, 100);
+  const auto report =
+      gmres.solve_from_zero([&](const auto& in, auto& out) { multiply(a, in, out); }, identity, b, x, 1e-3, 100);
   EXPECT_TRUE(report.converged);
   residual(a, b, x, r);
   double sum = 0;
@@ -29,7 +30,8 @@ TEST(SingleGmres, StopsAtTheLimitWithoutCallingItConvergence) {
   const auto a = converted<float>(csr_laplacian(10));
   std::vector<float> b(a.rows(), 1.0f), x;
   SingleGmres gmres;
-  const auto report = gmres.solve([&](const auto& in, auto& out) { multiply(a, in, out); }, identity, b, x, 1e-4, 3);
+  const auto report =
+      gmres.solve_from_zero([&](const auto& in, auto& out) { multiply(a, in, out); }, identity, b, x, 1e-4, 3);
   EXPECT_FALSE(report.converged);
   EXPECT_EQ(report.iterations, 3);
   EXPECT_GT(report.relative_residual, 1e-4);
@@ -38,11 +40,11 @@ TEST(SingleGmres, StopsAtTheLimitWithoutCallingItConvergence) {
 TEST(SingleGmres, ZeroRightHandSideAndExactPreconditioner) {
   std::vector<float> x;
   SingleGmres gmres;
-  const auto nothing = gmres.solve(identity, identity, std::vector<float>(5, 0.0f), x, 1e-3, 10);
+  const auto nothing = gmres.solve_from_zero(identity, identity, std::vector<float>(5, 0.0f), x, 1e-3, 10);
   EXPECT_TRUE(nothing.converged);
   EXPECT_EQ(x, std::vector<float>(5, 0.0f));
   const std::vector<float> b{1, -2, 3, 4, 5};
-  const auto once = gmres.solve(
+  const auto once = gmres.solve_from_zero(
       [](const auto& in, auto& out) {
         for (std::size_t i = 0; i < in.size(); ++i) out[i] = 4 * in[i];
       },
@@ -59,7 +61,11 @@ TEST(SingleGmres, SingularOperatorsEndWithoutNaN) {
   const std::vector<float> b{1, 1};
   std::vector<float> x;
   SingleGmres gmres;
-  const auto report = gmres.solve([](const auto& in, auto& out) { out = {in[0], 0.0f}; }, identity, b, x, 1e-4, 10);
+  const auto report = gmres.solve_from_zero(
+      [](const auto& in, auto& out) {
+        out = {in[0], 0.0f};
+      },
+      identity, b, x, 1e-4, 10);
   EXPECT_FALSE(report.converged);
   for (float value : x) EXPECT_TRUE(std::isfinite(value));
 }

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "base/error.hpp"
+#include "case/choices.hpp"
 #include "fast_solutions.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "fem/p1_triangle.hpp"
@@ -13,7 +16,7 @@
 #include "host/threads.hpp"
 #include "linear/interface/jacobian_product.hpp"
 #include "linear/velocity_pressure/fast_solver.hpp"
-#include "linear/velocity_pressure/velocity_pressure_preconditioner.hpp"
+#include "linear/velocity_pressure/flow_preconditioner.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesher/artery_generator.hpp"
 #include "support/linear_systems.hpp"
@@ -98,26 +101,53 @@ TEST(FastSolver, LooseTolerancesAreMetWithFewerIterations) {
   }
 }
 
-/// Half of the product of F with the preconditioner's answer is known from its last sweep.
-TEST(FastSolver, ThePreconditionerKnowsTheProductWithItsAnswer) {
+class FlowPreconditioners : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(FastSolver, FlowPreconditioners, ::testing::ValuesIn(flow_preconditioner_names()));
+
+TEST_P(FlowPreconditioners, SolveTheArteryWithinFewIterations) {
+  FastOptions options = iterative();
+  options.preconditioner = GetParam();
+  FastSolver<3> solver(artery().blocks(), options);
+  solver.update();
+  std::vector<double> x;
+  const LinearReport report = solver.solve(artery().b(), 1e-8, x);
+  EXPECT_TRUE(report.converged) << report.failure;
+  EXPECT_LE(report.iterations, 120);
+  EXPECT_FALSE(solver.uses_factorisation());
+  EXPECT_LT(relative_difference(x, artery().solution()), 1e-6);
+}
+
+TEST(FlowPreconditioner, AnUnknownNameIsRefusedWithThoseThereAre) {
+  VelocityPressureLayout<3> layout(artery().blocks());
+  VelocityPressureMatrix<3> matrix(artery().blocks(), layout);
+  try {
+    make_flow_preconditioner<3>("simples", matrix);
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    for (const auto& name : flow_preconditioner_names()) EXPECT_NE(text.find(name), std::string::npos) << text;
+  }
+}
+
+/// Half of the product of F with the answer of block-factors is known from its last sweep.
+TEST_P(FlowPreconditioners, KnowTheProductWithTheirAnswer) {
   VelocityPressureLayout<3> layout(artery().blocks());
   VelocityPressureMatrix<3> matrix(artery().blocks(), layout);
   matrix.fill();
   for (const auto& [sweeps, coarse_from] :
        {std::pair(1, 1e30), std::pair(2, 1e30), std::pair(1, 0.0), std::pair(2, 0.0)}) {
-    VelocityPressurePreconditioner<3>::Options options;
-    options.momentum_sweeps = sweeps;
-    options.coarse_from = coarse_from;
-    VelocityPressurePreconditioner<3> preconditioner(matrix, options);
-    preconditioner.set_up();
-    EXPECT_EQ(preconditioner.has_wall_levels(), coarse_from == 0);
+    BlockPreconditionerChoices choices;
+    choices.momentum_sweeps = sweeps;
+    choices.coarse_from = coarse_from;
+    const auto preconditioner = make_flow_preconditioner<3>(GetParam(), matrix);
+    preconditioner->set_up(choices);
     std::vector<double> right(layout.size());
     Random random(5);
     for (double& value : right) value = random();
     std::vector<float> r(matrix.size()), z(r), alone(r), product(z), expected(z);
     matrix.take(right, 1, r);
-    preconditioner.apply(r, alone);
-    preconditioner.apply(r, z, product);
+    preconditioner->apply(r, alone);
+    preconditioner->apply(r, z, product);
     EXPECT_EQ(z, alone);
     matrix.multiply(z, expected);
     double apart = 0, whole = 0;

@@ -9,7 +9,7 @@
 #include "fem/p2p1_tetrahedron.hpp"
 #include "fem/p2p1_triangle.hpp"
 #include "linear/velocity_pressure/fast_solver.hpp"
-#include "linear/velocity_pressure/velocity_pressure_preconditioner.hpp"
+#include "linear/velocity_pressure/momentum_inverse.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesher/artery_generator.hpp"
 #include "support/linear_systems.hpp"
@@ -140,11 +140,11 @@ double wall_stiffness(Scene<3>& scene, double step) {
   VelocityPressureLayout<3> layout(system.blocks());
   VelocityPressureMatrix<3> matrix(system.blocks(), layout);
   matrix.fill();
-  VelocityPressurePreconditioner<3> preconditioner(matrix);
-  preconditioner.set_up();
-  EXPECT_EQ(preconditioner.has_wall_levels(),
-            preconditioner.wall_stiffness() >= VelocityPressurePreconditioner<3>::Options().coarse_from);
-  return preconditioner.wall_stiffness();
+  MomentumInverse<3> momentum(matrix);
+  const BlockPreconditionerChoices choices;
+  momentum.set_up(choices);
+  EXPECT_EQ(momentum.has_wall_levels(), momentum.wall_stiffness() >= choices.coarse_from);
+  return momentum.wall_stiffness();
 }
 
 // Row sums of a quadratic mass matrix are negative at vertices: taken node by node, any wall would seem stiff.
@@ -198,12 +198,12 @@ TEST(FastSolverTaylorHood, TwoDimensionsByIteration) {
 TEST(FastSolverTaylorHood, TwoDimensionsAreFactorisedWhereThreeAreNot) {
   const auto scene = artery_section();
   System<2> system("scene", *scene, number_scene(*scene));
-  ASSERT_GT(system.blocks().numbering.size, FastOptions::standard_direct_below(3));
-  ASSERT_LT(system.blocks().numbering.size, FastOptions::standard_direct_below(2));
+  ASSERT_GT(system.blocks().numbering.size, SolverPolicy::standard_limit(SolvedSystem::jacobian, 3));
+  ASSERT_LT(system.blocks().numbering.size, SolverPolicy::standard_limit(SolvedSystem::jacobian, 2));
   EXPECT_TRUE(FastSolver<2>(system.blocks()).uses_factorisation());
   EXPECT_FALSE(FastSolver<2>(system.blocks(), iterative()).uses_factorisation());
   FastOptions options;
-  options.direct_below = FastOptions::standard_direct_below(3);
+  options.direct_below = SolverPolicy::standard_limit(SolvedSystem::jacobian, 3);
   EXPECT_FALSE(FastSolver<2>(system.blocks(), options).uses_factorisation());
 }
 
@@ -253,11 +253,11 @@ TEST(FastSolverTaylorHood, FactorsInThePlaneThatDoNotGetThereAreReplacedUntilThe
 TEST(FastSolverTaylorHood, LargerPlaneSystemsAreIteratedWhereTheWallsInertiaPrevails) {
   const auto scene = artery_section(300);
   System<2> system("scene", *scene, number_scene(*scene));
-  ASSERT_GT(system.blocks().numbering.size, FastOptions::judged_from);
-  ASSERT_LT(system.blocks().numbering.size, FastOptions::standard_direct_below(2));
+  ASSERT_GT(system.blocks().numbering.size, SolverPolicy::wall_decides_from);
+  ASSERT_LT(system.blocks().numbering.size, SolverPolicy::standard_limit(SolvedSystem::jacobian, 2));
   FastSolver<2> solver(system.blocks());
   FastOptions named;
-  named.direct_below = FastOptions::standard_direct_below(2);
+  named.direct_below = SolverPolicy::standard_limit(SolvedSystem::jacobian, 2);
   EXPECT_NE(solver.decides(), "");
   EXPECT_EQ(FastSolver<2>(system.blocks(), named).decides(), "");
   State state = scene->at_rest();

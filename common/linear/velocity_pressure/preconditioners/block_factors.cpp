@@ -1,0 +1,82 @@
+// linear.preconditioner = "block-factors", the default.
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "fem/dimensions.hpp"
+#include "linear/velocity_pressure/flow_preconditioner.hpp"
+#include "linear/velocity_pressure/flow_schur_complement.hpp"
+#include "linear/velocity_pressure/momentum_inverse.hpp"
+
+namespace fsi {
+
+/// The block factors of F with the diagonal D (MomentumDiagonals) in place of A where pressures are sought:
+///   p = S^-1 (r_p - B D^-1 r_v),  v = A^-1 (r_v - G p).
+template <int n>
+class BlockFactors : public FlowPreconditioner<n> {
+ public:
+  using Matrix = VelocityPressureMatrix<n>;
+
+  explicit BlockFactors(const Matrix& matrix)
+      : FlowPreconditioner<n>(matrix),
+        momentum_(matrix),
+        schur_(matrix),
+        right_(matrix.velocity_size()),
+        velocity_(matrix.velocity_size()),
+        pressure_(matrix.layout().pressures) {}
+
+  void set_up(const BlockPreconditionerChoices& choices) override {
+    momentum_.set_up(choices);
+    schur_.set_up(choices, momentum_);
+  }
+
+  void apply(VectorView<const float> r, VectorView<float> z) override {
+    const std::vector<float>& inverse_diagonal = momentum_.single_inverse_diagonal();
+    for (std::size_t i = 0; i < right_.size(); ++i) right_[i] = inverse_diagonal[i] * r[i];
+    schur_.apply(r.data() + matrix_.velocity_size(), right_, pressure_);
+    const int velocities = matrix_.layout().velocities;
+    parallel_for(velocities, velocities > 2000, [&](int v) {
+      const std::size_t at = static_cast<std::size_t>(v) * Matrix::lanes;
+      Matrix::store(Matrix::load(r.data() + at) - matrix_.gradient_product(v, pressure_.data()), right_.data() + at);
+    });
+    momentum_.apply(right_, velocity_);
+    std::copy(velocity_.begin(), velocity_.end(), z.begin());
+    std::copy(pressure_.begin(), pressure_.end(), z.begin() + static_cast<std::ptrdiff_t>(matrix_.velocity_size()));
+  }
+
+  /// A v + G p = r - right_ + A v.
+  void apply(VectorView<const float> r, VectorView<float> z, VectorView<float> product) override {
+    apply(r, z);
+    momentum_.for_velocities([&](int v) {
+      const std::size_t at = static_cast<std::size_t>(v) * Matrix::lanes;
+      Matrix::store(momentum_.row(Matrix::load(r.data() + at), v), product.data() + at);
+    });
+    matrix_.multiply_continuity(z, product);
+  }
+
+  std::size_t bytes() const override {
+    return momentum_.bytes() + schur_.bytes() + sizeof(float) * (right_.size() + velocity_.size() + pressure_.size());
+  }
+  int levels() const override { return schur_.inverse().levels(); }
+  double operator_complexity() const override { return schur_.inverse().operator_complexity(); }
+
+ private:
+  using FlowPreconditioner<n>::matrix_;
+
+  MomentumInverse<n> momentum_;
+  FlowSchurComplement<n> schur_;
+  std::vector<float> right_, velocity_, pressure_;
+};
+
+template <int n>
+std::unique_ptr<FlowPreconditioner<n>> make_block_factors(const VelocityPressureMatrix<n>& matrix) {
+  return std::make_unique<BlockFactors<n>>(matrix);
+}
+
+#define FSI_INSTANTIATE(n) \
+  template std::unique_ptr<FlowPreconditioner<n>> make_block_factors(const VelocityPressureMatrix<n>&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi
