@@ -106,6 +106,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const 
     if (!blocks.numbering.processes->is_alone())
       throw InputError(setup.path.string(), "monolithic.linear_solver", "\"" + name + "\" works on one process",
                        "start the program without mpirun, or give " + one_of(general_solver_names()));
+    refuse_preconditioner(setup.linear.fast, "\"" + name + "\"");
     if (blocks.mesh_tangent) refuse_nonlinear_mesh_motion(setup, what);
     if (!blocks.coupled()) break;  // not for one medium: the message comes below
     refuse_pressures_per_layer(setup, *blocks.wall_nodes, what);

@@ -1,6 +1,7 @@
 #include "linear/choice/general_solvers.hpp"
 
 #include <fmt/format.h>
+
 #include <array>
 #include <string_view>
 
@@ -14,12 +15,6 @@
 
 namespace fsi {
 
-namespace {
-
-template <int n>
-using Blocks = JacobianBlocks<n>;
-
-/// Refuses a preconditioner that is named for `fast` on one process where nothing iterates with it.
 void refuse_preconditioner(const FastOptions& fast, const std::string& where) {
   if (fast.preconditioner == flow_preconditioner_list[0]) return;
   throw InputError(
@@ -27,6 +22,11 @@ void refuse_preconditioner(const FastOptions& fast, const std::string& where) {
       "\"" + fast.preconditioner + "\" is a preconditioner of \"fast\" on one process, and there is none for " + where,
       "leave it out, or start the program without mpirun and with linear_solver = \"fast\"");
 }
+
+namespace {
+
+template <int n>
+using Blocks = JacobianBlocks<n>;
 
 template <int n>
 std::unique_ptr<LinearSolver> make_fast(const Blocks<n>& blocks, const FastOptions& fast) {

@@ -11,6 +11,11 @@ namespace fsi {
 /// Whether `name` serves any scene and any sub-problem.
 bool is_general_solver(const std::string& name);
 
+/// Refuses a `linear.preconditioner` other than the default where nothing iterates with it.
+/// \param where  what runs in place of `fast` on one process
+/// \throws InputError
+void refuse_preconditioner(const FastOptions& fast, const std::string& where);
+
 /// Makes the linear solver `name`, one of general_solver_names(), for a scene or sub-problem of as many processes as
 /// share out the blocks' numbering: on several FastOnProcesses stands in for "fast", and MUMPS for the sparse factorisation.
 /// \throws InputError for "petsc" in a build without it

@@ -408,6 +408,9 @@ const std::vector<BadCase>& bad_cases() {
        "[newton]\ntolerance = 1e-8\n[monolithic]\nnewton_tolerance = 1e-6",
        "case.toml:30: monolithic.newton_tolerance: stands beside newton.tolerance, another name of the same; keep "
        "newton.tolerance"},
+      {"PreconditionerUnknown", coupled_case, "[monolithic]", "[linear]\npreconditioner = \"simples\"\n[monolithic]",
+       "case.toml:28: linear.preconditioner: \"simples\" is unknown; did you mean simple? There are block-factors or "
+       "simple"},
       {"TwoFormerNamesOfOneKey", coupled_case, "[partitioned]\nscheme = \"aitken\"",
        "direct_below = 5\n[partitioned]\ndirect_below = 7",
        "case.toml:32: partitioned.direct_below: stands beside monolithic.direct_below, another name of the same; keep "
