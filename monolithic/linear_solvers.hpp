@@ -28,7 +28,7 @@ void refuse_nonlinear_mesh_motion(const Case& setup, const std::string& what);
 ///   diagonal lower upper ssor ilu   GMRES with a block preconditioner, one multigrid cycle for each sub-problem's
 ///                                   inverse; with _exact at the end of the name, factorisations
 ///   amg amli                        cycles of the coupled multigrid, alone; with _gmres or _fgmres, inside these
-/// \throws InputError when the solver needs fluid and wall and the scene lacks one of them, or when it needs one wall
+/// \throws InputError when the solver needs fluid and wall and the scene has one alone, or when it needs one wall
 /// pressure where layers meet and they have their own, planes of symmetry normal to axes, or a linear mesh motion
 template <int n>
 std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const Case& setup,

@@ -50,7 +50,7 @@ class Agreement {
   static constexpr double sub_problem_rounding =
       1e-13;  ///< below it increments of their Newton iterations are rounding
   /// Relative interface residual that is rounding of the displacements: no pass makes it smaller, also where steps are so
-  /// short that it is worth a pressure.
+  /// short that it stands for a pressure.
   static constexpr double displacement_rounding = 1e-13;
 
   const PartitionedData& options_;

@@ -91,7 +91,7 @@ class CouplingStepper : public Stepper {
   virtual std::string distance_from_demand() const;
   /// Whether a pass that agrees is taken as far as the final tolerance of the sub-problems.
   virtual bool refines() const { return true; }
-  /// What the accepted pass lacks, relative to what the step changes: with rho the ratio of its residual and that of
+  /// The error of the accepted pass, relative to what the step changes: with rho the ratio of its residual and that of
   /// the pass before, rho / (1 - rho) times what the fields have changed since, as NewtonReport::error has it. Of a pass
   /// without one before, or with a larger residual, the interface's relative residuals, of displacement and pressures.
   virtual double estimated_error(const State& state, const StepData& data, const GoodPass& good) const;

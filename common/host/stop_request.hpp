@@ -19,7 +19,7 @@ void request_stop(int signal) noexcept;
 /// The signal that has been noted; 0: none.
 int requested_stop() noexcept;
 
-/// The same for who looks now and again while it computes, on the main thread: the time between two looks is how long a
+/// The same for a computation that looks now and again, on the main thread: the time between two looks is how long a
 /// signal may wait.
 int look_for_stop() noexcept;
 

@@ -30,7 +30,7 @@ class Accelerator {
   virtual void abandon() {}
   /// From here on r is another function, much alike: of a shorter step, or a longer one.
   virtual void change(bool /*longer*/) {}
-  /// Where |r| will be small enough. Told before each correction, for those who work no further than that.
+  /// Where |r| will be small enough. Told before each correction, for passes that work no further than that.
   virtual void aim(double /*residual*/) {}
   virtual AcceleratorStatus status() const = 0;
   /// The next residual may come from sub-problems solved in another way than the last: it is not compared with it

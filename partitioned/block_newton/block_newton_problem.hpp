@@ -29,7 +29,7 @@ struct BlockNewtonCost {
 ///
 /// Unknowns are the fluid with its domain, which follows its velocity u on the interface, the wall with its displacement d,
 /// and the datum v of the Robin condition. F and W being the momentum rows of fluid and wall on the interface, and C nodal
-/// areas times an impedance, what lacks is
+/// areas times an impedance, the residual is
 ///   F + W              the balance: rows of the wall, whose load is F,
 ///   C_1 (v(d) - u)     the kinematics as a force, v(d) being the wall's velocity and C_1 the membrane's C,
 /// and the rows of both media away from the interface. The datum enters linearly, and alone F + C (u - v) = 0: at each
@@ -69,7 +69,7 @@ class BlockNewtonProblem : public NewtonProblem {
   double relative_pressure() const;
   /// The same in kPa, root mean square over the interface.
   double gap_pressure() const;
-  /// All that lacks over the force between fluid and wall.
+  /// The whole residual over the force between fluid and wall.
   double relative_residual() const;
   const System<n>& fluid() const { return fluid_; }
   const System<n>& wall() const { return wall_; }

@@ -94,13 +94,13 @@ class CouplingPass {
   /// \throws ConvergenceError when a nonlinear mesh motion finds no way there
   virtual void follow_wall() { move_mesh_to_wall(); }
 
-  /// What a gap between fluid and wall is worth as a pressure, kPa/mm: the load that moves the wall by it within the
+  /// The pressure of a gap between fluid and wall, kPa/mm: the load that moves the wall by it within the
   /// stage. The fluid's pressure is off by that much, whatever the scheme: where the added mass is large it takes up what
-  /// the wall lacks (docs/coupling.md).
+  /// the wall has not (docs/coupling.md).
   virtual double pressure_per_gap() const { return push_stiffness(); }
   /// The pressure, kPa, that moves the wall by its own thickness within the stage.
   double pressure_of_thickness() const { return push_stiffness() * membrane_.thickness; }
-  /// The pressure that r(x) is worth, relative to the force between fluid and wall: Euclidean norms of nodal forces.
+  /// The pressure that would close the gap r(x), relative to the force between fluid and wall: Euclidean norms of nodal forces.
   virtual double pressure_residual(const std::vector<double>& residual) const {
     return relative_gap_pressure(scene_, membrane_, wall_.numbering(), *data_, residual);
   }
@@ -132,7 +132,7 @@ class CouplingPass {
     return std::sqrt(scene_.processes().sum(sum));
   }
 
-  /// What the momentum balance on the interface lacks when the fluid is given the wall's answer there, relative to the
+  /// The residual of the momentum balance on the interface when the fluid is given the wall's response, relative to the
   /// force between them: the interface rows of the monolithic residual of this iterate, Euclidean norm.
   double force_residual() {
     const Stopwatch watch(cost.fluid_seconds);
@@ -261,7 +261,7 @@ class CouplingPass {
 
   static constexpr double linearised_tolerance = 1e-4;
   /// Of Newton's method on the wall, before its Jacobian is renewed. Fibres that switch on and off make the tangent
-  /// jump to and fro while the iterates of a step lie close together: an old Jacobian is worth keeping longer than
+  /// jump to and fro while the iterates of a step lie close together: an old Jacobian serves longer than
   /// elsewhere (artery: a quarter of the factorisations that 0.4 takes).
   static constexpr double wall_contraction = 0.6;
 

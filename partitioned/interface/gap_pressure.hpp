@@ -12,7 +12,7 @@
 
 namespace fsi {
 
-/// What a gap between fluid and wall is worth as a pressure, relative to the force between them: Euclidean norms of nodal
+/// The pressure that would close a gap between fluid and wall, relative to the force between them: Euclidean norms of nodal
 /// forces, the gap's being Membrane::push_stiffness() times the nodes' areas.
 /// \param numbering  of the wall; held components bear no force
 /// \param gap        n numbers per interface node, mm
@@ -59,7 +59,7 @@ double root_mean_traction(const Scene<n>& scene, const Membrane& membrane, const
   return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0.0;
 }
 
-/// What a gap is worth as a pressure, kPa: root mean square over the interface.
+/// The pressure that would close a gap, kPa: root mean square over the interface.
 /// \param per_gap  kPa/mm \param gap  n numbers per interface node, mm
 template <int n>
 double mean_gap_pressure(const Scene<n>& scene, const Membrane& membrane, const Numbering& numbering, double per_gap,

@@ -76,7 +76,7 @@ inline void solve_sub_problem(const std::string& name, NewtonProblem& problem, d
     report = std::move(next);
     if (!report.converged) break;
     if (problem.negligible(report.iterations.back().increment, field_share * tolerance)) return;
-    options.stop_at_rounding = false;  // of a residual whose largest rows are not those that lack
+    options.stop_at_rounding = false;  // of a residual whose largest rows are not those out of balance
   }
   if (report.converged) return;
   std::vector<std::string> history{fmt::format("{} sub-problem, first residual {:.3e}", name, report.first_residual)};

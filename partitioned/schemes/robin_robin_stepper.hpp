@@ -11,7 +11,7 @@
 namespace fsi {
 
 /// The loosely coupled Robin-Robin scheme (interface/robin_robin.hpp): a step is one pass, the wall and then the fluid. Where
-/// the load has jumped steps are iterated: else what one pass lacks of the jump swings between fluid and wall for long, the
+/// the load has jumped steps are iterated: else what one pass leaves of the jump swings between fluid and wall for long, the
 /// faster the shorter the steps (docs/theory.md, section 10.5).
 template <int n>
 class RobinRobinStepper : public CouplingStepper<n> {
@@ -24,7 +24,7 @@ class RobinRobinStepper : public CouplingStepper<n> {
   RobinRobinStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme,
                     std::unique_ptr<RobinRobin<n>> problem);
 
-  /// For tests and for who corrects it.
+  /// For tests and for the scheme that corrects it.
   const RobinRobin<n>& robin_robin() const { return problem_; }
 
   std::optional<CouplingMethod> coupling_method() const override;

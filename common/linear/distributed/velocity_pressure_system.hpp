@@ -15,7 +15,7 @@
 namespace fsi {
 
 /// The Jacobian of velocities and pressures F = [A G; B C], by rows of all processes: products with it in single precision
-/// (SharedProducts), and as matrices of PETSc its Schur complement S = C - B D^-1 G and, for those who ask, A. Of the mesh
+/// (SharedProducts), and as matrices of PETSc its Schur complement S = C - B D^-1 G and, for callers that ask, A. Of the mesh
 /// motion A has what InterfaceShapeDerivatives gives. All numbers go to places that are worked out once: A, in blocks of n x n,
 /// straight into PETSc's arrays, those of the others as ListedMatrix does.
 template <int n>

@@ -62,9 +62,9 @@ class CondensedIteration {
 
  private:
   /// Of the mesh motion that the mesh equations' own residual asks for: it enters the flow's right-hand side only, and
-  /// what it lacks comes back in the next residual.
+  /// what it leaves comes back in the next residual.
   static constexpr double mesh_rows_tolerance = 1e-3;
-  /// Of a correction's mesh motion, over that of its velocities and pressures, and at most. What it lacks is a residual
+  /// Of a correction's mesh motion, over that of its velocities and pressures, and at most. What it leaves is a residual
   /// of the mesh equations, and the next correction's. So a solution of Newton's method holds them as well as the others.
   static constexpr double extension_share = 0.01, loosest_extension = 1e-3;
   /// Of linear solves whose residual may be computed in single precision.
@@ -74,7 +74,7 @@ class CondensedIteration {
   /// Of rows, which all processes have some of.
   double norm_of_all(const std::vector<double>& x) const;
 
-  /// |b - J correction| / norm_b where `product_at_rest` is worth the digits of `tolerance`, else infinite. The mesh's own
+  /// |b - J correction| / norm_b where `product_at_rest` has the digits of `tolerance`, else infinite. The mesh's own
   /// equations, which factors solve to six digits, are left out.
   double quick_residual(const std::vector<double>& b, double norm_b, double tolerance,
                         const ProductAtRest& product_at_rest);

@@ -161,7 +161,7 @@ void FastSolver<n>::make_factors() {
 
 template <int n>
 void FastSolver<n>::make_whole_factors() {
-  // Newton's method asks for a few digits of each increment of a coupled system; those who make one of it by parts learn
+  // Newton's method asks for a few digits of each increment of a coupled system; callers that make one of it by parts learn
   // from differences of solutions, and want all digits.
   if (!direct_) direct_ = std::make_unique<DirectLinearSolver<n>>(blocks_, factors(blocks_.coupled(), blocks_));
 }
