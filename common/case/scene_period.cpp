@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "case/case_entry.hpp"
 #include "case/network_data.hpp"
 #include "case/openings.hpp"
 #include "time/fitting_step.hpp"

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "case/case_entry.hpp"
 #include "case/openings.hpp"
 
 namespace fsi {
