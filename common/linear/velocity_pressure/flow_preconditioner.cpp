@@ -6,6 +6,7 @@
 
 namespace fsi {
 
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define FSI_ROW(name, make) \
   template <int n>          \
   std::unique_ptr<FlowPreconditioner<n>> make(const VelocityPressureMatrix<n>& matrix);
@@ -27,5 +28,6 @@ std::unique_ptr<FlowPreconditioner<n>> make_flow_preconditioner(const std::strin
                                                                            const VelocityPressureMatrix<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fsi

@@ -63,7 +63,7 @@ class JacobianPolicy {
   SolverDecision decide() {
     if (!wall_decides_) return policy_.decide(size_);
     if (!stiffness_) return *of_wall_;
-    const SolverDecision decision = policy_.decide_by_wall(stiffness_->over_inertia());
+    SolverDecision decision = policy_.decide_by_wall(stiffness_->over_inertia());
     if (of_wall_) *of_wall_ = decision;
     return decision;
   }

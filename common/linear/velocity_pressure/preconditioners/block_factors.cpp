@@ -74,9 +74,11 @@ std::unique_ptr<FlowPreconditioner<n>> make_block_factors(const VelocityPressure
   return std::make_unique<BlockFactors<n>>(matrix);
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define FSI_INSTANTIATE(n) \
   template std::unique_ptr<FlowPreconditioner<n>> make_block_factors(const VelocityPressureMatrix<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fsi

@@ -66,9 +66,11 @@ std::unique_ptr<FlowPreconditioner<n>> make_simple(const VelocityPressureMatrix<
   return std::make_unique<Simple<n>>(matrix);
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define FSI_INSTANTIATE(n) \
   template std::unique_ptr<FlowPreconditioner<n>> make_simple(const VelocityPressureMatrix<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fsi
