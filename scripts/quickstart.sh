@@ -52,7 +52,7 @@ stage "report" "$build/bin/fsi-compare" report "$results/monolithic" -o "$result
 echo
 echo "The first report: $PWD/$results/report/report.html. The other driver and the paper's study follow."
 echo
-stage "build, partitioned" build_programs fsi-partitioned
+stage "build, partitioned" build_programs fsi-partitioned fsi-linear-study
 stage "partitioned run" "$build/bin/fsi-partitioned" "$case_file" --set mesh.file="${mesh##*/}" -o "$results/partitioned"
 stage "comparison" "$build/bin/fsi-compare" pressure "$results/monolithic" "$results/partitioned" -o "$results/compare"
 stage "study of the paper" "$build/bin/fsi-compare" study paper --quick -o "$results/paper"
