@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(TOP / "scripts"))
+sys.path.insert(0, str(TOP / "scripts/evidence"))
 
 import coupling_kinds  # noqa: E402
 from kept_blocks import (  # noqa: E402
@@ -148,7 +148,7 @@ class Numbers(unittest.TestCase):
 
     def test_every_scene_with_both_media_is_measured(self):
         scenes = {path.parent.name: path.read_text(encoding="utf-8") for path in TOP.glob("gallery/*/scene.py")}
-        unmeasured = {"flap-in-merging-jets"}  # takes many minutes by each driver: scripts/coupling_kinds.py says so
+        unmeasured = {"flap-in-merging-jets"}  # takes many minutes by each driver
         both = {name for name, text in scenes.items() if "DRIVERS = " not in text and self.has_both(name)} - unmeasured
         self.assertGreater(len(both), 15)
         self.assertLessEqual(both, {scene.case.stem for scene in coupling_kinds.SCENES})

@@ -9,7 +9,7 @@ from ..base.files import read_object
 from .waves import QUANTITIES, Quantity, Waves, read_waves
 
 FILE = "reference.json"
-REMEDY = "make it with scripts/reference_waves.py"
+REMEDY = "make it with scripts/evidence/reference_waves.py"
 
 
 @dataclass(frozen=True)

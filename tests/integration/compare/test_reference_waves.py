@@ -1,4 +1,4 @@
-"""scripts/reference_waves.py: what the references of the accuracy study are extrapolated from, and how well."""
+"""scripts/evidence/reference_waves.py: what the references of the accuracy study are extrapolated from, and how well."""
 
 import importlib.util
 import unittest
@@ -9,7 +9,7 @@ import numpy as np
 import synthetic  # noqa: F401  (finds the package)
 from fsi_compare.runs.waves import PRESSURE, Waves
 
-SCRIPT = Path(__file__).resolve().parents[3] / "scripts/reference_waves.py"
+SCRIPT = Path(__file__).resolve().parents[3] / "scripts/evidence/reference_waves.py"
 specification = importlib.util.spec_from_file_location("reference_waves", SCRIPT)
 reference_waves = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(reference_waves)

@@ -17,7 +17,7 @@ from fsi_compare.reporting.column import Column
 from fsi_compare.reporting.layout import Table
 from fsi_compare.reporting.report import Report
 
-SCRIPT = Path(__file__).resolve().parents[3] / "scripts/keep_study.py"
+SCRIPT = Path(__file__).resolve().parents[3] / "scripts/evidence/keep_study.py"
 specification = importlib.util.spec_from_file_location("keep_study", SCRIPT)
 keep_study = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(keep_study)
@@ -94,7 +94,7 @@ class OneFile(FolderCase):
         self.assertIn("![line](line.png)\n\nA line, in `mm`\n", text)
 
     def test_kept_in_docs(self):
-        """By scripts/keep_study.py: without the table of all runs, pictures found from where the text then lies."""
+        """By scripts/evidence/keep_study.py: without the table of all runs, pictures found from where the text then lies."""
         report = self.report()
         report.section("All runs")
         report.text("Hundreds of them.")

@@ -44,7 +44,7 @@ class FirstScreen(FolderTest):
 
     def test_the_picture_is_drawn_from_the_kept_numbers(self):
         picture = self.base / "picture.png"
-        process = execute(sys.executable, "-B", ROOT / "scripts" / "readme_picture.py", "-o", picture)
+        process = execute(sys.executable, "-B", ROOT / "scripts" / "evidence" / "readme_picture.py", "-o", picture)
         self.assertEqual((process.returncode, process.stderr), (0, ""))
         kept = (ROOT / "docs" / "pictures" / "artery-both-drivers.png").read_bytes()
         self.assertEqual(picture.read_bytes()[:24], kept[:24])  # a PNG file of the same width and height

@@ -5,31 +5,18 @@
 #include <vector>
 
 #include "fem/dimensions.hpp"
-#include "linear/velocity_pressure/flow_preconditioner.hpp"
-#include "linear/velocity_pressure/flow_schur_complement.hpp"
-#include "linear/velocity_pressure/momentum_inverse.hpp"
+#include "linear/velocity_pressure/momentum_and_schur.hpp"
 
 namespace fsi {
 
 /// The block factors of F with the diagonal D (MomentumDiagonals) in place of A where pressures are sought:
 ///   p = S^-1 (r_p - B D^-1 r_v),  v = A^-1 (r_v - G p).
 template <int n>
-class BlockFactors : public FlowPreconditioner<n> {
+class BlockFactors : public MomentumAndSchur<n> {
  public:
   using Matrix = VelocityPressureMatrix<n>;
 
-  explicit BlockFactors(const Matrix& matrix)
-      : FlowPreconditioner<n>(matrix),
-        momentum_(matrix),
-        schur_(matrix),
-        right_(matrix.velocity_size()),
-        velocity_(matrix.velocity_size()),
-        pressure_(matrix.layout().pressures) {}
-
-  void set_up(const BlockPreconditionerChoices& choices) override {
-    momentum_.set_up(choices);
-    schur_.set_up(choices, momentum_);
-  }
+  using MomentumAndSchur<n>::MomentumAndSchur;
 
   void apply(VectorView<const float> r, VectorView<float> z) override {
     const std::vector<float>& inverse_diagonal = momentum_.single_inverse_diagonal();
@@ -55,18 +42,13 @@ class BlockFactors : public FlowPreconditioner<n> {
     matrix_.multiply_continuity(z, product);
   }
 
-  std::size_t bytes() const override {
-    return momentum_.bytes() + schur_.bytes() + sizeof(float) * (right_.size() + velocity_.size() + pressure_.size());
-  }
-  int levels() const override { return schur_.inverse().levels(); }
-  double operator_complexity() const override { return schur_.inverse().operator_complexity(); }
-
  private:
   using FlowPreconditioner<n>::matrix_;
-
-  MomentumInverse<n> momentum_;
-  FlowSchurComplement<n> schur_;
-  std::vector<float> right_, velocity_, pressure_;
+  using MomentumAndSchur<n>::momentum_;
+  using MomentumAndSchur<n>::pressure_;
+  using MomentumAndSchur<n>::right_;
+  using MomentumAndSchur<n>::schur_;
+  using MomentumAndSchur<n>::velocity_;
 };
 
 template <int n>

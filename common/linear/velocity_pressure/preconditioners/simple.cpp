@@ -2,12 +2,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 #include "fem/dimensions.hpp"
-#include "linear/velocity_pressure/flow_preconditioner.hpp"
-#include "linear/velocity_pressure/flow_schur_complement.hpp"
-#include "linear/velocity_pressure/momentum_inverse.hpp"
+#include "linear/velocity_pressure/momentum_and_schur.hpp"
 
 namespace fsi {
 
@@ -15,23 +12,11 @@ namespace fsi {
 /// continuous, and a correction by the diagonal D (MomentumDiagonals) in place of A:
 ///   w = A^-1 r_v,  p = S^-1 (r_p - B w),  v = w - D^-1 G p.
 template <int n>
-class Simple : public FlowPreconditioner<n> {
+class Simple : public MomentumAndSchur<n> {
  public:
   using Matrix = VelocityPressureMatrix<n>;
+  using MomentumAndSchur<n>::MomentumAndSchur;
   using FlowPreconditioner<n>::apply;
-
-  explicit Simple(const Matrix& matrix)
-      : FlowPreconditioner<n>(matrix),
-        momentum_(matrix),
-        schur_(matrix),
-        right_(matrix.velocity_size()),
-        velocity_(matrix.velocity_size()),
-        pressure_(matrix.layout().pressures) {}
-
-  void set_up(const BlockPreconditionerChoices& choices) override {
-    momentum_.set_up(choices);
-    schur_.set_up(choices, momentum_);
-  }
 
   void apply(VectorView<const float> r, VectorView<float> z) override {
     std::copy_n(r.begin(), right_.size(), right_.begin());
@@ -47,18 +32,13 @@ class Simple : public FlowPreconditioner<n> {
     std::copy(pressure_.begin(), pressure_.end(), z.begin() + static_cast<std::ptrdiff_t>(matrix_.velocity_size()));
   }
 
-  std::size_t bytes() const override {
-    return momentum_.bytes() + schur_.bytes() + sizeof(float) * (right_.size() + velocity_.size() + pressure_.size());
-  }
-  int levels() const override { return schur_.inverse().levels(); }
-  double operator_complexity() const override { return schur_.inverse().operator_complexity(); }
-
  private:
   using FlowPreconditioner<n>::matrix_;
-
-  MomentumInverse<n> momentum_;
-  FlowSchurComplement<n> schur_;
-  std::vector<float> right_, velocity_, pressure_;
+  using MomentumAndSchur<n>::momentum_;
+  using MomentumAndSchur<n>::pressure_;
+  using MomentumAndSchur<n>::right_;
+  using MomentumAndSchur<n>::schur_;
+  using MomentumAndSchur<n>::velocity_;
 };
 
 template <int n>

@@ -81,7 +81,9 @@ def _check_runs(study: Study, plan: Plan, wrong: Wrong) -> None:
     for request in study.requests:
         if request.case not in plan.references:
             raise wrong(
-                "references", f"has none for the case '{request.case}'", "make it with scripts/reference_waves.py"
+                "references",
+                f"has none for the case '{request.case}'",
+                "make it with scripts/evidence/reference_waves.py",
             )
         step: Any = request.settings.get("time.step")
         end: Any = request.settings.get("time.end")

@@ -19,6 +19,7 @@ BEST = (  # the three schemes that need the fewest passes
 )
 REST = {"linestyle": "-", "marker": None, "color": "#b0b0b0", "linewidth": 1.0, "zorder": 2}
 NAME_SIZE, NAME_LINE = 7, 0.034  # points; of the height of the axes
+NAMES_FROM = 0.72  # of the figure's width: what is right of it is for the names
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,7 @@ class Series:
 def passes_figure(all_series: List[Series], xlabel: str, settings: Mapping[str, Any], bound: float) -> Figure:
     """Two logarithmic axes; above them a strip with a row per scheme that marks where it failed. Each line has its name at its
     right end; three have shapes. Answers further than `bound` from the monolithic ones are crossed out."""
-    figure = Figure(figsize=(7.4, 5.8))
+    figure = Figure(figsize=(9.6, 6.2))
     strip, axes = figure.subplots(2, 1, sharex=True, height_ratios=[1.5, 3])
     best = fewest_passes(all_series)
     lines: List[Line2D] = []
@@ -54,7 +55,9 @@ def passes_figure(all_series: List[Series], xlabel: str, settings: Mapping[str, 
     handles = [lines[i] for i in best] + crossed
     labels = [all_series[i].label for i in best] + [f"off by more than {100 * bound:g} %"] * len(crossed)
     tolerance = settings.get("partitioned.tolerance", 1e-6)
-    return finish(figure, handles, labels, f"Coupling iterations, tolerance {tolerance:g}")
+    figure = finish(figure, handles, labels, f"Coupling iterations, tolerance {tolerance:g}")
+    figure.subplots_adjust(right=NAMES_FROM)
+    return figure
 
 
 def fewest_passes(all_series: Sequence[Series]) -> List[int]:
@@ -83,7 +86,7 @@ def _name_ends(axes: Axes, lines: Sequence[Line2D], labels: Sequence[str]) -> No
     for height, across, words, color in sorted(texts, reverse=True):
         below = min(height, below - NAME_LINE)
         shade = "#606060" if color == REST["color"] else color
-        axes.annotate(
+        name = axes.annotate(
             words,
             (across, height),
             (1.01, below),
@@ -94,3 +97,4 @@ def _name_ends(axes: Axes, lines: Sequence[Line2D], labels: Sequence[str]) -> No
             va="center",
             arrowprops={"arrowstyle": "-", "color": "#bbbbbb", "linewidth": 0.5, "shrinkA": 0, "shrinkB": 3},
         )
+        name.set_in_layout(False)

@@ -1,7 +1,7 @@
-"""Keeps the gallery's page under docs/: text and tables as docs/gallery.md, pictures as docs/pictures/gallery-*.png. What
-all kinds of coupling take is measured apart, by scripts/coupling_kinds.py, and stands on docs/which.md alone.
+"""Keeps the gallery's page under docs/: text and tables as docs/evidence/gallery.md, pictures as docs/pictures/gallery-*.png. What
+all kinds of coupling take is measured apart, by scripts/evidence/coupling_kinds.py, and stands on docs/guide/coupling.md alone.
 
-usage: python3 scripts/keep_gallery.py FOLDER    (results/gallery, as fsi-compare gallery leaves it)
+usage: python3 scripts/evidence/keep_gallery.py FOLDER    (results/gallery, as fsi-compare gallery leaves it)
 """
 
 import re
@@ -18,7 +18,7 @@ COST = re.compile(
     re.I,
 )
 MEASURED = ("work units per step", "seconds")  # columns
-ELSEWHERE = "Seconds and memory of both drivers: [which.md](which.md).\n"
+ELSEWHERE = "Seconds and memory of both drivers: [guide/coupling.md](../guide/coupling.md).\n"
 
 
 def without_seconds(text: str) -> str:
@@ -42,8 +42,8 @@ def main(words: List[str]) -> int:
     folder = Path(words[0])
     try:
         text = (folder / "report.md").read_text(encoding="utf-8")
-        text = with_pictures(text, folder, TOP / "docs" / "pictures", "gallery", "pictures")
-        page = TOP / "docs" / "gallery.md"
+        text = with_pictures(text, folder, TOP / "docs" / "pictures", "gallery", "../pictures")
+        page = TOP / "docs" / "evidence" / "gallery.md"
         page.write_text(without_seconds(text), encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         fail(f"{folder}: {error}; run fsi-compare gallery first")

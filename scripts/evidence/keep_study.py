@@ -1,7 +1,7 @@
-"""Keeps the report of a finished study under docs/: its text and tables as docs/studies/NAME.md, its pictures as
+"""Keeps the report of a finished study under docs/: its text and tables as docs/evidence/NAME.md, its pictures as
 docs/pictures/NAME-*.png. The sections "All runs" and "All quantities" stay behind, as do pictures that the report does not show.
 
-usage: python3 scripts/keep_study.py FOLDER...    (results/studies/NAME, as fsi-compare study NAME leaves it)
+usage: python3 scripts/evidence/keep_study.py FOLDER...    (results/studies/NAME, as fsi-compare study NAME leaves it)
 """
 
 import os
@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 from typing import NoReturn
 
-TOP = Path(__file__).resolve().parents[1]
+TOP = Path(__file__).resolve().parents[2]
 LEFT_OUT = ("All runs", "All quantities")
 
 
@@ -26,7 +26,7 @@ def keep(folder: Path, docs: Path) -> Path:
         section for section in sections if not section.startswith(tuple(f"## {name}\n" for name in LEFT_OUT))
     )
     text = with_pictures(text, folder, docs / "pictures", name, "../pictures")
-    path = docs / "studies" / f"{name}.md"
+    path = docs / "evidence" / f"{name}.md"
     path.write_text(text, encoding="utf-8")
     return path
 

@@ -1,8 +1,8 @@
 """Draws the picture on README's first screen: the pressure wave of the artery by each kind of coupling, beside the seconds that each
-takes at equal error of the solver (scripts/coupling_kinds.py). The numbers lie in docs/data.
+takes at equal error of the solver (scripts/evidence/coupling_kinds.py). The numbers lie in docs/data.
 
-usage: python3 scripts/readme_picture.py [-o FILE.png]
-       python3 scripts/readme_picture.py --measure BIN WORK
+usage: python3 scripts/evidence/readme_picture.py [-o FILE.png]
+       python3 scripts/evidence/readme_picture.py --measure BIN WORK
   -o FILE.png          where the picture goes; docs/pictures/artery-both-drivers.png unless given
   --measure BIN WORK   makes the numbers of the wave anew, and the error that a run leaves for its seconds by mesh and step
                        (docs/which.md), with the programs of BIN (build/release/bin); WORK keeps meshes and runs. Minutes.
@@ -19,7 +19,7 @@ from coupling_kinds import BY_ERROR, METHODS
 from kept_blocks import BlockError, kinds
 from kept_tables import read_table
 
-TOP = Path(__file__).resolve().parents[1]
+TOP = Path(__file__).resolve().parents[2]
 DATA = TOP / "docs/data"
 WAVE, ERRORS = DATA / "artery-wave.csv", DATA / "artery-error-seconds.csv"
 SECONDS = DATA / "coupling-kinds.csv"
@@ -61,11 +61,11 @@ TOLERANCES = {"fsi-monolithic": BY_ERROR, "fsi-partitioned": (f"partitioned.tole
 
 RUN = f"PROGRAM {CASE} --threads 1 --set mesh.file=MESH --set 'time.scheme=\"midpoint\"' --set time.end={END}"
 BLOCK = "kind `block`: --set 'partitioned.scheme=\"block-newton\"'; `interface`: what fsi-partitioned chooses"
-WAVE_ORIGIN = f"""made by scripts/readme_picture.py --measure: centre-line pressure by each kind, tolerances of the case file
+WAVE_ORIGIN = f"""made by scripts/evidence/readme_picture.py --measure: centre-line pressure by each kind, tolerances of the case file
 {RUN} --set time.step={WAVE_STEP}
 {BLOCK}
 MESH: the axisymmetric p2p1 mesh of 6-2-2-96 cells of artery-error-seconds.csv"""
-ERRORS_ORIGIN = f"""made by scripts/readme_picture.py --measure: error of wall displacement or averaged pressure, the larger one
+ERRORS_ORIGIN = f"""made by scripts/evidence/readme_picture.py --measure: error of wall displacement or averaged pressure, the larger one
 {RUN} --set 'element="ELEMENT"' --set time.step=STEP
   and --set {' --set '.join(TOLERANCES['fsi-monolithic'])}, or --set {TOLERANCES['fsi-partitioned'][0]}
 {BLOCK}
@@ -221,7 +221,7 @@ def _draw_seconds(axes) -> None:
     try:
         scenes = [scene for scene in kinds(read_table(SECONDS)) if scene.at_equal_error("interface")]
     except (OSError, ValueError, BlockError) as error:
-        fail(f"{error}; scripts/coupling_kinds.py makes the table")
+        fail(f"{error}; scripts/evidence/coupling_kinds.py makes the table")
     column = "seconds at equal error"
     scenes.sort(key=lambda scene: -scene.ratio("interface", column))
     for offset, kind in ((0.2, "interface"), (-0.2, "block")):

@@ -1,11 +1,11 @@
 """Puts what pages quote from kept tables (docs/data/*.csv) where they quote it, so that no figure can be stale.
 
-usage: python3 scripts/kept_pages.py           writes the pages anew
-       python3 scripts/kept_pages.py --check   says what is stale, exit code 1, and writes nothing
+usage: python3 scripts/evidence/kept_pages.py           writes the pages anew
+       python3 scripts/evidence/kept_pages.py --check   says what is stale, exit code 1, and writes nothing
 
 How a page of docs/, or the README, quotes:
   <!-- from: data/NAME.csv --> ... <!-- end -->             the table as it is
-  <!-- from: data/NAME.csv, FUNCTION --> ... <!-- end -->   what a function of scripts/kept_blocks.py makes of it
+  <!-- from: data/NAME.csv, FUNCTION --> ... <!-- end -->   what a function of scripts/evidence/kept_blocks.py makes of it
   2.1<!-- NAME: column=value, column=value; COLUMN -->      a number: of the row with these values, with as many digits
   <!-- numbers: kept -->                                    on a page: it has no number but in code, links and what is above
 """
@@ -47,7 +47,7 @@ def renewed(text: str, data: Path) -> str:
         begin, name, function, _, end = match.groups()
         rows = table(name)
         if function is not None and function not in BLOCKS:
-            raise PageError(f"'{function}' is no function of scripts/kept_blocks.py")
+            raise PageError(f"'{function}' is no function of scripts/evidence/kept_blocks.py")
         try:
             made = BLOCKS[function](rows) if function else as_it_is(rows)
         except (BlockError, KeyError, ValueError, IndexError) as error:
@@ -133,7 +133,7 @@ def stale(top: Path, write: bool) -> List[str]:
                 pair for pair in zip(text.splitlines() + [""], new.splitlines() + [""]) if pair[0] != pair[1]
             )
             problems.append(
-                f"{page.relative_to(top)}: '{old[:100]}' should be '{now[:100]}'; run scripts/kept_pages.py"
+                f"{page.relative_to(top)}: '{old[:100]}' should be '{now[:100]}'; run scripts/evidence/kept_pages.py"
             )
     return problems
 
@@ -143,7 +143,7 @@ def main(words: List[str]) -> int:
         print(__doc__, file=sys.stderr)
         return 1
     try:
-        problems = stale(Path(__file__).resolve().parents[1], not words)
+        problems = stale(Path(__file__).resolve().parents[2], not words)
     except OSError as error:
         fail(str(error))
     for problem in problems:

@@ -1,4 +1,4 @@
-"""What pages say of kept tables beyond the tables themselves: blocks of text that scripts/kept_pages.py puts on them."""
+"""What pages say of kept tables beyond the tables themselves: blocks of text that scripts/evidence/kept_pages.py puts on them."""
 
 from statistics import median
 from typing import Callable, Dict, List, NamedTuple, Tuple

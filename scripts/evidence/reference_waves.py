@@ -4,7 +4,7 @@ scene (meshes/artery/axisymmetric), quadratic elements, a wall pressure that may
   compare/research/studies/references/MATERIAL         step and mesh to 0: the error of mesh and step
   compare/research/studies/references/MATERIAL-space   time step 0.125 ms, as the paper's cases: the error of the mesh alone
 
-usage: python3 scripts/reference_waves.py [--jobs N] BIN_DIR WORK_DIR MATERIAL...
+usage: python3 scripts/evidence/reference_waves.py [--jobs N] BIN_DIR WORK_DIR MATERIAL...
 
 WORK_DIR keeps the runs; those that are there are not made again. Three to five minutes of one idle core a material,
 the neo-Hookean one first.
@@ -21,7 +21,7 @@ from typing import Any, Dict, NamedTuple, Sequence
 
 import numpy as np
 
-TOP = Path(__file__).resolve().parents[1]
+TOP = Path(__file__).resolve().parents[2]
 REFERENCES = TOP / "compare/research/studies/references"
 sys.path[:0] = [str(TOP / "compare"), str(TOP / "compare/research")]
 

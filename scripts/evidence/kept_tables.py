@@ -4,7 +4,7 @@ import csv
 from pathlib import Path
 from typing import Dict, List, Sequence
 
-TOP = Path(__file__).resolve().parents[1]
+TOP = Path(__file__).resolve().parents[2]
 DATA = TOP / "docs" / "data"
 
 Row = Dict[str, str]

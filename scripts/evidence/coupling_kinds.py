@@ -1,7 +1,7 @@
 """Measures what each kind of coupling costs (docs/which.md) at equal error of the solver: the monolithic driver, `block-newton` and
 interface iterations by turns, on scenes of several kinds.
 
-usage: python3 scripts/coupling_kinds.py BIN WORK [--turns N] [--scenes NAME,...] [-o FILE]
+usage: python3 scripts/evidence/coupling_kinds.py BIN WORK [--turns N] [--scenes NAME,...] [-o FILE]
   BIN    folder of the programs, build/release/bin
   WORK   keeps meshes and runs
   --turns   runs of each, by turns; medians count (3)
@@ -28,7 +28,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
-TOP = Path(__file__).resolve().parents[1]
+TOP = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(TOP / "compare"))
 
 from fsi_compare.gallery.mesh_chain import make_mesh, with_places  # noqa: E402
@@ -47,7 +47,7 @@ MOST = 6  # tolerances of a method on the way to the monolithic run's error
 LOOSEST = 0.5  # above it a tolerance demands nothing
 ALIKE = 1.5  # factor within which two errors count as equal
 TABLES = ("centerline_pressure.csv", "wall_displacement.csv", "openings.csv", "points.csv")
-ORIGIN = """# made by scripts/coupling_kinds.py BIN WORK, programs of version {version}, {processor}, one thread
+ORIGIN = """# made by scripts/evidence/coupling_kinds.py BIN WORK, programs of version {version}, {processor}, one thread
 # seconds: processor seconds of the whole program, median of {turns} by turns; error: the largest relative Euclidean norm, over tables
 # and times, of what a run differs by from the monolithic driver with newton.tolerance = 1e-10. Two tolerances with their seconds and
 # errors are those whose errors enclose the monolithic run's; all behind them is read off between the two, memory: the larger one
