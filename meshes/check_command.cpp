@@ -277,7 +277,7 @@ class MeshDoctor {
   void quality() {
     const auto measured = measure_quality(mesh_);
     for (const auto& line : warnings_of(measured)) {
-      // Quadratic cells bear to be long and thin, and recommended meshes are made of them (docs/meshes.md).
+      // Quadratic cells bear to be long and thin, and recommended meshes are made of them (docs/guide/meshes.md).
       if (Order == 2 && measured.min_jacobian >= poor_jacobian)
         findings_.note(line);
       else

@@ -40,7 +40,7 @@ void print_report(const std::string& text, const std::string& file) {
         "give -q, or let it go to a disk with space");
 }
 
-/// Which cells the elements need, as measured on a bend and a bifurcation (docs/evidence.md). Empty for other meshes.
+/// Which cells the elements need, as measured on a bend and a bifurcation (docs/evidence/evidence.md). Empty for other meshes.
 template <int Dim, int Order>
 std::string advice_on(const SimplexMesh<Dim, Order>& mesh) {
   if constexpr (Dim == 3) {

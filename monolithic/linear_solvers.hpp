@@ -21,7 +21,7 @@ void refuse_turned_frames(const Case& setup, const NodalFrames<n>* fluid, const 
 /// For the same. \throws InputError when the case's mesh motion is not linear
 void refuse_nonlinear_mesh_motion(const Case& setup, const std::string& what);
 
-/// Makes the linear solver `name`, one of linear_solver_names() ([Langer2018], section 4; docs/solvers.md), with the
+/// Makes the linear solver `name`, one of linear_solver_names() ([Langer2018], section 4; docs/guide/solvers.md), with the
 /// settings of the case's [monolithic] and [linear]:
 ///   fast                            what a user should run, see FastSolver
 ///   direct                          sparse factorisation

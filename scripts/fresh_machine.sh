@@ -8,7 +8,7 @@
 #   --no-tests          without scripts/test.sh
 #   --serial            both commands with --serial: programs without MPI
 #   --short             packages, configuring, one program, and a run of it
-#   --package FILE.deb  not the sources: installs a Debian package and runs the commands of docs/tutorial.md by its programs
+#   --package FILE.deb  not the sources: installs a Debian package and runs the commands of docs/guide/tutorial.md by its programs
 #   --container         not README's commands: the steps of containers/Containerfile, and the entry point of what they make
 #   --suite NAME        which Debian: bookworm (12), trixie (13) or testing; otherwise bookworm
 #   --level v2|v3|v4    a lower processor level, x86-64-v3 for one: programs are compiled for it, and libraries that choose

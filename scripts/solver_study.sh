@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The runs behind docs/solvers.md: single Newton systems by every linear solver (the paper's Tables 3 to 5), stress
+# The runs behind docs/guide/solvers.md: single Newton systems by every linear solver (the paper's Tables 3 to 5), stress
 # cases, whole runs. Finished runs are kept; delete results/solvers to start afresh. On two cores about an hour and a
 # quarter, most of it the paper's methods on the fine mesh.
 #   scripts/solver_study.sh [FOLDER WITH THE PROGRAMS]      default: build/release/bin

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The runs behind docs/evidence.md: three materials, both drivers, coarse and intermediate mesh. About half an hour on two
+# The runs behind docs/evidence/evidence.md: three materials, both drivers, coarse and intermediate mesh. About half an hour on two
 # cores. Finished runs are kept; delete results/study to start afresh.
 #   scripts/study.sh [FOLDER WITH THE PROGRAMS]      default: build/release/bin
 set -euo pipefail

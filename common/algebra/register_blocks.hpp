@@ -22,7 +22,7 @@ template <int R, int C>
 struct RegisterBlocks {
   static constexpr int stride = C * padded<R>;  ///< floats a block
   /// Floats from a block in use to one that memory is asked for meanwhile, 4 KiB on. By themselves not all processors fetch
-  /// ahead as far (docs/performance.md). For loops through the rows from the last to the first: 4 KiB before.
+  /// ahead as far (docs/guide/solvers.md#speed). For loops through the rows from the last to the first: 4 KiB before.
   static constexpr std::ptrdiff_t ahead = 1024, behind = -ahead;
 
   std::vector<int> offsets{0}, columns;

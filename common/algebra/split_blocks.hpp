@@ -11,7 +11,7 @@ namespace fsi {
 
 /// A sparse matrix of dense n x n blocks in single precision as its lower triangle, the diagonal in it, and what lies above:
 /// either half of a symmetric Gauss-Seidel sweep reads one of them from end to end. Of whole rows it would need a half each,
-/// while the processor fetches ahead what follows: the other half (docs/performance.md).
+/// while the processor fetches ahead what follows: the other half (docs/guide/solvers.md#speed).
 template <int n>
 struct SplitBlocks {
   static constexpr int stride = RegisterBlocks<n, n>::stride;  ///< floats a block

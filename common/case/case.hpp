@@ -175,7 +175,7 @@ struct MultigridData {
 /// What [newton] leaves out.
 struct NewtonStandards {
   /// Of error_tolerance in a run of fixed steps that names neither this nor tolerance: leaves a tenth of the
-  /// discretisation's error at most (docs/evidence.md).
+  /// discretisation's error at most (docs/evidence/evidence.md).
   static constexpr double error_tolerance = 3e-3;
   static constexpr double error_tolerance_of_wall = 3e-4;  ///< the same of a wall without fluid
   /// Elsewhere.
@@ -247,7 +247,7 @@ struct EconomyData {
 struct Case {
   std::filesystem::path path;  ///< of the case file
   std::string title;
-  ElementPair element = ElementPair::p2p1;  ///< at equal seconds the more accurate one: docs/evidence.md
+  ElementPair element = ElementPair::p2p1;  ///< at equal seconds the more accurate one: docs/evidence/evidence.md
   Geometry geometry = Geometry::three_dimensional;
   Stabilisation stabilisation = Stabilisation::projected;
   MeshData mesh;

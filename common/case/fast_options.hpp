@@ -9,7 +9,7 @@
 namespace fsi {
 
 /// Options of the linear solver `fast`, here so that case files can set them. Defaults by measurement
-/// (docs/solvers.md).
+/// (docs/guide/solvers.md).
 struct FastOptions {
   /// Unknowns below which the matrix is factorised, however stiff a wall is; without it SolverPolicy decides.
   std::optional<std::int64_t> direct_below;

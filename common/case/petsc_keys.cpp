@@ -21,7 +21,7 @@ void check_petsc(const CaseEntry& entry, PetscData& petsc) {
     const bool option = word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]));
     if (option ? !begins_with(word, "-fsi_") : first)
       entry.refuse(fmt::format("options has \"{}\"", word),
-                   "give options that begin with -fsi_, each with its value behind it (docs/solvers.md)");
+                   "give options that begin with -fsi_, each with its value behind it (docs/guide/solvers.md)");
     for (const char* owned : {"-fsi_ksp_rtol", "-fsi_ksp_atol", "-fsi_ksp_max_it", "-fsi_mesh_ksp_rtol",
                               "-fsi_mesh_ksp_atol", "-fsi_mesh_ksp_max_it"})
       if (word == owned)

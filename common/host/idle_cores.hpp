@@ -54,7 +54,7 @@ ThreadChoice choose_threads(int asked, std::size_t tetrahedra, const CoreUse& us
 /// The same; looks at the cores only where that decides.
 ThreadChoice choose_threads(int asked, std::size_t tetrahedra, const CoreWatch& watch);
 
-/// Below it a second thread costs as much as it brings (docs/performance.md).
+/// Below it a second thread costs as much as it brings (docs/guide/solvers.md#speed).
 constexpr std::size_t tetrahedra_per_thread = 10000;
 
 }  // namespace fsi

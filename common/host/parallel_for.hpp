@@ -27,7 +27,7 @@ FSI_ONE_COPY void run_part(Index begin, Index end, const Body& body) {
 /// Calls body(i) for i = 0 .. count - 1: by all threads, an equal part of successive i each, where `shared` says that the
 /// loop is worth waking them for; else, and where there is one thread, here and without a team. OpenMP's own `if` makes a
 /// one-thread team, which takes as long to begin and end as a sum of some thousand products: for loops that are short and run
-/// often (docs/performance.md).
+/// often (docs/guide/solvers.md#speed).
 /// \param body  writes nothing that the body of another i reads or writes
 template <class Index, class Body>
 void parallel_for(Index count, bool shared, const Body& body) {

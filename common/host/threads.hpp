@@ -9,7 +9,7 @@ int threads();
 
 /// Lets waiting threads spin for a microsecond or so only, then sleep. On a core that another job wants, a thread that
 /// spins on uses up the time that the others wait for; one that sleeps at once is late where nobody wants its core
-/// (docs/performance.md). The runtime of OpenMP reads this from the environment before main() begins, so the program
+/// (docs/guide/solvers.md#speed). The runtime of OpenMP reads this from the environment before main() begins, so the program
 /// starts itself again; to be called first in main(). Does nothing where OMP_WAIT_POLICY or GOMP_SPINCOUNT is set.
 /// \param argv  as main() has it, ended by a null pointer
 void wait_briefly(const char* const* argv);

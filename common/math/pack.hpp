@@ -8,7 +8,7 @@
 namespace fsi {
 
 /// Doubles that one vector instruction handles. Element kernels use a pack as their scalar type, one element per lane.
-#if defined(FSI_PACK_WIDTH)  // only to measure other widths: docs/performance.md
+#if defined(FSI_PACK_WIDTH)  // only to measure other widths: docs/guide/solvers.md#speed
 inline constexpr int pack_width = FSI_PACK_WIDTH;
 #else
 inline constexpr int pack_width = vector_doubles;

@@ -13,7 +13,7 @@
 
 namespace fsi {
 
-/// How a harmonic extension is computed. Defaults by measurement (docs/solver-measurements.md).
+/// How a harmonic extension is computed. Defaults by measurement (docs/archive.md).
 struct HarmonicExtensionOptions {
   /// Inner nodes from which the iteration serves; without it SolverPolicy decides.
   std::optional<int> iterative_from;

@@ -9,8 +9,8 @@
 namespace fsi {
 
 /// What a run's seconds are divided by, so that those of two machines can be read together: the seconds of one product
-/// y = K x with the matrix of the whole scene, by the threads and processes of the run (docs/performance.md, "Work
-/// units").
+/// y = K x with the matrix of the whole scene, by the threads and processes of the run (docs/guide/solvers.md,
+/// "Work units").
 struct WorkUnit {
   double seconds = 0;        ///< of the fastest product
   int products = 0;          ///< that were timed; 0: the unit is not known

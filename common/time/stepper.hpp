@@ -32,10 +32,10 @@ struct CouplingReport {
 
 /// What one step took.
 struct StepReport {
-  int outer_iterations = 1;          ///< coupling iterations; 1 in a monolithic step
-  int newton_iterations = 0;         ///< all of the step
-  int linear_iterations = 0;         ///< Krylov iterations; 0 with direct solvers
-  double solver_error = 0;           ///< estimated, what solving this step left (docs/evidence.md, "The solver")
+  int outer_iterations = 1;   ///< coupling iterations; 1 in a monolithic step
+  int newton_iterations = 0;  ///< all of the step
+  int linear_iterations = 0;  ///< Krylov iterations; 0 with direct solvers
+  double solver_error = 0;    ///< estimated, what solving this step left (docs/evidence/evidence.md, "The solver")
   std::vector<std::string> history;  ///< convergence history, for the log
   std::optional<CouplingReport> coupling;
   std::vector<Balance> balances;       ///< what was solved, where Stepper::keep_balances() asked for it

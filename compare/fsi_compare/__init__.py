@@ -1,6 +1,6 @@
 """Starts the other programs as a user would, reads their result folders and compares them; never looks inside them.
 
-As a library (docs/python.md):
+As a library (docs/guide/reports.md#python):
 
     import fsi_compare
 

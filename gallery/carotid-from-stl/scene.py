@@ -14,7 +14,7 @@ How far these values are from the exact ones is not known for all. `fsi-compare 
 steps of 16 ms gives at 160 ms, by the monolithic driver: mean pressure of the inner branch 13.198 ± 0.015 kPa, of the
 outer one 13.14 ± 0.06 kPa, flow into the inner one 8.81 ± 0.03 mm^3/ms, whose bars are widened. The mean pressure of
 the common branch is 13.35 ± 0.38 kPa. So the drop from there to the inner branch, 0.23, 0.15 and 0.10 kPa with 4, 6 and
-9 edges per diameter, is not known (docs/verification.md, a vessel from a noisy surface).
+9 edges per diameter, is not known (docs/guide/accuracy.md#verify, a vessel from a noisy surface).
 """
 
 import numpy as np

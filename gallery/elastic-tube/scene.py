@@ -6,7 +6,7 @@ the tube in its middle; the point is on the inner face.
 
 Published runs of second order in time give 0.1598, 0.1595 and 0.1585 mm on finer and finer meshes. Backward Euler with 0.1 ms, which most
 codes use, stops at 0.121 mm. Here the limit of mesh and step is 0.1601 mm, the pressure acting on the area as it is. Codes of small
-strains load the undeformed area, which a formula for thin tubes puts at 1 % of the displacement (docs/references.md).
+strains load the undeformed area, which a formula for thin tubes puts at 1 % of the displacement (docs/evidence/references.md).
 
 The mesh has to resolve the layer at the wall in which the liquid's viscosity acts, sqrt(mu t/rho) = 0.1 mm at 3 ms. Cells of 0.44 mm
 leave half a percent there, which no refinement along the tube or through its wall mends.
@@ -24,7 +24,7 @@ QUICK_MESH = "geo tube.geo --order 2 --set along=30 --set across=8 --set through
 QUICK = {"time.step": 0.125, "time.end": 8}
 
 RADIAL, AXIAL, EULER = 0.15851, -0.08571, 0.121  # mm, published: the finest mesh, and backward Euler with 0.1 ms
-MODEL = {RADIAL: 0.01, AXIAL: 0.0}  # the load on the undeformed area, by a formula: docs/references.md
+MODEL = {RADIAL: 0.01, AXIAL: 0.0}  # the load on the undeformed area, by a formula: docs/evidence/references.md
 SPREAD = {RADIAL: (0.15978 - 0.15851) / 0.15851, AXIAL: (0.08819 - 0.08571) / 0.08571}  # of the three published meshes
 
 

@@ -1,4 +1,4 @@
-"""Measures what each kind of coupling costs (docs/which.md) at equal error of the solver: the monolithic driver, `block-newton` and
+"""Measures what each kind of coupling costs (docs/guide/coupling.md) at equal error of the solver: the monolithic driver, `block-newton` and
 interface iterations by turns, on scenes of several kinds.
 
 usage: python3 scripts/evidence/coupling_kinds.py BIN WORK [--turns N] [--scenes NAME,...] [-o FILE]

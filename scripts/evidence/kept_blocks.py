@@ -67,13 +67,13 @@ def kinds_answer(rows: List[Row]) -> str:
     def a_step(kind: str, column: str) -> str:
         return f"{median(float(getattr(scene, kind)[column]) for scene in scenes[kind]):.1f}"
 
-    passes = f"{a_step('interface', 'passes a step')} passes, each a solve of fluid and of wall"
+    passes = f"{a_step('interface', 'passes a step')} passes through fluid and wall"
     cycles = f"{a_step('block', 'passes a step')} cycles of each medium's preconditioner"
     newton = f"{a_step('monolithic', 'newton iterations a step')} Newton iterations"
     lines = [
         ["", *(f"`{kind}`" for kind in KINDS)],
         ["---"] * 4,
-        ["scenes at equal error, of those below", *(str(len(scenes[kind])) for kind in KINDS)],
+        ["scenes at equal error", *(str(len(scenes[kind])) for kind in KINDS)],
         ["seconds over monolithic: median (least to most)", *over("seconds at equal error")],
         ["work units over monolithic", *over("work units a step")],
         ["memory over monolithic", *over("MiB")],
@@ -154,8 +154,8 @@ def references_verdict(rows: List[Row]) -> str:
     held = [row for row in barred if _beyond(row) <= 1]
     far = max(barred, key=_beyond)
     lines = [
-        f"{len(barred)} of {len(rows)} numbers, each by each driver, have a bar. {len(held)} of these differ from the known value by no "
-        "more than their bar, what published values differ by among each other and, where these are of another model, what that is worth."
+        f"Of {len(rows)} values, each number by each driver, {len(barred)} have an error bar. {len(held)} of these differ from the known "
+        "value by no more than the bar, the spread of published values and, where these are of another model, the effect of that."
     ]
     if _beyond(far) > 1:
         lines.append(

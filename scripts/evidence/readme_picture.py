@@ -5,7 +5,7 @@ usage: python3 scripts/evidence/readme_picture.py [-o FILE.png]
        python3 scripts/evidence/readme_picture.py --measure BIN WORK
   -o FILE.png          where the picture goes; docs/pictures/artery-both-drivers.png unless given
   --measure BIN WORK   makes the numbers of the wave anew, and the error that a run leaves for its seconds by mesh and step
-                       (docs/which.md), with the programs of BIN (build/release/bin); WORK keeps meshes and runs. Minutes.
+                       (docs/guide/coupling.md), with the programs of BIN (build/release/bin); WORK keeps meshes and runs. Minutes.
 """
 
 import csv
@@ -56,7 +56,7 @@ LADDERS = (
     Rung("p2p1", "6-2-2-96", ("3", "4"), 1 / 32),
     Rung("p2p1", "9-3-3-144", ("3", "4"), 1 / 64),
 )
-# What drivers take by themselves in fixed steps. What solving leaves is then alike (docs/which.md), and far below what mesh and step leave.
+# What drivers take by themselves in fixed steps. What solving leaves is then alike (docs/guide/coupling.md), and far below what mesh and step leave.
 TOLERANCES = {"fsi-monolithic": BY_ERROR, "fsi-partitioned": (f"partitioned.tolerance={METHODS[0].tolerance:g}",)}
 
 RUN = f"PROGRAM {CASE} --threads 1 --set mesh.file=MESH --set 'time.scheme=\"midpoint\"' --set time.end={END}"

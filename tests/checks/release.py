@@ -1,4 +1,4 @@
-"""release.py ROOT: the version in CMakeLists.txt, the newest version of CHANGELOG.md, CITATION.cff and the README agree, and
+"""release.py ROOT: the version in CMakeLists.txt, the newest version of CHANGELOG.md, CITATION.cff and the page on installing agree, and
 CITATION.cff holds what its format, version 1.2.0, demands.
 """
 
@@ -10,6 +10,7 @@ from typing import Any, Iterator, List, Optional, Tuple
 
 import yaml
 
+INSTALL = "docs/guide/install.md"
 SECTION = re.compile(r"^## (.*)$", re.MULTILINE)
 RELEASE = re.compile(r"(\d+\.\d+\.\d+) \((\d{4}-\d{2}-\d{2})\)")
 REFERENCE_TYPES = (
@@ -110,9 +111,12 @@ def problems(root: Path) -> Iterator[str]:
     if license_title != f"{citation['license']} License":
         yield f"CITATION.cff: license: is {citation['license']}, LICENSE is the {license_title}"
     minor = ".".join(version.split(".")[:2])
-    for asked in re.findall(r"find_package\(fsi-duo (\S+)", (root / "README.md").read_text(encoding="utf-8")):
-        if asked != minor:
-            yield f"README.md: find_package(fsi-duo {asked}): the version is {version}"
+    asked = re.findall(r"find_package\(fsi-duo (\S+)", (root / INSTALL).read_text(encoding="utf-8"))
+    if not asked:
+        yield f"{INSTALL}: does not say find_package(fsi-duo {minor} ...)"
+    for one in asked:
+        if one != minor:
+            yield f"{INSTALL}: find_package(fsi-duo {one}): the version is {version}"
 
 
 def main(words: List[str]) -> int:

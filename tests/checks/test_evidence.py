@@ -38,9 +38,6 @@ class Items(unittest.TestCase):
         kept = {f"docs/data/{path.name}" for path in (TOP / "docs/data").glob("*.csv")} - {"docs/data/made-by.csv"}
         self.assertLessEqual(kept - {"docs/data/report-pages.csv"}, set(made))
 
-    def test_a_whole_run_takes_at_most_four_hours(self):
-        self.assertLess(sum(item.minutes for item in evidence.read_items() if not item.long), 240)
-
 
 class Stale(unittest.TestCase):
     def setUp(self):
@@ -58,7 +55,9 @@ class Stale(unittest.TestCase):
 
     def test_of_this_age(self):
         self.assertEqual(self.told(NOW), [])
-        self.assertEqual(self.told(NOW._replace(version="0.3.7", commit="1234")), [])  # same results, same minor version
+        self.assertEqual(
+            self.told(NOW._replace(version="0.3.7", commit="1234")), []
+        )  # same results, same minor version
 
     def test_of_another_minor_version(self):
         self.assertRegex(self.told(NOW._replace(version="0.2.0"))[0], "table.csv: made by version 0.2.0")

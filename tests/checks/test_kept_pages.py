@@ -159,9 +159,10 @@ class Numbers(unittest.TestCase):
         case = (TOP / "gallery" / name / f"{name}.toml").read_text(encoding="utf-8")
         return "\n[fluid]" in case and "\n[structure" in case
 
-    def test_the_answer_page_is_checked_whole(self):
-        page = (TOP / "docs" / "which.md").read_text(encoding="utf-8")
-        self.assertIn("<!-- numbers: kept -->", page)
+    def test_the_answer_page_quotes_what_was_measured(self):
+        page = (TOP / "docs" / "guide" / "coupling.md").read_text(encoding="utf-8")
+        for block in ("kinds_answer", "kinds_verdict"):
+            self.assertIn(f"<!-- from: data/coupling-kinds.csv, {block} -->", page)
         self.assertEqual(renewed(page, TOP / "docs" / "data"), page)
 
 
@@ -241,7 +242,7 @@ class ReferencesPage(unittest.TestCase):
 
     def test_a_value_beyond_its_bar_is_named(self):
         text = references_verdict(self.rows())
-        self.assertIn("2 of 2 numbers", text)
+        self.assertIn("Of 2 values, each number by each driver, 2 have an error bar.", text)
         self.assertIn("1 of these differ", text)
         self.assertIn("Furthest off is radius of `tube` (partitioned): 0.004 mm, 2 bars", text)
 

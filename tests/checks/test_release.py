@@ -12,7 +12,7 @@ CLEAN = {
     "CMakeLists.txt": "cmake_minimum_required(VERSION 3.22)\nproject(fsi-duo VERSION 1.2.3 LANGUAGES CXX)\n",
     "CHANGELOG.md": "# Changelog\n\n## Unreleased\n\n## 1.2.3 (2026-03-02)\n### New\n\n## 1.2.0 (2026-03-01)\n",
     "LICENSE": "MIT License\n\nCopyright\n",
-    "README.md": "find_package(fsi-duo 1.2 REQUIRED)\n",
+    "docs/guide/install.md": "find_package(fsi-duo 1.2 REQUIRED)\n",
     "CITATION.cff": """cff-version: 1.2.0
 message: Please cite it.
 title: fsi-duo
@@ -37,6 +37,7 @@ class Release(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.root = Path(temporary.name)
         for name, text in CLEAN.items():
+            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             (self.root / name).write_text(text)
 
     def said(self):
@@ -52,7 +53,8 @@ class Release(unittest.TestCase):
         for name, old, new, expected in (
             ("CMakeLists.txt", "1.2.3", "1.3.0", "CHANGELOG.md: the newest version is 1.2.3"),
             ("CMakeLists.txt", "1.2.3", "1.3.0", "CITATION.cff: version: is 1.2.3"),
-            ("CMakeLists.txt", "1.2.3", "1.3.0", "README.md: find_package(fsi-duo 1.2)"),
+            ("CMakeLists.txt", "1.2.3", "1.3.0", "install.md: find_package(fsi-duo 1.2)"),
+            ("docs/guide/install.md", "find_package", "find", "install.md: does not say find_package(fsi-duo 1.2"),
             ("CMakeLists.txt", " VERSION 1.2.3", "", "has no VERSION"),
             ("CHANGELOG.md", " (2026-03-02)", "", "'## 1.2.3' is no '## VERSION"),
             ("CHANGELOG.md", "2026-03-02", "2026-02-02", "dates do not descend"),

@@ -10,7 +10,7 @@ namespace fsi {
 /// Sparse Cholesky factorisation of symmetric positive definite matrices ([Chen2008], CHOLMOD, 64-bit indices, METIS
 /// ordering). Beside an LU factorisation it keeps one factor, for the most part in dense blocks without indices, and
 /// several right-hand sides pass it together: a third of the memory and of the
-/// time (docs/solver-measurements.md, "Harmonic extension of the mesh motion"). Results do not depend on the number of threads.
+/// time (docs/archive.md, "Harmonic extension of the mesh motion"). Results do not depend on the number of threads.
 class CholeskySolver {
  public:
   CholeskySolver();

@@ -14,7 +14,7 @@ namespace fsi {
 class DirectSolver {
  public:
   /// Fill-reducing ordering and pivoting strategy, by name; the defaults are what measurement favoured
-  /// (docs/solver-measurements.md).
+  /// (docs/archive.md).
   struct Options {
     std::string ordering = "metis";  ///< "amd", "metis", "best"
     std::string strategy = "auto";   ///< "auto", "unsymmetric", "symmetric"

@@ -4,7 +4,7 @@ namespace fsi {
 
 /// Memory that UMFPACK takes at most while it factorises with the symmetric strategy, bytes: 9 per entry of both factors
 /// and 8 per entry of the matrix. Fitted to five matrices of 2,214 to 35,220 unknowns, 0 to 11 % above the measured
-/// (docs/solver-measurements.md, "Direct solver"). UMFPACK's own bound is three to five times that.
+/// (docs/archive.md, "Direct solver"). UMFPACK's own bound is three to five times that.
 /// \param factor_entries  of both factors, as the symbolic analysis expects them
 inline double factorisation_bytes(double factor_entries, double matrix_entries) {
   return 9 * factor_entries + 8 * matrix_entries;

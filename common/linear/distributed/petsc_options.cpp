@@ -85,7 +85,7 @@ void refuse_unread_petsc_options(PetscPart part) {
     petsc_check(PetscOptionsUsed(nullptr, name.c_str() + 1, &used));
     if (!used)
       throw InputError(given.case_file, "petsc.options", "\"" + name + "\" is no option of the solver as it is set up",
-                       "see docs/solvers.md; what PETSc knows is listed by -fsi_ksp_view and in its manual");
+                       "see docs/guide/solvers.md; what PETSc knows is listed by -fsi_ksp_view and in its manual");
   }
 }
 

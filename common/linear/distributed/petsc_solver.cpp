@@ -89,7 +89,7 @@ struct PetscSolver<n>::Iterative {
       factorise_by_each(pc);
       return;
     }
-    // By measurement: half the seconds of BoomerAMG (docs/solvers.md).
+    // By measurement: half the seconds of BoomerAMG (docs/guide/solvers.md).
     petsc_check(PCSetType(pc, PCGAMG));
     petsc_check(PCGAMGSetCoarseEqLim(pc, 400));
     petsc_check(PCGAMGSetReuseInterpolation(pc, PETSC_FALSE));  // a restart could not

@@ -12,7 +12,7 @@ namespace fsi {
 
 /// What `fast` does with F = [A G; B C], in single precision, on vectors that processes share: each has the rows of its own
 /// velocities and pressures, and is sent the others' values that these ask for. PETSc's products and sweeps in double
-/// precision take several times as long (docs/solver-measurements.md).
+/// precision take several times as long (docs/archive.md).
 template <int n>
 class SharedProducts {
  public:

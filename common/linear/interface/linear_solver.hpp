@@ -89,7 +89,7 @@ class LinearSolver {
   }
   virtual LinearStatistics statistics() const { return {}; }
   /// How much an iteration of Newton's method with a kept Jacobian must contract the residual for keeping it to pay: a
-  /// matter of what update() costs beside solve(). By measurement (docs/solver-measurements.md, docs/solvers.md).
+  /// matter of what update() costs beside solve(). By measurement (docs/archive.md, docs/guide/solvers.md).
   virtual double keep_contraction() const { return 0.3; }
   /// What the solver iterates with, as of the last update(); null where it does not.
   virtual MediumPreconditioner* medium_preconditioner() { return nullptr; }

@@ -19,7 +19,7 @@ struct Row {
   int strengthenings;         ///< of an iteration that fails
 };
 
-/// By measurement (docs/solvers.md, docs/solver-measurements.md). Factors of a plane graph hardly fill in. Those in space end
+/// By measurement (docs/guide/solvers.md, docs/archive.md). Factors of a plane graph hardly fill in. Those in space end
 /// somewhere, since their memory grows faster than the mesh.
 /// - Harmonic motion: to three digits both take the same time at 18,000 inner nodes of an even mesh; on a graded one of 12,000
 ///   the factor is three times as quick. Larger meshes were not measured.

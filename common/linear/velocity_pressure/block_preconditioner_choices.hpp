@@ -3,7 +3,7 @@
 namespace fsi {
 
 /// What a block preconditioner of velocities and pressures does, decided by the matrix alone, so that a restart decides
-/// the same. Defaults by measurement (docs/solvers.md).
+/// the same. Defaults by measurement (docs/guide/solvers.md).
 struct BlockPreconditionerChoices {
   /// Symmetric Gauss-Seidel sweeps in place of A^-1, or before and after its coarse levels.
   int momentum_sweeps = 1;

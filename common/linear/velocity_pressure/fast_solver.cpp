@@ -40,7 +40,7 @@ template <int n>
 DirectSolver::Options factors(bool few_digits, const JacobianBlocks<n>& blocks) {
   DirectSolver::Options options;
   // UMFPACK by itself takes the other strategy where one unknown in ten is a pressure, whose diagonal is zero: factors of
-  // velocities and pressures are then larger (docs/tried.md).
+  // velocities and pressures are then larger (docs/archive.md).
   options.strategy = "symmetric";
   options.single_precision = few_digits && blocks.numbering.size >= single_from;
   return options;

@@ -13,7 +13,7 @@ namespace fsi {
 /// What a block preconditioner knows of the momentum's matrix A without its other entries: the diagonal D that stands for
 /// it in the Schur complement, and how stiff the wall is. Of a mass matrix, a smooth velocity feels the lumped diagonal and a
 /// rough one less than the diagonal, of a stiffness the smooth one feels nothing: D lies between, a fifth of the lumped
-/// diagonal above the diagonal, by measurement (docs/tried.md).
+/// diagonal above the diagonal, by measurement (docs/archive.md).
 template <int n>
 class MomentumDiagonals {
  public:

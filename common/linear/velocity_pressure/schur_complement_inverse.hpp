@@ -14,7 +14,7 @@ namespace fsi {
 
 /// Approximate inverse of the Schur complement S, whose negative is like a Laplacian: one cycle of smoothed aggregation, or
 /// a Cholesky factor of the symmetric part of -S in single precision. In the plane factors hardly fill in, and take half
-/// of a cycle's time (docs/solvers.md).
+/// of a cycle's time (docs/guide/solvers.md).
 class SchurComplementInverse {
  public:
   /// Takes present values. \param factorise  where -S is positive definite; else, and where it is not, by multigrid

@@ -31,7 +31,7 @@ ArteryCells cells(int lumen, int media, int adventitia, int around, int axial, d
 
 }  // namespace
 
-// Measured with the programs themselves by `fsi-compare accuracy`, see docs/evidence.md: quadratic elements, pressure
+// Measured with the programs themselves by `fsi-compare accuracy`, see docs/evidence/evidence.md: quadratic elements, pressure
 // separate per layer, against 16-5-5-256 cells graded by 3 and 4; rounded up. Of damped waves cells along the axis near
 // the inlet govern the displacement, those across the lumen the pressure; one or two cells a layer are enough when the
 // pressure may jump between the layers. Resolved waves need cells along the whole axis and two in the outer layer. The

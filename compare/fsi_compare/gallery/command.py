@@ -33,7 +33,7 @@ def add_parser(commands: Commands, version: str) -> None:
         action="store_const",
         const=READY / PEERS,
         dest="source",
-        help="cases of other programs (docs/peers.md)",
+        help="cases of other programs (docs/evidence/peers.md)",
     )
     command.add_argument("--long", action="store_true", help="all scenes, those that take minutes, too")
     command.add_argument("--quick", action="store_true", help="the short forms, a second or two each")

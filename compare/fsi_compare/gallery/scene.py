@@ -81,7 +81,7 @@ class SceneRun:
 
     @property
     def results(self) -> RunResults:
-        """The folder as arrays with units (docs/python.md)."""
+        """The folder as arrays with units (docs/guide/reports.md#python)."""
         return open_run(self.folder)
 
     def table(self, name: str) -> Table:

@@ -1,1 +1,1 @@
-"""A result folder as arrays with units: what `import fsi_compare` hands out (docs/python.md)."""
+"""A result folder as arrays with units: what `import fsi_compare` hands out (docs/guide/reports.md#python)."""

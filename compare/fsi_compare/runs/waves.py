@@ -17,7 +17,9 @@ class Quantity:
     name: str
 
 
-WINDOW = 0.7  # ms: takes most of the wall's thickness shear, of 0.4 and 0.9 ms, off the pressure (docs/evidence.md)
+WINDOW = (
+    0.7  # ms: takes most of the wall's thickness shear, of 0.4 and 0.9 ms, off the pressure (docs/evidence/evidence.md)
+)
 
 PRESSURE = Quantity("centerline_pressure.csv", "pressure_Pa", "centre-line pressure")
 AVERAGED = Quantity("averaged_pressure.csv", "averaged_pressure_Pa", f"centre-line pressure averaged over {WINDOW} ms")

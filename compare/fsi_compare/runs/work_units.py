@@ -1,7 +1,7 @@
 """Seconds of runs that were made on different machines, read together: work units, and word of the machines.
 
 A work unit is the seconds of one product with the coupled matrix, which each run measures itself
-(docs/performance.md, "Work units").
+(docs/guide/solvers.md, "Work units").
 """
 
 from typing import Any, List, Mapping, Optional, Sequence

@@ -7,7 +7,7 @@ member is what is known to be wrong, its difference from the finest, and FACTOR 
     bar = |y(1) - y(finest)| + FACTOR |e|.
 
 A sequence that swings is not extrapolated, neither is one whose differences do not fall. Of curves the differences are norms: they
-cannot cancel, and what one member moves where another does not is in them, too. See docs/verification.md.
+cannot cancel, and what one member moves where another does not is in them, too. See docs/guide/accuracy.md#verify.
 """
 
 import functools

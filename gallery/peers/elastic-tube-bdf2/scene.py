@@ -14,7 +14,7 @@ QUICK_MESH = "geo ../../elastic-tube/tube.geo --order 2 --set along=30 --set acr
 
 PEER = 0.154  # mm
 SPREAD = 0.0105  # 0.25 % by its ways of coupling, 0.8 % by its meshes, in runs of second order
-MODEL = 0.01  # its load acts on the undeformed area (docs/references.md)
+MODEL = 0.01  # its load acts on the undeformed area (docs/evidence/references.md)
 SOURCE = "solids4foam 2.2, 3dTube, backward, 0.1 ms"
 REASON = (
     "nothing that shows: it loads the undeformed area, -1 %, and its mesh of 80 cells along leaves as much, upwards"

@@ -16,7 +16,7 @@ QUICK_MESH = "geo ../../elastic-tube/tube.geo --order 2 --set along=30 --set acr
 
 PEER = 0.121  # mm
 SPREAD = 0.0105  # 0.25 % by its ways of coupling, 0.8 % by its meshes, in runs of second order
-MODEL = 0.01  # its load acts on the undeformed area (docs/references.md)
+MODEL = 0.01  # its load acts on the undeformed area (docs/evidence/references.md)
 SOURCE = "solids4foam 2.2, 3dTube, Euler, 0.1 ms"
 REASON = "it loads the undeformed area, 1 %, on 80 cells along; first order is not reached at 0.1 ms, so no bar"
 

@@ -4,7 +4,7 @@ A flap of 5 by 250 mm (2.3 MPa, Poisson's ratio 0.45, plane stress) stands on th
 behind it. The flow rises within 10 s, bends the flap, and comes to rest. Steps are of 0.1 s.
 
 Plane stress is plane strain with other constants, exactly for the law of Saint Venant and Kirchhoff. Kratos' flap of
-4 by 100 bilinear cells locks in shear, by 10 % of its stiffness (docs/references.md): with a flap that much stiffer
+4 by 100 bilinear cells locks in shear, by 10 % of its stiffness (docs/evidence/references.md): with a flap that much stiffer
 this program gives Kratos' numbers. Mok's own are 7.8 and 6.0 cm, Valdes' 8.2 and 6.25 cm.
 """
 

@@ -101,7 +101,7 @@ class OneFile(FolderCase):
         report.section("About this report")
         report.write()
         docs = self.base / "docs"
-        for name in ("studies", "pictures"):
+        for name in ("evidence", "pictures"):
             (docs / name).mkdir(parents=True)
         (docs / f"pictures/{self.base.name}-gone.png").write_text("of the last edition")
         path = keep_study.keep(self.base, docs)

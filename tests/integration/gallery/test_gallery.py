@@ -50,7 +50,7 @@ class Gallery(FolderTest):
     def test_the_kept_page_has_every_scene_but_the_long_ones(self):
         listed = execute(COMPARE, "gallery", "--list")
         self.assertEqual(listed.returncode, 0, listed.stderr)
-        page = (READY.parent / "docs" / "gallery.md").read_text(encoding="utf-8")
+        page = (READY.parent / "docs" / "evidence" / "gallery.md").read_text(encoding="utf-8")
         titles = [line.split(maxsplit=1)[1] for line in listed.stdout.splitlines() if not line.endswith(" (long)")]
         self.assertGreaterEqual(len(titles), 16)
         for title in titles:

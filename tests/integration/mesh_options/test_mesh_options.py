@@ -136,7 +136,7 @@ class AskedErrors(FolderTest):
         self.assertTrue(1 <= fine[1] <= 3, fine)
 
     def test_resolved_waves(self):
-        """Against step and mesh to zero: the step leaves 1 % (docs/evidence.md). The mesh for damped waves leaves 19 %."""
+        """Against step and mesh to zero: the step leaves 1 % (docs/evidence/evidence.md). The mesh for damped waves leaves 19 %."""
         short = ("time.scheme=midpoint", "time.step=0.03125", "newton.tolerance=1e-3")
         nodes, error = self.error(10, "neo-hookean", *short)
         self.assertEqual(nodes, 1261)

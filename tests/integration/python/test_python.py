@@ -1,4 +1,4 @@
-"""docs/python.md runs as it stands: its pieces of code are one session on runs of both drivers, and print what it says."""
+"""docs/guide/reports.md#python runs as it stands: its pieces of code are one session on runs of both drivers, and print what it says."""
 
 import json
 import os
@@ -38,7 +38,7 @@ class Page(FolderTest):
         return execute(PYTHON, "-c", script, cwd=self.base, env=environment)
 
     def test_the_page_prints_what_it_says(self):
-        page = (ROOT / "docs" / "python.md").read_text()
+        page = (ROOT / "docs" / "guide" / "reports.md").read_text()
         pieces = re.findall(r"^```python\n(.*?)^```\n(?:```output\n(.*?)^```)?", page, re.MULTILINE | re.DOTALL)
         self.assertEqual(len(pieces), page.count("```python"))
         self.assertGreaterEqual(len(pieces), 7)
@@ -51,7 +51,7 @@ class Page(FolderTest):
         self.assertEqual((self.base / "both.png").read_bytes()[:4], b"\x89PNG")
 
     def test_commands_of_the_page(self):
-        page = (ROOT / "docs" / "python.md").read_text()
+        page = (ROOT / "docs" / "guide" / "reports.md").read_text()
         commands = re.search(r"^```sh\n(.*?)^```", page, re.MULTILINE | re.DOTALL).group(1).splitlines()
         self.assertEqual(len(commands), 3)
         for command in commands:  # the options exist; the runs themselves are made above

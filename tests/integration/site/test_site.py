@@ -49,7 +49,7 @@ class Site(FolderTest):
     def test_search_knows_the_pages(self):
         index = json.loads((self.site / "search" / "search_index.json").read_text(encoding="utf-8"))
         places = {entry["location"].partition("#")[0] for entry in index["docs"]}
-        self.assertLessEqual({"theory.html", "tutorial.html", "gallery.html", "index.html"}, places)
+        self.assertLessEqual({"theory.html", "guide/tutorial.html", "evidence/gallery.html", "index.html"}, places)
         self.assertTrue(any("Mooney-Rivlin" in entry["text"] for entry in index["docs"]))
 
     def test_only_a_site_is_replaced(self):

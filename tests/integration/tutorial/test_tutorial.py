@@ -8,7 +8,7 @@ from pathlib import Path
 from programs import MONOLITHIC, FolderTest
 
 TOP = Path(__file__).resolve().parents[3]
-PAGE = (TOP / "docs" / "tutorial.md").read_text(encoding="utf-8")
+PAGE = (TOP / "docs" / "guide" / "tutorial.md").read_text(encoding="utf-8")
 
 
 def said(pattern):
