@@ -19,7 +19,7 @@ BEST = (  # the three schemes that need the fewest passes
 )
 REST = {"linestyle": "-", "marker": None, "color": "#b0b0b0", "linewidth": 1.0, "zorder": 2}
 NAME_SIZE, NAME_LINE = 7, 0.034  # points; of the height of the axes
-NAMES_FROM = 0.72  # of the figure's width: what is right of it is for the names
+NAMES_FROM = 0.66  # of the figure's width: what is right of it is for the names
 
 
 @dataclass(frozen=True)

@@ -127,8 +127,17 @@ def _by_method(context: Context, found: Sequence[Cell]) -> Table:
         Column("largest relative difference from the other driver", "largest_difference", lambda o: o.worst, ".1e"),
     ]
     methods = context.study.methods.items()
-    rows = [Outcomes(name, method.label, [c for c in found if c.method == name]) for name, method in methods]
+    rows = [
+        Outcomes(name, _with_kind(method.label, own), own)
+        for name, method in methods
+        for own in [[cell for cell in found if cell.method == name]]
+    ]
     return Table("by_method", "Outcomes by method", columns, [row for row in rows if row.cells])
+
+
+def _with_kind(label: str, cells: Sequence[Cell]) -> str:
+    """The method's label with its kind of coupling, which a run that was refused does not say."""
+    return max((cell.run.method_label for cell in cells), key=len, default=label)
 
 
 def _maps(context: Context, found: Sequence[Cell], settings: Settings) -> None:
@@ -150,7 +159,9 @@ def _maps(context: Context, found: Sequence[Cell], settings: Settings) -> None:
         values = list(dict.fromkeys(next(iter(cell.run.request.values.values())) for cell in there))
         present = {cell.method for cell in there}
         methods: List[Tuple[str, str]] = [
-            (m.name, m.label) for m in context.study.methods.values() if m.name in present
+            (m.name, _with_kind(m.label, [cell for cell in found if cell.method == m.name]))
+            for m in context.study.methods.values()
+            if m.name in present
         ]
         label, paper = settings.label(name), settings.quantities.get(name, {}).get("paper")
         paper = None if case in context.study.scenes else paper  # those of the gallery are not the paper's
