@@ -66,6 +66,16 @@ def bound_socket(path):
 NO_FILES = (Path.mkdir, pipe, link_to_device, link_to_file, bound_socket)
 
 
+def wait_for_step(folder):
+    """Until a run has finished a step there; what was there before has STEPS of them."""
+    limit = time.monotonic() + 60
+    while time.monotonic() < limit:
+        table = folder / "iterations.csv"
+        if table.is_file() and table.read_bytes().count(b"\n") > STEPS + 1:
+            return
+        time.sleep(0.02)
+
+
 class Folders:
     def __init__(self, harness):
         self.harness, self.base = harness, harness.base
@@ -143,19 +153,24 @@ class Folders:
             if round_ % 4 == 3:
                 (folder / "run.lock").write_text(lock_of(1))  # left behind by a process that is another one now
             options = () if round_ % 2 == 0 else ("--force",)
-            steps = 40  # so that no other one can start after its end
-            ended = [
-                self.wait(process)
-                for process in [self.start(MONOLITHIC, folder, *options, steps=steps) for _ in range(starts)]
-            ]
-            winners = [errors for code, _, errors in ended if code == 0]
+            # The winner goes on until all others have ended, and is ended then: none can start behind its end.
+            runs = [self.start(MONOLITHIC, folder, *options, steps=100_000) for _ in range(starts)]
+            limit = time.monotonic() + 100
+            while sum(run.poll() is None for run in runs) > 1 and time.monotonic() < limit:
+                time.sleep(0.02)
+            going = [run for run in runs if run.poll() is None]
+            for run in going:
+                wait_for_step(folder)
+                run.terminate()
+            ended = [self.wait(run) for run in runs]
             losers = [
                 is_one_message(errors, MONOLITHIC) and ("a run works in it" in errors or "holds a finished" in errors)
                 for code, _, errors in ended
                 if code == 1
             ]
-            good = len(winners) == 1 and len(losers) == starts - 1 and all(losers)
-            good &= summary(folder)["totals"]["steps"] == steps and not (folder / "run.lock").exists()
+            good = len(going) == 1 and going[0].returncode == 128 + signal.SIGTERM
+            good &= len(losers) == starts - 1 and all(losers) and not (folder / "run.lock").exists()
+            good &= summary(folder)["status"] == "interrupted"
             self.harness.count("one winner" if good else "no single winner", f"round {round_}: {ended}")
 
     def running_folder(self, program):
