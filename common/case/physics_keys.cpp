@@ -72,12 +72,13 @@ std::vector<CaseKey<MeshData>> mesh_keys() {
       leaf("level", optional, "artery mesh made on demand: {}", name_from(at(&MeshData::level), artery_levels())),
       leaf<MeshData>(
           "error", optional,
-          "artery mesh made on demand: the smallest recommended for the element that leaves no more, like \"3%\"",
+          "artery mesh made on demand: the smallest one recommended for the element with at most this error, like "
+          "\"3%\"",
           {read_mesh_error,
            [](const MeshData& mesh) { return mesh.error > 0 ? fmt::format("{}%", mesh.error) : std::string(); }}),
       leaf("waves", optional,
-           "for which error holds: {}; resolved unless given where steps are of second order and at most 0.1 ms, else "
-           "{}",
+           "waves for which error holds: {}; unless given, resolved where steps are of second order and adaptive or at "
+           "most 0.1 ms, and damped elsewhere",
            name_from(at(&MeshData::waves), wave_kinds())),
   };
 }

@@ -111,9 +111,9 @@ std::vector<CaseKey<Case>> linear_keys() {
       leaf("tolerance", optional,
            "residual of each linear solve relative to its right-hand side, default {}: what Newton's convergence needs",
            number(at(&Case::newton, &NewtonOptions::linear_tolerance), tolerance_or_none)),
-      leaf("max_iterations", optional, "of the coupled solvers: iterations of each linear solve, default {}",
+      leaf("max_iterations", optional, "of the paper's coupled solvers: iterations of each linear solve, default {}",
            in_case(whole(at(&L::krylov, &KrylovOptions::max_iterations), 1, most_iterations), &Case::linear)),
-      leaf("restart", optional, "of the coupled solvers: directions that GMRES and FGMRES keep, default {}",
+      leaf("restart", optional, "of the paper's coupled solvers: directions that GMRES and FGMRES keep, default {}",
            in_case(whole(at(&L::krylov, &KrylovOptions::restart), 1, most_directions), &Case::linear)),
       leaf("direct_below", optional,
            "unknowns below which fast factorises the matrix, " + direct_below_standards() + ", but " +
@@ -151,7 +151,8 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
   using QuasiNewton = QuasiNewtonOptions;
   return {
       leaf("scheme", optional,
-           "coupling: {}; default robin-neumann-inexact, iqn-ils where the wall stands in the fluid",
+           "coupling: {}; default robin-neumann-inexact; where the wall stands in the fluid iqn-ils, or "
+           "robin-neumann-iqn if no opening sets the pressure",
            name_from(at(&P::scheme), coupling_scheme_names())),
       leaf("tolerance", optional,
            fmt::format("gap between fluid and wall relative to the interface's displacement, default {}; "
@@ -160,14 +161,15 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
                        text_for_people(P::standard_tolerance)),
            number(at(&P::tolerance), tolerance)),
       leaf("tolerance_of", optional,
-           "{}; pressure: the tolerance holds, besides, for the pressure that the gap is worth in one step relative to "
-           "that on the interface; displacement: for the displacement alone, as the paper has it",
+           "{}; pressure: the tolerance holds, besides, for the pressure that would make up the gap in one step, "
+           "relative "
+           "to that on the interface; displacement: for the displacement alone, as the paper has it",
            name_from(at(&P::tolerance_of), tolerance_kinds())),
       leaf("absolute_tolerance", optional,
            "interface change in {unit} (Euclidean norm) that is small enough too, default {}",
            number(at(&P::absolute_tolerance), not_negative, quantity::length())),
       leaf("force_tolerance", optional,
-           "what the interface's momentum balance may lack relative to the force, default {}: not demanded",
+           "residual of the interface's momentum balance relative to the force, default {}: not demanded",
            number(at(&P::force_tolerance), tolerance_or_none)),
       leaf("velocity_gap", optional,
            "explicit ends when fluid and wall differ in velocity by more than this part of the largest so far, over 8 "

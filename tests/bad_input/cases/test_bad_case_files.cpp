@@ -190,8 +190,7 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:5: mesh.error: both level and error; keep one of them"},
       {"MeshErrorWithoutSign", coupled_case, "level = \"coarse\"", "error = \"3\"",
        "case.toml:4: mesh.error: \"3\" is no percentage; give one, like \"3%\" (artery mesh made on demand: the "
-       "smallest "
-       "recommended for the element that leaves no more, like \"3%\")"},
+       "smallest one recommended for the element with at most this error, like \"3%\")"},
       {"MeshWavesWithoutError", coupled_case, "level = \"coarse\"", "level = \"coarse\"\nwaves = \"resolved\"",
        "case.toml:5: mesh.waves: belongs to error; give error = \"3%\" as well, or leave waves out"},
       // Unphysical values
@@ -427,8 +426,8 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:32: partitioned.absolute_tolerance: -1e-09 is negative; give a number >= 0 (interface change in mm "
        "(Euclidean norm) that is small enough too, default 0)"},
       {"ForceToleranceOne", coupled_case, "tolerance = 1e-6", "force_tolerance = 1",
-       "case.toml:32: partitioned.force_tolerance: 1 is out of range; give a number >= 0 and < 1 (what the interface's "
-       "momentum balance may lack relative to the force, default 0: not demanded)"},
+       "case.toml:32: partitioned.force_tolerance: 1 is out of range; give a number >= 0 and < 1 (residual of the "
+       "interface's momentum balance relative to the force, default 0: not demanded)"},
       {"ColumnsZero", coupled_case, "tolerance = 1e-6", "columns = 0",
        "case.toml:32: partitioned.columns: 0 is out of range; give a whole number from 1 to 10000 (differences that a "
        "quasi-Newton scheme keeps at most, default 200)"},
