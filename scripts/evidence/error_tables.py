@@ -11,7 +11,6 @@ import csv
 import json
 import os
 import re
-import subprocess
 import sys
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterable, List, NamedTuple, NoReturn, Sequence, Tuple
@@ -19,6 +18,7 @@ from typing import Any, Callable, Dict, Iterable, List, NamedTuple, NoReturn, Se
 import numpy as np
 
 from kept_tables import DATA, TOP, write_table
+from timed_call import CallError, processor_seconds
 
 AXISYMMETRIC, TUBE = "meshes/artery/axisymmetric/neo-hookean.toml", "meshes/artery/neo-hookean.toml"
 REFERENCE = TOP / "compare/research/studies/references/neo-hookean"  # step and mesh extrapolated to zero
@@ -87,18 +87,10 @@ class Runner:
             ]
 
     def call(self, words: Sequence[object], told: Path = Path(os.devnull)) -> float:
-        """Its processor seconds: on a machine that is busy with other work they are nearer to an idle machine's seconds."""
-        command = [str(word) for word in words]
         try:
-            with open(told, "w", encoding="utf-8") as file:
-                process = subprocess.Popen(command, cwd=TOP, stdout=file)
-        except OSError as error:
-            fail(f"{command[0]}: {error.strerror}; name the folder of the programs, build/release/bin")
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        if process.returncode:
-            fail(f"{' '.join(command)}: exit code {process.returncode}; see its message above")
-        return usage.ru_utime + usage.ru_stime
+            return processor_seconds(words, TOP, told)
+        except CallError as error:
+            fail(str(error))
 
 
 def digits(value: float, count: int = 2) -> str:

@@ -9,8 +9,6 @@ usage: python3 scripts/evidence/readme_picture.py [-o FILE.png]
 """
 
 import csv
-import os
-import subprocess
 import sys
 from pathlib import Path
 from typing import Any, Dict, Iterator, List, NamedTuple, NoReturn, Tuple
@@ -18,6 +16,7 @@ from typing import Any, Dict, Iterator, List, NamedTuple, NoReturn, Tuple
 from coupling_kinds import BY_ERROR, METHODS
 from kept_blocks import BlockError, kinds
 from kept_tables import read_table
+from timed_call import CallError, processor_seconds
 
 TOP = Path(__file__).resolve().parents[2]
 DATA = TOP / "docs/data"
@@ -151,17 +150,10 @@ def _run(programs: Path, work: Path, rung: Rung, kind: str, settings: List[str],
 
 
 def _call(words: List[object]) -> float:
-    """Its processor seconds: on a machine that is busy with other work they are nearer to an idle machine's seconds."""
-    command = [str(word) for word in words]
     try:
-        process = subprocess.Popen(command)
-    except OSError as error:
-        fail(f"{command[0]}: {error.strerror}; name the folder of the programs, build/release/bin")
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode:
-        fail(f"{' '.join(command)}: exit code {process.returncode}; see its message above")
-    return usage.ru_utime + usage.ru_stime
+        return processor_seconds(words)
+    except CallError as error:
+        fail(str(error))
 
 
 # ---- the picture ----
