@@ -360,10 +360,10 @@ const std::vector<BadCase>& bad_cases() {
       {"LinearIterationsZero", coupled_case, "[monolithic]", "[linear]\nmax_iterations = 0\n[monolithic]",
        "case.toml:28: linear.max_iterations: 0 is out of range; give a whole number from 1 to 1000000 "
        "(of the "
-       "coupled solvers: iterations of each linear solve, default 500)"},
+       "paper's coupled solvers: iterations of each linear solve, default 500)"},
       {"RestartZero", coupled_case, "[monolithic]", "[linear]\nrestart = 0\n[monolithic]",
-       "case.toml:28: linear.restart: 0 is out of range; give a whole number from 1 to 10000 (of the coupled "
-       "solvers: directions that GMRES and FGMRES keep, default 250)"},
+       "case.toml:28: linear.restart: 0 is out of range; give a whole number from 1 to 10000 (of the paper's "
+       "coupled solvers: directions that GMRES and FGMRES keep, default 250)"},
       {"MultigridIsNoSection", coupled_case, "multigrid.levels = 10", "multigrid = 3",
        "case.toml:29: monolithic.multigrid: 3 is a whole number; make it a section [monolithic.multigrid]"},
       {"MultigridKeyUnknown", coupled_case, "multigrid.levels = 10", "multigrid.dampening = 0.3",
