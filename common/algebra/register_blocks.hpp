@@ -21,9 +21,9 @@ inline Register<R> block_times(const float* block, const float* x) {
 template <int R, int C>
 struct RegisterBlocks {
   static constexpr int stride = C * padded<R>;  ///< floats a block
-  /// Floats from a block in use to one that memory is asked for meanwhile, 4 KiB on. By themselves not all processors fetch
-  /// ahead as far (docs/guide/solvers.md#speed). For loops through the rows from the last to the first: 4 KiB before.
-  static constexpr std::ptrdiff_t ahead = 1024, behind = -ahead;
+  /// Floats from a block in use to one that is prefetched meanwhile, 4 KiB on. By themselves not all processors prefetch as
+  /// far (docs/guide/solvers.md#speed).
+  static constexpr std::ptrdiff_t ahead = 1024;
 
   std::vector<int> offsets{0}, columns;
   std::vector<float> values;
@@ -41,13 +41,12 @@ struct RegisterBlocks {
   std::size_t bytes() const { return values.size() * sizeof(float) + (columns.size() + offsets.size()) * sizeof(int); }
 
   /// Blocks begin ... end - 1 times x. One accumulator a column keeps the chains of additions short.
-  template <std::ptrdiff_t next = ahead>
   Register<R> product(int begin, int end, const float* x) const {
     if constexpr (R == 2 && C == 2) return product_of_small(begin, end, x);
     Register<R> parts[C] = {};
     const float* a = values.data() + static_cast<std::size_t>(begin) * stride;
     for (int at = begin; at < end; ++at, a += stride) {
-      __builtin_prefetch(a + next);
+      __builtin_prefetch(a + ahead);
       const float* from = x + static_cast<std::size_t>(columns[at]) * padded<C>;
       for (int k = 0; k < C; ++k) parts[k] += load<R>(a + k * padded<R>) * from[k];
     }

@@ -9,31 +9,31 @@
 
 namespace fsi {
 
-/// A sparse matrix of dense n x n blocks in single precision as its lower triangle, the diagonal in it, and what lies above:
-/// either half of a symmetric Gauss-Seidel sweep reads one of them from end to end. Of whole rows it would need a half each,
-/// while the processor fetches ahead what follows: the other half (docs/guide/solvers.md#speed).
+/// A sparse matrix of dense n x n blocks in single precision as its lower triangle, the diagonal in it, and what lies above,
+/// rows from the last to the first: either half of a symmetric Gauss-Seidel sweep reads one of them from its beginning to its
+/// end. Of whole rows it would need a half each, while the processor prefetches what follows, the other half; and towards
+/// lower addresses not all processors prefetch as well (docs/guide/solvers.md#speed).
 template <int n>
 struct SplitBlocks {
   static constexpr int stride = RegisterBlocks<n, n>::stride;  ///< floats a block
 
   RegisterBlocks<n, n> lower;  ///< the last block of a row is on the diagonal
-  RegisterBlocks<n, n> upper;
+  RegisterBlocks<n, n> upper;  ///< its row k is that of node rows() - 1 - k
 
   SplitBlocks() = default;
   /// \param rows  columns of each row, ascending, the diagonal among them
   explicit SplitBlocks(const std::vector<std::vector<int>>& rows) {
-    for (int v = 0; v < static_cast<int>(rows.size()); ++v) {
-      append(lower, rows[v].begin(), above(rows[v], v));
-      append(upper, above(rows[v], v), rows[v].end());
-    }
+    const int count = static_cast<int>(rows.size());
+    for (int v = 0; v < count; ++v) append(lower, rows[v].begin(), above(rows[v], v));
+    for (int v = count - 1; v >= 0; --v) append(upper, above(rows[v], v), rows[v].end());
     for (auto* half : {&lower, &upper}) half->values.assign(half->columns.size() * stride, 0.0f);
   }
 
   int rows() const { return lower.rows(); }
   int lower_begin(int v) const { return lower.offsets[v]; }
   int lower_end(int v) const { return lower.offsets[v + 1]; }
-  int upper_begin(int v) const { return upper.offsets[v]; }
-  int upper_end(int v) const { return upper.offsets[v + 1]; }
+  int upper_begin(int v) const { return upper.offsets[rows() - 1 - v]; }
+  int upper_end(int v) const { return upper.offsets[rows() - v]; }
 
   /// Of a block among all, the lower ones first. It must be there.
   int position(int row, int column) const {

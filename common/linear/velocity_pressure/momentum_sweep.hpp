@@ -42,8 +42,7 @@ class MomentumSweep {
     });
     chunks_.backward([&](int v) {  // x = (2 - w) x - w D^-1 U x
       const std::size_t at = static_cast<std::size_t>(v) * lanes;
-      const Nodal after = matrix_.upper.template product<RegisterBlocks<n, n>::behind>(matrix_.upper_begin(v),
-                                                                                       chunks_.last[v], x.data());
+      const Nodal after = matrix_.upper.product(matrix_.upper_begin(v), chunks_.last[v], x.data());
       store<n>(after, upper_part_.data() + at);
       store<n>((2 - relaxation_) * load<n>(x.data() + at) - relaxation_ * solve_diagonal(v, after), x.data() + at);
     });
