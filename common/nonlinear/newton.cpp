@@ -47,11 +47,11 @@ class Rounding {
 /// shortest would not do (the iterate is then where it was). A whole step across which something opens or closes is taken, if
 /// `may_switch`, though the residual grows: with the derivatives behind it the next one comes back, where a shorter one would
 /// creep up to the place where they jump. \returns the residual
+/// It has moved by the whole increment already.
 double backtrack(NewtonProblem& problem, double last_residual, Rounding& rounding, double increment, int max_halvings,
                  bool may_switch, NewtonIteration& iteration) {
   constexpr double looseness = 0.1;  // of distances
   double step = 1, residual = 0;
-  problem.move(step);
   for (int halvings = 0;; ++halvings) {
     residual = problem.evaluate();
     bool good = residual <= last_residual;  // no, if it does not exist
@@ -118,13 +118,20 @@ class ErrorWatch {
     double ratio = first_ratio;
     if (last_change_ > 0) ratio = renewed ? change * change / (last_change_ * last_change_) : change / last_change_;
     last_change_ = change;
-    const double worst = std::max(left, ratio);
-    return worst < 1 ? change * worst / (1 - worst) : std::numeric_limits<double>::infinity();
+    last_left_ = left;
+    return to_come(change, std::max(left, ratio));
+  }
+  /// The same of an increment of a kept Jacobian, before it is known what that leaves of the residual: by what the one before
+  /// left. Infinite of a first one.
+  double foresee(double change) const {
+    return last_change_ > 0 ? to_come(change, std::max(last_left_, change / last_change_)) : infinite;
   }
 
  private:
-  static constexpr double first_ratio = 0.1;
-  double last_change_ = 0;
+  static double to_come(double change, double part) { return part < 1 ? change * part / (1 - part) : infinite; }
+
+  static constexpr double first_ratio = 0.1, infinite = std::numeric_limits<double>::infinity();
+  double last_change_ = 0, last_left_ = 1;
 };
 
 }  // namespace
@@ -180,6 +187,20 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
       const std::string reason = problem.linear_failure();
       report.failure = reason.empty() ? "the linear solver returned a value that is not finite" : reason;
       return report;
+    }
+    problem.move(1);
+    if (options.error_tolerance > 0 && options.residual_tolerance == 0 && !options.last_residual && !renew && !grown &&
+        !report.strayed) {
+      const double error = watch.foresee(problem.relative_increment());
+      if (error <= options.error_tolerance && increment < report.iterations.back().increment) {
+        iteration.increment = increment;
+        iteration.residual = std::numeric_limits<double>::quiet_NaN();
+        report.iterations.push_back(iteration);
+        if (options.observe_iteration) options.observe_iteration(report);
+        report.error = error;
+        report.converged = true;
+        return report;
+      }
     }
     const double new_residual =
         backtrack(problem, residual, rounding, increment, options.max_halvings, switches < most_switches, iteration);

@@ -74,6 +74,9 @@ struct NewtonOptions {
   double linear_tolerance = 0;   ///< of every linear solve; 0: inexact Newton, forcing terms as below
   double largest_forcing = 0.1;  ///< loosest linear tolerance of inexact Newton
   bool stop_at_rounding = true;  ///< a residual that is all rounding ends the iteration, whatever the increment
+  /// The residual behind the last increment is evaluated, for whoever reads its rows, though what earlier increments left
+  /// says already that the error is small enough.
+  bool last_residual = true;
   /// Sees each new linear system before it is solved: the number of the iteration, from 1. None: nobody looks.
   std::function<void(int iteration)> observe_system;
   /// Sees how far it has come after each iteration. None: nobody looks.
@@ -85,7 +88,7 @@ const NameTable<NewtonMode>& newton_modes();
 /// One row of the convergence history.
 struct NewtonIteration {
   double increment = 0;     ///< norm of the increment, as taken
-  double residual = 0;      ///< norm of the residual after it
+  double residual = 0;      ///< norm of the residual after it; not a number: it was not evaluated (last_residual)
   double step = 1;          ///< length of the step: 1 unless backtracking cut it
   bool linearised = false;  ///< a new Jacobian was made for it
   int linear_iterations = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/error.hpp"
@@ -16,10 +17,11 @@ namespace fsi {
 void append_history(const NewtonReport& report, std::vector<std::string>& lines, const std::string& indent) {
   int k = 0;
   for (const auto& it : report.iterations)
-    lines.push_back(
-        fmt::format("{}newton {:2d}  increment {:.3e}  residual {:.3e}{}{}{}", indent, ++k, it.increment, it.residual,
-                    it.linear_iterations > 0 ? fmt::format("  linear {}", it.linear_iterations) : "",
-                    it.step < 1 ? fmt::format("  step {:g}", it.step) : "", it.linearised ? "  new jacobian" : ""));
+    lines.push_back(fmt::format("{}newton {:2d}  increment {:.3e}  residual {}{}{}{}", indent, ++k, it.increment,
+                                std::isnan(it.residual) ? "not evaluated" : fmt::format("{:.3e}", it.residual),
+                                it.linear_iterations > 0 ? fmt::format("  linear {}", it.linear_iterations) : "",
+                                it.step < 1 ? fmt::format("  step {:g}", it.step) : "",
+                                it.linearised ? "  new jacobian" : ""));
 }
 
 namespace {
@@ -224,10 +226,21 @@ NewtonReport NewtonStepperBase<n>::solve_from_there(State& state, StepData& data
   return solved;
 }
 
+namespace {
+
+/// Nobody reads rows of a residual behind a monolithic step, but a network: it settles as the residual has left it.
+template <int n>
+NewtonOptions without_last_residual(const Scene<n>& scene, NewtonOptions options) {
+  options.last_residual = scene.is_static() || !scene.openings.joined().empty();
+  return options;
+}
+
+}  // namespace
+
 template <int n>
 NewtonStepper<n>::NewtonStepper(Scene<n>& scene, const Loads& loads, NewtonOptions options, Numbering numbering,
                                 const LinearSolverFactory<n>& make_solver)
-    : NewtonStepperBase<n>(scene, loads, std::move(options)),
+    : NewtonStepperBase<n>(scene, loads, without_last_residual(scene, std::move(options))),
       system_("coupled", scene, std::move(numbering), make_solver) {}
 
 template <int n>
