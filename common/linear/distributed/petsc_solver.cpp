@@ -139,7 +139,8 @@ struct PetscSolver<n>::Iterative {
   }
 
   /// solution = approximate F^-1 right, see CondensedIteration.
-  int solve(const std::vector<double>& right, double tolerance, std::vector<double>& solution) {
+  typename CondensedIteration<n>::InnerReport solve(const std::vector<double>& right, double norm_of_right,
+                                                    double tolerance, std::vector<double>& solution) {
     tolerance = std::max(tolerance, SingleGmres::smallest_tolerance);  // the products' precision
     const auto& shared = system.shared();
     double* to = nullptr;
@@ -161,7 +162,15 @@ struct PetscSolver<n>::Iterative {
     }
     for (const int p : shared.own_pressures) solution[layout.velocity_size() + p] = *at++;
     petsc_check(VecRestoreArrayRead(x, &from));
-    return static_cast<int>(iterations);
+    typename CondensedIteration<n>::InnerReport report;
+    report.iterations = static_cast<int>(iterations);
+    KSPNormType norm = KSP_NORM_NONE;  // options of PETSc may have chosen another method
+    petsc_check(KSPGetNormType(krylov, &norm));
+    if (norm != KSP_NORM_UNPRECONDITIONED) return report;
+    PetscReal left = 0;
+    petsc_check(KSPGetResidualNorm(krylov, &left));
+    report.relative_residual = left / norm_of_right;
+    return report;
   }
 
   PetscInt restart() const {
@@ -233,12 +242,14 @@ LinearReport PetscSolver<n>::solve(const std::vector<double>& b, double toleranc
                                    bool may_factorise) {
   const OneDenseThread same_bits_for_any_number;
   if (direct_) return direct_->solve(b, tolerance, x);
-  const auto inner = [&](const std::vector<double>& right, double, double wanted, std::vector<double>& solution) {
-    return iterative_->solve(right, wanted, solution);
+  const auto inner = [&](const std::vector<double>& right, double scale, double wanted, std::vector<double>& solution) {
+    return iterative_->solve(right, scale, wanted, solution);
   };
   LinearAttempts attempts;
   attempts.profile = blocks_.profile;
-  attempts.iterate = [&] { return iterative_->iteration.solve(b, tolerance, inner, x); };
+  attempts.iterate = [&] {
+    return iterative_->iteration.solve(b, tolerance, inner, x, &iterative_->system.products().shape_derivatives());
+  };
   attempts.strengthen = [&] { set_up_preconditioner(true); };
   attempts.strengthenings = strengthened_ ? 0 : SolverPolicy(SolvedSystem::jacobian, n).strengthenings();
   if (may_factorise)

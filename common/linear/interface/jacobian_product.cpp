@@ -23,13 +23,32 @@ template <int n>
 void JacobianProduct<n>::multiply(const std::vector<double>& x, std::vector<double>& y) {
   const Numbering& numbering = blocks_.numbering;
   y.assign(static_cast<std::size_t>(numbering.size), 0.0);
-  if (blocks_.shape_derivatives || blocks_.mesh_laplacian || blocks_.mesh_tangent) values(numbering.mesh, x, mesh_);
+  if (has_mesh()) values(numbering.mesh, x, mesh_);
   if (blocks_.fluid) {
     values(numbering.fluid, x, fluid_);
     fsi::multiply(*blocks_.fluid, fluid_, fluid_rows_);
     if (blocks_.shape_derivatives) multiply_add(*blocks_.shape_derivatives, mesh_, fluid_rows_);
     add_to_system(numbering.fluid_rows, fluid_rows_, y);
   }
+  add_mesh_rows(y);
+  if (blocks_.wall) {
+    values(numbering.wall, x, wall_);
+    fsi::multiply(*blocks_.wall, wall_, wall_rows_);
+    add_to_system(numbering.wall_rows, wall_rows_, y);
+  }
+}
+
+template <int n>
+void JacobianProduct<n>::multiply_mesh_rows(const std::vector<double>& x, std::vector<double>& y) {
+  y.assign(static_cast<std::size_t>(blocks_.numbering.size), 0.0);
+  if (!has_mesh()) return;
+  values(blocks_.numbering.mesh, x, mesh_);
+  add_mesh_rows(y);
+}
+
+template <int n>
+void JacobianProduct<n>::add_mesh_rows(std::vector<double>& y) {
+  const Numbering& numbering = blocks_.numbering;
   if (blocks_.mesh_laplacian) {
     if (blocks_.fluid_frames) blocks_.fluid_frames->template to_space<VectorLayout<n>>(mesh_);
     multiply_components<n>(*blocks_.mesh_laplacian, mesh_, mesh_rows_);
@@ -39,11 +58,6 @@ void JacobianProduct<n>::multiply(const std::vector<double>& x, std::vector<doub
   if (blocks_.mesh_tangent) {
     fsi::multiply(*blocks_.mesh_tangent, mesh_, mesh_rows_);
     add_to_system(numbering.mesh_rows, mesh_rows_, y);
-  }
-  if (blocks_.wall) {
-    values(numbering.wall, x, wall_);
-    fsi::multiply(*blocks_.wall, wall_, wall_rows_);
-    add_to_system(numbering.wall_rows, wall_rows_, y);
   }
 }
 

@@ -15,8 +15,13 @@ class JacobianProduct {
 
   /// y = J x, y resized to the equations here. \param x  with its ghosts (Numbering::update_ghosts)
   void multiply(const std::vector<double>& x, std::vector<double>& y);
+  /// The same of the mesh's own equations; y is zero in all others.
+  void multiply_mesh_rows(const std::vector<double>& x, std::vector<double>& y);
 
  private:
+  bool has_mesh() const { return blocks_.shape_derivatives || blocks_.mesh_laplacian || blocks_.mesh_tangent; }
+  /// y += what mesh_ contributes to the mesh's equations.
+  void add_mesh_rows(std::vector<double>& y);
   static void values(const UnknownMap& map, const std::vector<double>& x, std::vector<double>& field);
 
   JacobianBlocks<n> blocks_;

@@ -106,7 +106,7 @@ double CondensedIteration<n>::norm_of_all(const std::vector<double>& x) const {
 template <int n>
 LinearReport CondensedIteration<n>::solve(const std::vector<double>& b, double tolerance,
                                           const InnerSolver& inner_solver, std::vector<double>& x,
-                                          const ProductAtRest& product_at_rest) {
+                                          const InterfaceShapeDerivatives<n>* inner_shape_derivatives) {
   const Numbering& numbering = blocks_.numbering;
   LinearReport report;
   report.converged = false;
@@ -124,12 +124,12 @@ LinearReport CondensedIteration<n>::solve(const std::vector<double>& b, double t
   while (report.iterations < max_iterations_) {
     const double wanted = 0.8 * tolerance / relative;
     const double inner = shape_derivatives_ ? std::max(wanted, 0.5 * shape_contraction) : wanted;
-    correct(inner, inner_solver, report);
+    const double left = correct(inner, inner_solver, report);
     if (std::exchange(first, false)) {
-      const double quick = quick_residual(b, norm_b, tolerance, product_at_rest);
-      if (quick <= tolerance) {
+      const double bound = bound_of_residual(b, norm_b, tolerance, left, inner_shape_derivatives);
+      if (bound <= tolerance) {
         x = correction_;
-        report.relative_residual = quick;
+        report.relative_residual = bound;
         report.converged = true;
         return report;
       }
@@ -189,30 +189,43 @@ double CondensedIteration<n>::left_by_a_correction(const std::vector<double>& b,
 }
 
 template <int n>
-double CondensedIteration<n>::quick_residual(const std::vector<double>& b, double norm_b, double tolerance,
-                                             const ProductAtRest& product_at_rest) {
-  if (!product_at_rest || tolerance < quick_from || (extension_ && extension_->iterates()))
-    return std::numeric_limits<double>::infinity();
-  layout_.take(b, flow_residual_);
-  product_at_rest(solution_, right_);
-  axpy(-1, right_, flow_residual_);
+double CondensedIteration<n>::bound_of_residual(const std::vector<double>& b, double norm_b, double tolerance,
+                                                double left,
+                                                const InterfaceShapeDerivatives<n>* inner_shape_derivatives) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  if (!std::isfinite(left) || tolerance < estimated_from || left > tolerance * norm_b) return infinite;
+  // b - J x = (right - F x) + (b - right) - (S - those of F) mesh in the rows of the flow.
+  layout_.take(b, left_out_);
+  axpy(-1, right_, left_out_);
   if (shape_derivatives_) {
     fsi::multiply(*blocks_.shape_derivatives, mesh_, fluid_rows_);
     jacobian_times_x_.assign(b.size(), 0.0);
     add_to_system(blocks_.numbering.fluid_rows, fluid_rows_, jacobian_times_x_);
     layout_.take(jacobian_times_x_, right_);
-    axpy(-1, right_, flow_residual_);
+    axpy(-1, right_, left_out_);
+    if (inner_shape_derivatives) inner_shape_derivatives->add_product(mesh_, left_out_);
   }
-  return norm(flow_residual_) / norm_b;
+  const double of_flow = left + norm_of_all(left_out_);
+  if (!extension_ || !extension_->iterates()) return of_flow / norm_b;
+  jacobian_.multiply_mesh_rows(correction_, jacobian_times_x_);
+  double of_mesh = 0;
+  for (const Unknown& row : blocks_.numbering.mesh_rows)
+    if (row.index >= 0) of_mesh += std::pow(b[row.index] - jacobian_times_x_[row.index], 2);
+  return std::hypot(of_flow, std::sqrt(blocks_.numbering.processes->sum(of_mesh))) / norm_b;
 }
 
 template <int n>
-void CondensedIteration<n>::correct(double tolerance, const InnerSolver& inner_solver, LinearReport& report) {
+double CondensedIteration<n>::correct(double tolerance, const InnerSolver& inner_solver, LinearReport& report) {
   restrict_residual(residual_, tolerance, right_);
   solution_.assign(right_.size(), 0.0);
-  if (const double scale = norm_of_all(right_); scale > 0)
-    report.iterations += inner_solver(right_, scale, tolerance, solution_);
+  double left = 0;
+  if (const double scale = norm_of_all(right_); scale > 0) {
+    const InnerReport inner = inner_solver(right_, scale, tolerance, solution_);
+    report.iterations += inner.iterations;
+    left = scale * inner.relative_residual;
+  }
   expand(solution_, tolerance, correction_);
+  return left;
 }
 
 template <int n>

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "linear/interface/jacobian_product.hpp"
 #include "linear/interface/linear_solver.hpp"
+#include "linear/velocity_pressure/interface_shape_derivatives.hpp"
 #include "linear/velocity_pressure/velocity_pressure_layout.hpp"
 #include "mesh_motion/mesh_extension.hpp"
 
@@ -18,14 +20,16 @@ namespace fsi {
 template <int n>
 class CondensedIteration {
  public:
+  struct InnerReport {
+    int iterations = 0;
+    /// Over |right|, by the inner solver's own estimate; infinite: it has none. To three digits it is to be that of F, which
+    /// holds `inner_shape_derivatives`.
+    double relative_residual = std::numeric_limits<double>::infinity();
+  };
   /// solution = approximate F^-1 right in the order of the layout, places of ghosts as they are; `scale` is |right| > 0.
   /// \param tolerance  residual over |right|
-  /// \returns iterations
-  using InnerSolver = std::function<int(const std::vector<double>& right, double scale, double tolerance,
-                                        std::vector<double>& solution)>;
-  /// rows = what velocities and pressures, in the order of the layout, contribute to their own equations while the mesh stands
-  /// still; in single precision, say.
-  using ProductAtRest = std::function<void(const std::vector<double>& solution, std::vector<double>& rows)>;
+  using InnerSolver = std::function<InnerReport(const std::vector<double>& right, double scale, double tolerance,
+                                                std::vector<double>& solution)>;
   /// \param inner  per entry of the mesh motion: it is sought here
   using MakeExtension =
       std::function<std::unique_ptr<MeshExtension<n>>(const JacobianBlocks<n>& blocks, std::vector<char> inner)>;
@@ -40,12 +44,13 @@ class CondensedIteration {
   /// The block matrices hold new values.
   void update();
 
-  /// \param tolerance        demanded |b - J x| / |b|
-  /// \param x                overwritten
-  /// \param product_at_rest  where there is one, a few digits of the first correction's residual are taken from it: that
-  ///                         spares the product with the whole Jacobian, more than all the rest of an iteration's products
+  /// \param tolerance                demanded |b - J x| / |b|
+  /// \param x                        overwritten
+  /// \param inner_shape_derivatives  those that the inner solver's matrix has; null: none. They serve where its estimate
+  ///                                 does in place of a product with the whole Jacobian, more than all the rest of an
+  ///                                 iteration's products
   LinearReport solve(const std::vector<double>& b, double tolerance, const InnerSolver& inner_solver,
-                     std::vector<double>& x, const ProductAtRest& product_at_rest = {});
+                     std::vector<double>& x, const InterfaceShapeDerivatives<n>* inner_shape_derivatives = nullptr);
 
   /// What a single correction leaves of b, over |b|: for want of shape derivatives, where the inner solver is exact.
   double left_by_a_correction(const std::vector<double>& b, const InnerSolver& inner_solver);
@@ -67,20 +72,23 @@ class CondensedIteration {
   /// Of a correction's mesh motion, over that of its velocities and pressures, and at most. What it leaves is a residual
   /// of the mesh equations, and the next correction's. So a solution of Newton's method holds them as well as the others.
   static constexpr double extension_share = 0.01, loosest_extension = 1e-3;
-  /// Of linear solves whose residual may be computed in single precision.
-  static constexpr double quick_from = 1e-3;
+  /// Of linear solves whose inner residual may be known in single precision.
+  static constexpr double estimated_from = 1e-3;
 
   void count_extension();
   /// Of rows, which all processes have some of.
   double norm_of_all(const std::vector<double>& x) const;
 
-  /// |b - J correction| / norm_b where `product_at_rest` has the digits of `tolerance`, else infinite. The mesh's own
-  /// equations, which factors solve to six digits, are left out.
-  double quick_residual(const std::vector<double>& b, double norm_b, double tolerance,
-                        const ProductAtRest& product_at_rest);
+  /// A bound of |b - J correction| / norm_b, of the first correction: what the inner solver left, by its estimate, and what
+  /// the shape derivatives do beside those that it knows; of the mesh's own equations what an iteration leaves, while factors
+  /// solve them to six digits. Infinite where the estimate has not the digits of `tolerance`.
+  /// \param left  by the inner solver, a norm
+  double bound_of_residual(const std::vector<double>& b, double norm_b, double tolerance, double left,
+                           const InterfaceShapeDerivatives<n>* inner_shape_derivatives);
 
   /// correction = approximate solution for the residual: velocities and pressures by the inner solver, then the mesh.
-  void correct(double tolerance, const InnerSolver& inner_solver, LinearReport& report);
+  /// \returns norm of the residual that the inner solver left, by its estimate
+  double correct(double tolerance, const InnerSolver& inner_solver, LinearReport& report);
   /// Mesh displacements inside, of mesh_right_ and the given ones.
   void extend(double tolerance);
 
@@ -96,7 +104,7 @@ class CondensedIteration {
   int extension_version_ = 0;       ///< of the operator that it was made of
   bool shape_derivatives_ = false;  ///< they are not all zero (as they are at rest)
   std::vector<double> right_, solution_, residual_, jacobian_times_x_, correction_;
-  std::vector<double> flow_residual_;  ///< of velocities and pressures
+  std::vector<double> left_out_;  ///< of velocities and pressures: what the inner solver's matrix does not have
   std::vector<double> mesh_, mesh_right_, fluid_rows_;
 };
 

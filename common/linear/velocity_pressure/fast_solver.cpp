@@ -134,7 +134,7 @@ struct FastSolver<n>::Factorised {
   typename CondensedIteration<n>::InnerSolver inner_solver() {
     return [this](const std::vector<double>& right, double, double wanted, std::vector<double>& solution) {
       flow.solve(right, wanted, solution);
-      return 1;
+      return typename CondensedIteration<n>::InnerReport{1};
     };
   }
 };
@@ -299,10 +299,9 @@ LinearReport FastSolver<n>::iterate(const std::vector<double>& b, double toleran
         it.gmres.solve_from_zero([&](const auto& r, auto& z, auto& y) { it.preconditioner->apply(r, z, y); },
                                  it.single_right, it.single_solution, wanted, options_.restart);
     it.matrix.give(it.single_solution, scale, solution);
-    return solved.iterations;
+    return typename CondensedIteration<n>::InnerReport{solved.iterations, solved.relative_residual};
   };
-  return it.iteration.solve(b, tolerance, inner, x,
-                            [&](const auto& in, auto& out) { it.matrix.multiply_at_rest(in, out); });
+  return it.iteration.solve(b, tolerance, inner, x, &it.matrix.shape_derivatives());
 }
 
 template <int n>

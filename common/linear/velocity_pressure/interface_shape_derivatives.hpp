@@ -46,17 +46,18 @@ class InterfaceShapeDerivatives {
       momentum.block(position)[k * lanes + i] += static_cast<float>(value);
     });
   }
-  /// y -= what these add to the rows of velocities x, n numbers a velocity node.
-  void subtract_product(const std::vector<double>& x, std::vector<double>& y) const {
-    for_each_number([&](const Coupling& c, int i, int k, double value) {
-      y[VectorLayout<n>::vector(layout_.velocity_of_fluid[c.row], i)] -=
-          value * x[VectorLayout<n>::vector(layout_.velocity_of_fluid[c.column], k)];
+  /// rows += their product with a displacement of the mesh, n numbers a fluid node and a velocity node.
+  void add_product(const std::vector<double>& mesh, std::vector<double>& rows) const {
+    for_each_number([&](const Coupling& c, int i, int k, double value, double /*factor*/) {
+      rows[VectorLayout<n>::vector(layout_.velocity_of_fluid[c.row], i)] +=
+          value * mesh[VectorLayout<n>::vector(c.column, k)];
     });
   }
   /// Calls visit(position of the block, row in it, column in it, value to add).
   template <class Visit>
   void for_each(Visit visit) const {
-    for_each_number([&](const Coupling& c, int i, int k, double value) { visit(c.momentum, i, k, value); });
+    for_each_number(
+        [&](const Coupling& c, int i, int k, double value, double factor) { visit(c.momentum, i, k, factor * value); });
   }
 
  private:
@@ -65,7 +66,7 @@ class InterfaceShapeDerivatives {
     int row, column, shape, momentum;
   };
 
-  /// Calls visit(coupling, row in the block, column in it, value to add).
+  /// Calls visit(coupling, row in the block, column in it, value by displacements, factor that makes it one by velocities).
   template <class Visit>
   void for_each_number(Visit visit) const {
     for (const Coupling& c : couplings_) {
@@ -75,7 +76,7 @@ class InterfaceShapeDerivatives {
         const double factor = blocks_.numbering.mesh[VectorLayout<n>::vector(c.column, k)].factor /
                               blocks_.numbering.fluid[MixedLayout<n>::vector(c.column, k)].factor;
         for (int i = 0; i < n; ++i)
-          if (layout_.is_free(false, c.row, i)) visit(c, i, k, factor * block[VectorLayout<n>::vector(i, k)]);
+          if (layout_.is_free(false, c.row, i)) visit(c, i, k, block[VectorLayout<n>::vector(i, k)], factor);
       }
     }
   }

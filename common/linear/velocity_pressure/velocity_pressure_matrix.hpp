@@ -108,19 +108,6 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     return sum;
   }
 
-  /// y = F x without shape derivatives, in double precision and not padded, as far as single precision goes.
-  void multiply_at_rest(const std::vector<double>& x, std::vector<double>& y) const {
-    double largest = 0;  // which x is scaled by: the range of single precision is short
-    for (const double value : x) largest = std::max(largest, std::abs(value));
-    const double scale = largest > 0 ? largest : 1;
-    single_x_.resize(size());
-    take(x, 1 / scale, single_x_);
-    single_y_.resize(size());
-    multiply(single_x_, single_y_);
-    give(single_y_, scale, y);
-    shape_derivatives_->subtract_product(x, y);
-  }
-
   /// G p of a velocity node.
   Nodal gradient_product(int v, const float* pressure) const {
     Nodal even{}, odd{};
@@ -134,6 +121,9 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     if (at < end) even += load(g) * pressure[gradient_columns_[at]];
     return even + odd;
   }
+
+  /// The shape derivatives that F has.
+  const InterfaceShapeDerivatives<n>& shape_derivatives() const { return *shape_derivatives_; }
 
   /// A by velocity nodes.
   const SplitBlocks<n>& momentum() const { return momentum_; }
@@ -229,8 +219,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   std::vector<int> continuity_offsets_, continuity_velocities_;
   std::vector<float> divergence_;  ///< B, `lanes` numbers a block
   std::vector<int> compressibility_offsets_, compressibility_columns_;
-  std::vector<float> compressibility_;              ///< C
-  mutable std::vector<float> single_x_, single_y_;  ///< of multiply_at_rest()
+  std::vector<float> compressibility_;  ///< C
 };
 
 }  // namespace fsi
