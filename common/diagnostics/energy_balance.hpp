@@ -121,6 +121,7 @@ class EnergyBalance {
       in.mesh_end = end.mesh.data();
     }
     const FluidWork work = scene_.fluid->work(in);
+    record.fluid_kinetic = work.kinetic_end;
     record.viscous += work.viscous;
     record.backflow += work.backflow;
     record.fluid_inertia += work.inertia;

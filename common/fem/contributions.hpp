@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
-#include "fem/interpolation.hpp"
+#include "fem/field_gradients.hpp"
 #include "math/transpose.hpp"
 
 namespace fsi {
@@ -45,14 +46,20 @@ struct ElementRows {
         const int i = Element::axis[k];
         at[a][k] += f.flux(i, 0) * weighted[0] + f.flux(i, 1) * weighted[1] + f.flux(i, 2) * weighted[2];
       }
-      if constexpr (Element::axisymmetric) at[a][0] += f.flux(1, 1) * (weight * g.vectors().hoop[a]);
     }
+    add_hoop_flux(f, g, weight);
     if constexpr (Element::stabilised)
       for (int a = 0; a < Element::scalar_nodes; ++a) {
         const Vec3<Pack> weighted = weight * g.scalars().gradient[a];
         at[a][rows - 1] +=
             f.scalar_flux[0] * weighted[0] + f.scalar_flux[1] * weighted[1] + f.scalar_flux[2] * weighted[2];
       }
+  }
+
+  /// The hoop terms of add_fluxes().
+  void add_hoop_flux(const Integrand<T>& f, const QuadraturePoint<Element>& g, Pack weight) {
+    if constexpr (Element::axisymmetric)
+      for (int a = 0; a < Element::nodes; ++a) at[a][0] += f.flux(1, 1) * (weight * g.vectors().hoop[a]);
   }
 
   /// Adds the integrand's terms with test values.
@@ -87,6 +94,16 @@ inline void integrate(ElementRows<Element, T>& rows, const typename Element::Geo
       }
     }
     rows.add_fluxes(total, first, first.weight);  // the points of these elements weigh the same
+  } else if constexpr (Element::order == 2 && std::is_same_v<T, Pack>) {
+    FluxSums<Element> fluxes;
+    for (int q = 0; q < Element::points; ++q) {
+      const auto g = Element::at(geometry, q);
+      const Integrand<T> f = integrand(prepare(g), g, q);
+      rows.add_sources(f, g);
+      fluxes.add(f.flux, g, g.weight);
+      rows.add_hoop_flux(f, g, g.weight);
+    }
+    fluxes.add_to(rows.at);
   } else {
     for (int q = 0; q < Element::points; ++q) {
       const auto g = Element::at(geometry, q);

@@ -61,13 +61,14 @@ AssemblyResult fluid_packs(const Form& form, const std::vector<typename ElementP
   ElementRows<Element, Seeded<seeds>> rows;
   for (const auto& pack : packs) {
     fields.template gather_from<Moving>(in, pack);
+    const FieldGradients<Element> grad_d(d), grad_u(u);
     constexpr int passes = seeds == 0 ? 1 : Element::nodes;  // derivatives: the unknowns of one node at a time
     for (int b = 0; b < passes; ++b) {
       integrate(
           rows, pack.geometry,
           [&](const auto& g) {
             const auto k =
-                form.prepare(gradient_of(d, g), seed_gradient<Element, seeds, 0>(gradient_of(u, g), g, b),
+                form.prepare(gradient_of(grad_d, g), seed_gradient<Element, seeds, 0>(gradient_of(grad_u, g), g, b),
                              seed_gradient<Element, seeds, n>(gradient_of(p, g), g, b), pack.geometry.metric);
             if (b == 0) result.include(value_of(k.volume_ratio), pack.cell.data());
             return k;

@@ -28,8 +28,9 @@ double fluid_kinetic_energy(const AleFluid& form, const ElementPacks<Element>& p
     NodalVector<Element> d{}, u{};
     gather<MixedLayout<n>>(u, pack, fluid);
     if (mesh) gather<VectorLayout<n>>(d, pack, mesh);
+    const FieldGradients<Element> grad_d(d);
     return pack_integrals<Element, 1>(
-        pack.geometry, [&](const auto& g) { return volume_change(gradient_of(d, g)) + 1.0; },
+        pack.geometry, [&](const auto& g) { return volume_change(gradient_of(grad_d, g)) + 1.0; },
         [&](const Pack& volume_ratio, const auto& g, int) {
           const Vec3<Pack> velocity = value_of(u, g);
           return std::array<Pack, 1>{Pack(0.5 * form.density) * volume_ratio * dot(velocity, velocity)};
@@ -61,17 +62,19 @@ FluidWork work_of_form(Form form, const ElementPacks<Element>& packs, const Flui
     }
     gather<Mixed>(u_start, pack, step.fluid_start);
     gather<Mixed>(u_end, pack, step.fluid_end);
-    return pack_integrals<Element, 6>(
+    const FieldGradients<Element> grad_d(at.d), grad_reference(at.d_reference), grad_u(at.u), grad_start(d_start),
+        grad_end(d_end);
+    return pack_integrals<Element, 7>(
         pack.geometry,
         [&](const auto& g) {
           PreparedWork<Element, Form> k;
-          const Mat3<Pack> h = gradient_of(at.d, g);
-          k.form = form.prepare(h, gradient_of(at.u, g), gradient_of(at.p, g), pack.geometry.metric);
+          const Mat3<Pack> h = gradient_of(grad_d, g);
+          k.form = form.prepare(h, gradient_of(grad_u, g), gradient_of(at.p, g), pack.geometry.metric);
           const Pack change = volume_change(h);
-          k.since_start = change - volume_change(gradient_of(d_start, g));
-          k.to_end = volume_change(gradient_of(d_end, g)) - change;
+          k.since_start = change - volume_change(gradient_of(grad_start, g));
+          k.to_end = volume_change(gradient_of(grad_end, g)) - change;
           k.mesh_divergence =
-              duration * Pack(in.mesh_factor) * contract(k.form.cofactor_gradient, h - gradient_of(at.d_reference, g));
+              duration * Pack(in.mesh_factor) * contract(k.form.cofactor_gradient, h - gradient_of(grad_reference, g));
           return k;
         },
         [&](const PreparedWork<Element, Form>& k, const auto& g, int) {
@@ -85,17 +88,18 @@ FluidWork work_of_form(Form form, const ElementPacks<Element>& packs, const Flui
           // Differences first: W du/dt . u - omega (|u_1|^2 - |u_0|^2) / 2 free of cancellation
           const Vec3<Pack> change = weight * (u1 - u0);
           const Pack inertia = Pack(2.0) * dot(duration * rate - change, u) + dot(change, (u - u0) - (u1 - u));
-          return std::array<Pack, 6>{
+          return std::array<Pack, 7>{
               duration * power.viscous,
               duration * power.stabilisation,
               volume * inertia,
               mesh_divergence - half_density * weight * (k.to_end * dot(u1, u1) + k.since_start * dot(u0, u0)),
               -divergence,
               Pack(2.0) * duration * volume * dot(k.form.velocity_gradient * c, u) + divergence - mesh_divergence,
+              half_density * (k.form.volume_ratio + k.to_end) * dot(u1, u1),
           };
         });
   };
-  const auto sums = sum_over_elements<6>(packs, integrals);
+  const auto sums = sum_over_elements<7>(packs, integrals);
   FluidWork work;
   work.viscous = sums[0];
   work.stabilisation = sums[1];
@@ -103,6 +107,7 @@ FluidWork work_of_form(Form form, const ElementPacks<Element>& packs, const Flui
   work.mesh_motion = sums[3];
   work.divergence = sums[4];
   work.convection = sums[5];
+  work.kinetic_end = sums[6];
   return work;
 }
 

@@ -75,6 +75,7 @@ struct FluidWork {
   double divergence = 0;  ///< -W rho/2 (J div u, |u|^2): convection in convective form
   double backflow = 0;    ///< W beta rho <(u . n)_-, |u|^2> of the openings: stabilisation of backflow
   double convection = 0;  ///< W rho ((J grad u F^-1 c, u) + (J div c, |u|^2)/2), the outflow if integrated exactly
+  double kinetic_end = 0;  ///< kinetic_1 = rho/2 (J_1, |u_1|^2), for it costs nothing here
 
   FluidWork& operator+=(const FluidWork& b) {
     viscous += b.viscous;
@@ -84,6 +85,7 @@ struct FluidWork {
     divergence += b.divergence;
     backflow += b.backflow;
     convection += b.convection;
+    kinetic_end += b.kinetic_end;
     return *this;
   }
 };

@@ -7,11 +7,12 @@
 namespace fsi {
 
 /// Of the latest finished level.
+/// \param of_fluid  false: the fluid's is left at zero, where others find it on their way (EnergyBalance::step_to)
 template <int n>
-LevelEnergy level_energy(const Scene<n>& scene, const State& state) {
+LevelEnergy level_energy(const Scene<n>& scene, const State& state, bool of_fluid = true) {
   LevelEnergy energy;
   const Solution& level = state.before[0];
-  if (scene.fluid) energy.fluid_kinetic = scene.fluid->kinetic_energy(level.mesh, level.fluid);
+  if (scene.fluid && of_fluid) energy.fluid_kinetic = scene.fluid->kinetic_energy(level.mesh, level.fluid);
   if (scene.wall) {
     const WallEnergy wall =
         scene.wall->energy(level.wall, state.wall_velocity, state.last_balance().wall, level.branches);

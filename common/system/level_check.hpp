@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -28,7 +29,7 @@ std::string name_of_step(const Scene<n>& scene, int step, const StepData& data) 
 /// With schemes that solve at a time within the step its end is extrapolated: elements of the wall that are sound in
 /// the solution can be folded there, and their energy is no number.
 /// \param spare   storage, for the state as it was
-/// \param report  gets the energies of the level that follows and how far its wall is deformed, by which it was judged
+/// \param report  gets the wall's energies of the level that follows and how far it is deformed, by which it was judged
 /// \throws ConvergenceError with step, time and field; the state is then as before
 template <int n>
 void accept_level(const Scene<n>& scene, const StepData& data, State& state, State& spare, StepReport& report) {
@@ -42,14 +43,15 @@ void accept_level(const Scene<n>& scene, const StepData& data, State& state, Sta
     throw ConvergenceError(failure, wall_check_remedy(scene));
   }
   report.wall = std::move(check.layers);
-  const LevelEnergy level = report.level = level_energy(scene, state);
+  const LevelEnergy level = report.level = level_energy(scene, state, false);
   std::array<double, 3> infinite{};
-  infinite[0] = !std::isfinite(level.fluid_kinetic);
+  for (const auto* field : {&state.before[0].mesh, &state.before[0].fluid})
+    infinite[0] += !std::all_of(field->begin(), field->end(), [](double x) { return std::isfinite(x); });
   infinite[1] = !std::isfinite(level.wall_kinetic);
   infinite[2] = !std::isfinite(level.wall_isochoric + level.wall_volumetric);
   scene.processes().sum(infinite.data(), infinite.size());
   if (infinite == std::array<double, 3>{}) return;
-  const char* fault = infinite[0] > 0   ? "the fluid's velocity, by its kinetic energy,"
+  const char* fault = infinite[0] > 0   ? "the fluid's velocity, its pressure or the displacement of its mesh"
                       : infinite[1] > 0 ? "the wall's velocity, by its kinetic energy,"
                                         : "the wall's displacement, by its strain energy,";
   const auto failure =

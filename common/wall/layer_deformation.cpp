@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "fem/elements.hpp"
-#include "fem/interpolation.hpp"
+#include "fem/field_gradients.hpp"
 #include "math/kinematics.hpp"
 #include "mesh/curved_cells.hpp"
 
@@ -113,8 +113,9 @@ PackDeformation pack_deformation(const typename ElementPacks<Element>::ElementPa
       for (int k = 0; k < n; ++k) d.at[a][k] += first.at[a][k];
   }
   PackDeformation result;
+  const FieldGradients<Element> grad_d(d);
   for (int q = 0; q < points; ++q) {
-    const Mat3<Pack> h = gradient_of(d, Element::at(pack.geometry, q));
+    const Mat3<Pack> h = gradient_of(grad_d, Element::at(pack.geometry, q));
     const Pack change = in.finds_unloaded_shape ? volume_change(-1.0 * h) : volume_change(h);
     for (int lane = 0; lane < pack.filled; ++lane) {
       if (!pack.counted[lane]) continue;

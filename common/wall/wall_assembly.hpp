@@ -90,13 +90,14 @@ AssemblyResult layer_packs(const Form& form, const std::vector<typename ElementP
   for (std::size_t index = 0; index < packs.size(); ++index) {
     const auto& pack = packs[index];
     fields.gather_from(in, pack);
+    const FieldGradients<Element> grad_d(d);
     const auto& here = in_pack(form, fibres, index);
     for (int b = 0; b < (Derivatives ? Element::nodes : 1); ++b) {
       integrate(
           rows, pack.geometry,
           [&](const auto& g) {
             const auto k =
-                here.prepare(seed_gradient<Element, seeds, 0>(gradient_of(d, g), g, b),
+                here.prepare(seed_gradient<Element, seeds, 0>(gradient_of(grad_d, g), g, b),
                              seed_gradient<Element, seeds, n>(gradient_of(p, g), g, b), pack.geometry.size_squared);
             if (b == 0) result.include(value_of(k.volume_ratio), pack.cell.data());
             return k;

@@ -31,6 +31,7 @@ WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& l
     if (prestress) add_prestress<Element>(d, pack, prestress);
     gather<MixedLayout<n>>(p, pack, balance);
     if (velocity) gather<VectorLayout<n>>(v, pack, velocity);
+    const FieldGradients<Element> grad_d(d);
     struct Prepared {
       Strain<Pack> strain;
       Pack isotropic;       ///< Psi of materials without fibres
@@ -41,11 +42,11 @@ WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& l
         [&](const auto& g) {
           Prepared k;
           if constexpr (varies) {
-            k.gradient = gradient_of(d, g);
+            k.gradient = gradient_of(grad_d, g);
           } else if constexpr (is_compressible) {
-            k.isotropic = form.material.energy(gradient_of(d, g));
+            k.isotropic = form.material.energy(gradient_of(grad_d, g));
           } else {
-            k.strain = strain_of(gradient_of(d, g));
+            k.strain = strain_of(gradient_of(grad_d, g));
             if constexpr (!has_fibres) k.isotropic = form.material.energy(k.strain, {});
           }
           return k;
@@ -100,6 +101,7 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
     for (int a = 0; a < Element::nodes; ++a)
       for (int k = 0; k < n; ++k)
         moved.at[a][k] = Pack(step.duration * step.rate) * (at.d.at[a][k] - reference.at[a][k]);
+    const FieldGradients<Element> grad_d(at.d), grad_moved(moved), grad_before(d_before);
     struct Prepared {
       Mat3<Pack> now, moved;  ///< grad d, W grad v
       decltype(deformation(Mat3<Pack>{})) f;
@@ -112,8 +114,8 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
         pack.geometry,
         [&](const auto& g) {
           Prepared k;
-          k.now = gradient_of(at.d, g);
-          k.moved = gradient_of(moved, g);
+          k.now = gradient_of(grad_d, g);
+          k.moved = gradient_of(grad_moved, g);
           const auto f = k.f = deformation(k.now);
           if constexpr (is_compressible) {
             const auto response = form.material.response(k.now, f);
@@ -126,7 +128,7 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
           }
           k.stabilisation = Pack(0.0);
           if (step.wall_before) {
-            const Mat3<Pack> h_before = gradient_of(d_before, g);
+            const Mat3<Pack> h_before = gradient_of(grad_before, g);
             const auto before = deformation(h_before);
             if constexpr (is_compressible)
               k.defect = k.defect - (form.material.response(k.now, f).volume_measure -
