@@ -1,83 +1,221 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <utility>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
-#include "algebra/register_blocks.hpp"
+#include "algebra/registers.hpp"
 
 namespace fsi {
 
-/// A sparse matrix of dense n x n blocks in single precision as its lower triangle, the diagonal in it, and what lies above,
-/// rows from the last to the first: either half of a symmetric Gauss-Seidel sweep reads one of them from its beginning to its
-/// end. Of whole rows it would need a half each, while the processor prefetches what follows, the other half; and towards
-/// lower addresses not all processors prefetch as well (docs/guide/solvers.md#speed).
+/// A sparse matrix of dense n x n blocks as the diagonal, what lies below and what lies above, the latter's rows from the last
+/// to the first: either half of a symmetric Gauss-Seidel sweep reads one triangle from its beginning to its end. Of whole rows
+/// it would need a half each, while the processor prefetches what follows, the other half; and towards lower addresses not
+/// all processors prefetch as well (docs/guide/solvers.md#speed).
+///
+/// The triangles are in 16 bits: a number is a whole one of -32767 to 32767 times a scale that the row of a triangle has for
+/// each component. The diagonal is in single precision and gets what rounding takes from its row, so that sums over a row stay
+/// as they are: of smooth vectors, for which most of a row cancels, rounding is hardly felt. Products are in single precision.
 template <int n>
-struct SplitBlocks {
-  static constexpr int stride = RegisterBlocks<n, n>::stride;  ///< floats a block
+class SplitBlocks {
+ public:
+  static constexpr int lanes = padded<n>;
+  static constexpr int stride = n * lanes;  ///< numbers a block: n columns of `lanes`
 
-  RegisterBlocks<n, n> lower;  ///< the last block of a row is on the diagonal
-  RegisterBlocks<n, n> upper;  ///< its row k is that of node rows() - 1 - k
+  /// A triangle.
+  struct Half {
+    std::vector<int> offsets{0}, columns;
+    std::vector<std::int16_t> values;
+    std::vector<float> scales;  ///< `lanes` a row
+
+    std::size_t bytes() const {
+      return values.size() * sizeof(std::int16_t) + scales.size() * sizeof(float) +
+             (columns.size() + offsets.size()) * sizeof(int);
+    }
+  };
+  Half lower;                    ///< below the diagonal
+  Half upper;                    ///< above it; its row k is that of node rows() - 1 - k
+  std::vector<float> diagonals;  ///< `stride` numbers a row
 
   SplitBlocks() = default;
   /// \param rows  columns of each row, ascending, the diagonal among them
   explicit SplitBlocks(const std::vector<std::vector<int>>& rows) {
     const int count = static_cast<int>(rows.size());
-    for (int v = 0; v < count; ++v) append(lower, rows[v].begin(), above(rows[v], v));
+    for (int v = 0; v < count; ++v) append(lower, rows[v].begin(), above(rows[v], v) - 1);
     for (int v = count - 1; v >= 0; --v) append(upper, above(rows[v], v), rows[v].end());
-    for (auto* half : {&lower, &upper}) half->values.assign(half->columns.size() * stride, 0.0f);
+    diagonals.assign(rows.size() * stride, 0.0f);
+    for (auto* half : {&lower, &upper}) {
+      half->values.assign(half->columns.size() * stride + read_beyond, 0);
+      half->scales.assign(rows.size() * lanes, 0.0f);
+    }
   }
 
-  int rows() const { return lower.rows(); }
+  int rows() const { return static_cast<int>(lower.offsets.size()) - 1; }
   int lower_begin(int v) const { return lower.offsets[v]; }
   int lower_end(int v) const { return lower.offsets[v + 1]; }
-  int upper_begin(int v) const { return upper.offsets[rows() - 1 - v]; }
-  int upper_end(int v) const { return upper.offsets[rows() - v]; }
+  int upper_begin(int v) const { return upper.offsets[upper_row(v)]; }
+  int upper_end(int v) const { return upper.offsets[upper_row(v) + 1]; }
 
-  /// Of a block among all, the lower ones first. It must be there.
-  int position(int row, int column) const {
-    return column <= row
-               ? find(lower, lower_begin(row), lower_end(row), column)
-               : static_cast<int>(lower.columns.size()) + find(upper, upper_begin(row), upper_end(row), column);
+  /// Blocks of a row.
+  int count(int v) const { return below(v) + 1 + upper_end(v) - upper_begin(v); }
+  /// Where among them, columns ascending, a column's block is. It must be there.
+  int place(int row, int column) const {
+    if (column < row) return find(lower, lower_begin(row), lower_end(row), column);
+    return below(row) + (column == row ? 0 : 1 + find(upper, upper_begin(row), upper_end(row), column));
   }
-  float* block(int position) { return const_cast<float*>(std::as_const(*this).block(position)); }
-  /// n columns of padded<n> numbers.
-  const float* block(int position) const {
-    const std::size_t at = position, below = lower.columns.size();
-    return at < below ? lower.values.data() + at * stride : upper.values.data() + (at - below) * stride;
+
+  /// Row v = the nearest to `blocks`, of count(v) times `stride` numbers, columns ascending. Where one of them is not finite
+  /// products with the row are not.
+  void set_row(int v, const float* blocks) {
+    const float* diagonal = blocks + static_cast<std::size_t>(below(v)) * stride;
+    float* to = diagonals.data() + static_cast<std::size_t>(v) * stride;
+    std::copy_n(diagonal, stride, to);
+    round(lower, v, blocks, to);
+    round(upper, upper_row(v), diagonal + stride, to);
   }
-  /// Calls visit(column, position) for the blocks of a row, columns ascending.
+  /// Calls visit(column, block) for the blocks of a row as they are, columns ascending: n columns of `lanes` numbers.
   template <class Visit>
   void for_row(int v, Visit visit) const {
-    for (int at = lower_begin(v); at < lower_end(v); ++at) visit(lower.columns[at], at);
-    for (int at = upper_begin(v); at < upper_end(v); ++at)
-      visit(upper.columns[at], static_cast<int>(lower.columns.size()) + at);
-  }
-  void clear_row(int v) {
-    std::fill(lower.values.begin() + std::ptrdiff_t{lower_begin(v)} * stride,
-              lower.values.begin() + std::ptrdiff_t{lower_end(v)} * stride, 0.0f);
-    std::fill(upper.values.begin() + std::ptrdiff_t{upper_begin(v)} * stride,
-              upper.values.begin() + std::ptrdiff_t{upper_end(v)} * stride, 0.0f);
+    const auto visit_half = [&](const Half& half, int row) {
+      const float* scale = half.scales.data() + static_cast<std::size_t>(row) * lanes;
+      for (int at = half.offsets[row]; at < half.offsets[row + 1]; ++at) {
+        float block[stride];
+        for (int i = 0; i < stride; ++i)
+          block[i] = scale[i % lanes] * half.values[static_cast<std::size_t>(at) * stride + i];
+        visit(half.columns[at], static_cast<const float*>(block));
+      }
+    };
+    visit_half(lower, v);
+    visit(v, diagonals.data() + static_cast<std::size_t>(v) * stride);
+    visit_half(upper, upper_row(v));
   }
 
-  Register<n> row_product(int v, const float* x) const {
-    return lower.product(lower_begin(v), lower_end(v), x) + upper.product(upper_begin(v), upper_end(v), x);
+  /// Blocks begin ... end - 1 of row v's part of a triangle times x.
+  Register<n> lower_product(int v, int begin, int end, const float* x) const {
+    return product(lower, v, begin, end, x);
   }
-  std::size_t bytes() const { return lower.bytes() + upper.bytes(); }
+  Register<n> upper_product(int v, int begin, int end, const float* x) const {
+    return product(upper, upper_row(v), begin, end, x);
+  }
+  Register<n> diagonal_product(int v, const float* x) const {
+    const float* block = diagonals.data() + static_cast<std::size_t>(v) * stride;
+    const Register<n> here = load<n>(x + static_cast<std::size_t>(v) * lanes);
+    Register<n> sum{};
+    for (int k = 0; k < n; ++k) sum += load<n>(block + k * lanes) * here[k];
+    return sum;
+  }
+  Register<n> row_product(int v, const float* x) const {
+    return lower_product(v, lower_begin(v), lower_end(v), x) + diagonal_product(v, x) +
+           upper_product(v, upper_begin(v), upper_end(v), x);
+  }
+  /// What rounding of row v's numbers may do to its product with x, squared, were x as large all over and without any pattern:
+  /// errors of even distribution, up to half a unit, at each neighbour and on the diagonal.
+  double rounding_squared(int v, const Register<n>& x) const {
+    double units = 0, size = 0;
+    const auto add = [&](const Half& half, int row) {
+      const double count = half.offsets[row + 1] - half.offsets[row];
+      for (int i = 0; i < n; ++i) units += count * std::pow(half.scales[static_cast<std::size_t>(row) * lanes + i], 2);
+    };
+    add(lower, v);
+    add(upper, upper_row(v));
+    for (int i = 0; i < n; ++i) size += static_cast<double>(x[i]) * x[i];
+    return units * size / 6;
+  }
+  std::size_t bytes() const { return lower.bytes() + upper.bytes() + diagonals.size() * sizeof(float); }
 
  private:
+  static_assert(n == 2 || n == 3);
   using Columns = std::vector<int>::const_iterator;
+  static constexpr float largest = 32767;
+  /// Numbers that a product may read behind the last block.
+  static constexpr std::size_t read_beyond = 16;
+  /// Numbers from a block in use to one that is prefetched meanwhile, 4 KiB on. By themselves not all processors prefetch as
+  /// far (docs/guide/solvers.md#speed).
+  static constexpr std::ptrdiff_t ahead = 2048;
+
+  int below(int v) const { return lower_end(v) - lower_begin(v); }
+  int upper_row(int v) const { return rows() - 1 - v; }
   static Columns above(const std::vector<int>& columns, int row) {
     return std::upper_bound(columns.begin(), columns.end(), row);
   }
-  static void append(RegisterBlocks<n, n>& to, Columns begin, Columns end) {
+  static void append(Half& to, Columns begin, Columns end) {
     to.columns.insert(to.columns.end(), begin, end);
     to.offsets.push_back(static_cast<int>(to.columns.size()));
   }
-  static int find(const RegisterBlocks<n, n>& half, int begin, int end, int column) {
-    const auto from = half.columns.begin();
-    return static_cast<int>(std::lower_bound(from + begin, from + end, column) - from);
+  /// From `begin` on.
+  static int find(const Half& half, int begin, int end, int column) {
+    const auto from = half.columns.begin() + begin;
+    return static_cast<int>(std::lower_bound(from, half.columns.begin() + end, column) - from);
+  }
+
+  /// \param rest  += what rounding takes from each number of a block, over the row
+  static void round(Half& half, int row, const float* from, float* rest) {
+    const int count = half.offsets[row + 1] - half.offsets[row];
+    std::int16_t* to = half.values.data() + static_cast<std::size_t>(half.offsets[row]) * stride;
+    for (int i = 0; i < lanes; ++i) {
+      float most = 0, zero = 0;  // `zero` is no number where one is not finite
+      for (int at = i; at < count * stride; at += lanes) {
+        most = std::max(most, std::abs(from[at]));
+        zero += 0 * from[at];
+      }
+      const float unit = most / largest;
+      const bool any = zero == 0 && unit > 0;
+      half.scales[static_cast<std::size_t>(row) * lanes + i] =
+          zero == 0 ? unit : std::numeric_limits<float>::quiet_NaN();
+      for (int at = i; at < count * stride; at += lanes) {
+        to[at] = any ? static_cast<std::int16_t>(std::clamp(std::nearbyint(from[at] / unit), -largest, largest))
+                     : std::int16_t{0};
+        if (any) rest[at % stride] += from[at] - unit * static_cast<float>(to[at]);
+      }
+    }
+  }
+
+  /// Eight whole numbers in a register of floats.
+  static Register<8> floats(const std::int16_t* from) {
+    using Short = std::int16_t __attribute__((vector_size(16)));
+    using Long = std::int32_t __attribute__((vector_size(32)));
+    Short x;
+    __builtin_memcpy(&x, from, sizeof x);
+    return __builtin_convertvector(__builtin_convertvector(x, Long), Register<8>);
+  }
+  /// Two blocks at a time: their numbers fill whole registers. Behind an odd last one others' numbers, or zeros, meet zeros.
+  static Register<n> product(const Half& half, int row, int begin, int end, const float* x) {
+    const std::int16_t* a = half.values.data() + static_cast<std::size_t>(begin) * stride;
+    const auto node = [&](int at) { return load<n>(x + static_cast<std::size_t>(half.columns[at]) * lanes); };
+    Register<8> parts[n == 3 ? 3 : 1] = {};
+    const auto add = [&](Register<n> f, Register<n> g) {
+      __builtin_prefetch(a + ahead);
+      if constexpr (n == 3) {
+        parts[0] += floats(a) * __builtin_shufflevector(f, g, 0, 0, 0, 0, 1, 1, 1, 1);
+        parts[1] += floats(a + 8) * __builtin_shufflevector(f, g, 2, 2, 2, 2, 4, 4, 4, 4);
+        parts[2] += floats(a + 16) * __builtin_shufflevector(f, g, 5, 5, 5, 5, 6, 6, 6, 6);
+      } else {
+        parts[0] += floats(a) * __builtin_shufflevector(f, g, 0, 0, 1, 1, 2, 2, 3, 3);
+      }
+      a += 2 * stride;
+    };
+    int at = begin;
+    for (; at + 1 < end; at += 2) add(node(at), node(at + 1));
+    if (at < end) {
+      if constexpr (n == 3) {
+        const Register<n> f = node(at);
+        parts[0] += floats(a) * __builtin_shufflevector(f, f, 0, 0, 0, 0, 1, 1, 1, 1);
+        parts[1] += floats(a + 8) * __builtin_shufflevector(f, Register<n>{}, 2, 2, 2, 2, 4, 4, 4, 4);
+      } else {
+        add(node(at), Register<n>{});
+      }
+    }
+    Register<n> sum;
+    if constexpr (n == 3) {
+      sum = folded(parts[0] + parts[1] + parts[2]);
+    } else {
+      const Register<4> half_sum = folded(parts[0]);
+      sum = __builtin_shufflevector(half_sum, half_sum, 0, 1) + __builtin_shufflevector(half_sum, half_sum, 2, 3);
+    }
+    return sum * load<n>(half.scales.data() + static_cast<std::size_t>(row) * lanes);
   }
 };
 

@@ -62,16 +62,15 @@ struct SweepChunks {
       last[row] = at;
     });
   }
-  /// Of triangles: `first` and `diagonal` are positions in the lower one, `last` in the upper one.
+  /// Of triangles: `first` and `diagonal` are positions in the lower one, which ends at the diagonal, `last` in the upper one.
   template <int n>
   explicit SweepChunks(const SplitBlocks<n>& a) {
     divide(a.rows());
     for_rows([&](int row, int from, int to) {
       int at = a.lower_begin(row);
-      while (a.lower.columns[at] < from) ++at;
+      while (at < a.lower_end(row) && a.lower.columns[at] < from) ++at;
       first[row] = at;
-      diagonal[row] = a.lower_end(row) - 1;
-      assert(a.lower.columns[diagonal[row]] == row);
+      diagonal[row] = a.lower_end(row);
       at = a.upper_begin(row);
       while (at < a.upper_end(row) && a.upper.columns[at] < to) ++at;
       last[row] = at;

@@ -31,6 +31,7 @@ std::unique_ptr<MeshExtension<n>> make_extension(const JacobianBlocks<n>& blocks
 
 template <int n>
 struct PetscSolver<n>::Iterative {
+  const Communicator& processes;
   VelocityPressureLayout<n> layout;
   VelocityPressureSystem<n> system;
   PetscMomentumSolver<n> momentum;
@@ -41,7 +42,8 @@ struct PetscSolver<n>::Iterative {
   OwnedVec in_velocities, in_pressures, out_velocities, out_pressures;  ///< of the preconditioner's vectors
 
   Iterative(const JacobianBlocks<n>& blocks, const FastOptions& options)
-      : layout(blocks),
+      : processes(*blocks.numbering.processes),
+        layout(blocks),
         system(blocks, layout),
         momentum(system),
         iteration(blocks, layout, make_extension<n>, options.max_iterations),
@@ -169,7 +171,7 @@ struct PetscSolver<n>::Iterative {
     if (norm != KSP_NORM_UNPRECONDITIONED) return report;
     PetscReal left = 0;
     petsc_check(KSPGetResidualNorm(krylov, &left));
-    report.relative_residual = left / norm_of_right;
+    report.relative_residual = (left + system.products().rounding(x, processes)) / norm_of_right;
     return report;
   }
 

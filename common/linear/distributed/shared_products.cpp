@@ -1,5 +1,7 @@
 #include "linear/distributed/shared_products.hpp"
 
+#include <cmath>
+
 #include "fem/dimensions.hpp"
 #include "host/parallel_for.hpp"
 
@@ -106,6 +108,15 @@ void SharedProducts<n>::multiply(Vec x, Vec y) {
   for (std::size_t i = 0; i < shared_.own_pressures.size(); ++i)
     to[shared_.velocity_rows + i] = product_[matrix_.velocity_size() + shared_.own_pressures[i]];
   petsc_check(VecRestoreArrayWrite(y, &to));
+}
+
+template <int n>
+double SharedProducts<n>::rounding(Vec x, const Communicator& processes) {
+  take_velocities(x, local_);
+  double sum = 0;
+  for (const int v : shared_.own_velocities)
+    sum += matrix_.momentum().rounding_squared(v, load<n>(local_.data() + std::size_t{lanes} * v));
+  return std::sqrt(processes.sum(sum));
 }
 
 template <int n>

@@ -32,6 +32,8 @@ class SharedProducts {
   /// velocities = approximate A^-1 residual, by sweeps over A's columns of this process's own velocities
   void sweep(Vec residual, Vec velocities);
 
+  /// VelocityPressureMatrix::rounding() of the velocities of x, in the rows of all processes. \param x  in the rows of SharedLayout
+  double rounding(Vec x, const Communicator& processes);
   const InterfaceShapeDerivatives<n>& shape_derivatives() const { return matrix_.shape_derivatives(); }
   double bytes() const { return static_cast<double>(matrix_.bytes() + sweep_.bytes()); }
 

@@ -34,7 +34,7 @@ VelocityPressureSystem<n>::VelocityPressureSystem(const JacobianBlocks<n>& block
         }
         return pattern;
       }()),
-      shape_derivatives_(blocks, layout, [this](int row, int column) { return pattern_.position(row, column); }),
+      shape_derivatives_(blocks, layout),
       products_(blocks, layout, shared_, communicator_),
       row_scale_(petsc_vector(communicator_, shared_.pressure_rows)) {
   make_lists();
@@ -129,9 +129,9 @@ void VelocityPressureSystem<n>::fill_momentum() {
         for (int i = 0; i < n; ++i)
           for (int k = 0; k < n; ++k) a[k * n + i] += factor * block[MixedLayout<n>::in_block(i, k)];
       });
+      shape_derivatives_.for_row(
+          v, [&](int u, int i, int k, double value) { block_of(pattern_.position(v, u))[k * n + i] += value; });
     }
-    shape_derivatives_.for_each(
-        [&](int position, int i, int k, double value) { block_of(position)[k * n + i] += value; });
   }
   petsc_check(MatAssemblyBegin(momentum_, MAT_FINAL_ASSEMBLY));
   petsc_check(MatAssemblyEnd(momentum_, MAT_FINAL_ASSEMBLY));

@@ -120,10 +120,13 @@ LinearReport CondensedIteration<n>::solve(const std::vector<double>& b, double t
   OuterDirections directions(*numbering.processes);
   double relative = 1;
   bool first = true;
-  double shape_contraction = 0.05;  // what an outer iteration leaves of the residual for want of shape derivatives
+  // What an outer iteration leaves of the residual for want of what the inner solver's matrix lacks: shape derivatives, digits.
+  // To solve by it much further is wasted.
+  const bool lacks = shape_derivatives_ || inner_shape_derivatives;
+  double lacking = shape_derivatives_ ? 0.05 : 0.01;
   while (report.iterations < max_iterations_) {
     const double wanted = 0.8 * tolerance / relative;
-    const double inner = shape_derivatives_ ? std::max(wanted, 0.5 * shape_contraction) : wanted;
+    const double inner = lacks ? std::max(wanted, 0.5 * lacking) : wanted;
     const double left = correct(inner, inner_solver, report);
     if (std::exchange(first, false)) {
       const double bound = bound_of_residual(b, norm_b, tolerance, left, inner_shape_derivatives);
@@ -167,8 +170,8 @@ LinearReport CondensedIteration<n>::solve(const std::vector<double>& b, double t
       report.converged = true;
       return report;
     }
-    // Either the shape derivatives set the pace, or the inner tolerance did and they may be smaller than thought.
-    shape_contraction = contraction > 2 * inner ? std::clamp(contraction, 1e-3, 0.2) : 0.2 * shape_contraction;
+    // Either they set the pace, or the inner tolerance did and they may be smaller than thought.
+    lacking = contraction > 2 * inner ? std::clamp(contraction, 1e-3, 0.2) : 0.2 * lacking;
     if (contraction > 0.95) {
       report.failure = fmt::format("the linear solver stalls at a relative residual of {:.1e}", relative);
       return report;

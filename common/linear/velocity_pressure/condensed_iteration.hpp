@@ -22,8 +22,8 @@ class CondensedIteration {
  public:
   struct InnerReport {
     int iterations = 0;
-    /// Over |right|, by the inner solver's own estimate; infinite: it has none. To three digits it is to be that of F, which
-    /// holds `inner_shape_derivatives`.
+    /// Over |right|, by the inner solver's own estimate, rounding of its matrix with it; infinite: it has none. To three digits
+    /// it is to be that of F, which holds `inner_shape_derivatives`.
     double relative_residual = std::numeric_limits<double>::infinity();
   };
   /// solution = approximate F^-1 right in the order of the layout, places of ghosts as they are; `scale` is |right| > 0.

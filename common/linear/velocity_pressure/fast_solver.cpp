@@ -299,7 +299,8 @@ LinearReport FastSolver<n>::iterate(const std::vector<double>& b, double toleran
         it.gmres.solve_from_zero([&](const auto& r, auto& z, auto& y) { it.preconditioner->apply(r, z, y); },
                                  it.single_right, it.single_solution, wanted, options_.restart);
     it.matrix.give(it.single_solution, scale, solution);
-    return typename CondensedIteration<n>::InnerReport{solved.iterations, solved.relative_residual};
+    return typename CondensedIteration<n>::InnerReport{
+        solved.iterations, solved.relative_residual + it.matrix.rounding(it.single_solution)};
   };
   return it.iteration.solve(b, tolerance, inner, x, &it.matrix.shape_derivatives());
 }

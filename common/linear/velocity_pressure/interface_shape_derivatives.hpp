@@ -1,8 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
-#include "algebra/split_blocks.hpp"
 #include "fem/nodal_layout.hpp"
 #include "linear/velocity_pressure/velocity_pressure_layout.hpp"
 
@@ -19,11 +19,7 @@ namespace fsi {
 template <int n>
 class InterfaceShapeDerivatives {
  public:
-  static constexpr int lanes = padded<n>;
-
-  /// \param position  called as position(row, column): of a block among those of all velocities that share a cell
-  template <class Position>
-  InterfaceShapeDerivatives(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout, Position position)
+  InterfaceShapeDerivatives(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout)
       : blocks_(blocks), layout_(layout) {
     if (!blocks.shape_derivatives || blocks.numbering.mesh.empty()) return;
     const auto& graph = *blocks.shape_derivatives->graph;
@@ -35,49 +31,44 @@ class InterfaceShapeDerivatives {
         if (!blocks.fluid_nodes->owns(row)) break;
         const int column = graph.columns[at];
         if (!moves_with_it[column]) continue;
-        const int v = layout.velocity_of_fluid[row], u = layout.velocity_of_fluid[column];
-        couplings_.push_back({row, column, at, position(v, u)});
+        couplings_.push_back({layout.velocity_of_fluid[row], layout.velocity_of_fluid[column], row, column, at});
       }
+    std::stable_sort(couplings_.begin(), couplings_.end(), by_velocity);
   }
 
-  /// momentum += the present values.
-  void add_to(SplitBlocks<n>& momentum) const {
-    for_each([&](int position, int i, int k, double value) {
-      momentum.block(position)[k * lanes + i] += static_cast<float>(value);
-    });
+  /// Calls add(column, row in its block, column in it, value to add) for the present values of a velocity node's row.
+  template <class Add>
+  void for_row(int v, Add add) const {
+    const auto row = std::equal_range(couplings_.begin(), couplings_.end(), Coupling{v, 0, 0, 0, 0}, by_velocity);
+    for (auto c = row.first; c != row.second; ++c)
+      for_numbers(*c, [&](int i, int k, double value, double factor) { add(c->u, i, k, factor * value); });
   }
   /// rows += their product with a displacement of the mesh, n numbers a fluid node and a velocity node.
   void add_product(const std::vector<double>& mesh, std::vector<double>& rows) const {
-    for_each_number([&](const Coupling& c, int i, int k, double value, double /*factor*/) {
-      rows[VectorLayout<n>::vector(layout_.velocity_of_fluid[c.row], i)] +=
-          value * mesh[VectorLayout<n>::vector(c.column, k)];
-    });
-  }
-  /// Calls visit(position of the block, row in it, column in it, value to add).
-  template <class Visit>
-  void for_each(Visit visit) const {
-    for_each_number(
-        [&](const Coupling& c, int i, int k, double value, double factor) { visit(c.momentum, i, k, factor * value); });
+    for (const Coupling& c : couplings_)
+      for_numbers(c, [&](int i, int k, double value, double /*factor*/) {
+        rows[VectorLayout<n>::vector(c.v, i)] += value * mesh[VectorLayout<n>::vector(c.column, k)];
+      });
   }
 
  private:
-  /// A fluid node of the interface, its neighbour there, and the blocks that couple them.
+  /// A fluid node of the interface, its neighbour there, and the block that couples them.
   struct Coupling {
-    int row, column, shape, momentum;
+    int v, u;  ///< their velocity nodes
+    int row, column, shape;
   };
+  static bool by_velocity(const Coupling& a, const Coupling& b) { return a.v < b.v; }
 
-  /// Calls visit(coupling, row in the block, column in it, value by displacements, factor that makes it one by velocities).
+  /// Calls visit(row in the block, column in it, value by displacements, factor that makes it one by velocities).
   template <class Visit>
-  void for_each_number(Visit visit) const {
-    for (const Coupling& c : couplings_) {
-      const double* block = blocks_.shape_derivatives->block(c.shape);
-      for (int k = 0; k < n; ++k) {
-        if (!follows(c.column, k)) continue;
-        const double factor = blocks_.numbering.mesh[VectorLayout<n>::vector(c.column, k)].factor /
-                              blocks_.numbering.fluid[MixedLayout<n>::vector(c.column, k)].factor;
-        for (int i = 0; i < n; ++i)
-          if (layout_.is_free(false, c.row, i)) visit(c, i, k, block[VectorLayout<n>::vector(i, k)], factor);
-      }
+  void for_numbers(const Coupling& c, Visit visit) const {
+    const double* block = blocks_.shape_derivatives->block(c.shape);
+    for (int k = 0; k < n; ++k) {
+      if (!follows(c.column, k)) continue;
+      const double factor = blocks_.numbering.mesh[VectorLayout<n>::vector(c.column, k)].factor /
+                            blocks_.numbering.fluid[MixedLayout<n>::vector(c.column, k)].factor;
+      for (int i = 0; i < n; ++i)
+        if (layout_.is_free(false, c.row, i)) visit(i, k, block[VectorLayout<n>::vector(i, k)], factor);
     }
   }
 
@@ -89,7 +80,7 @@ class InterfaceShapeDerivatives {
 
   JacobianBlocks<n> blocks_;
   const VelocityPressureLayout<n>& layout_;
-  std::vector<Coupling> couplings_;
+  std::vector<Coupling> couplings_;  ///< by velocity node
 };
 
 }  // namespace fsi

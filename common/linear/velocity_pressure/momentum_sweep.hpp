@@ -37,12 +37,12 @@ class MomentumSweep {
   void apply(const std::vector<float>& r, std::vector<float>& x) {
     chunks_.forward([&](int v) {  // x = (D/w + L)^-1 r
       const std::size_t at = static_cast<std::size_t>(v) * lanes;
-      const Nodal before = matrix_.lower.product(chunks_.first[v], chunks_.diagonal[v], x.data());
+      const Nodal before = matrix_.lower_product(v, chunks_.first[v], chunks_.diagonal[v], x.data());
       store<n>(relaxation_ * solve_diagonal(v, load<n>(r.data() + at) - before), x.data() + at);
     });
     chunks_.backward([&](int v) {  // x = (2 - w) x - w D^-1 U x
       const std::size_t at = static_cast<std::size_t>(v) * lanes;
-      const Nodal after = matrix_.upper.product(matrix_.upper_begin(v), chunks_.last[v], x.data());
+      const Nodal after = matrix_.upper_product(v, matrix_.upper_begin(v), chunks_.last[v], x.data());
       store<n>(after, upper_part_.data() + at);
       store<n>((2 - relaxation_) * load<n>(x.data() + at) - relaxation_ * solve_diagonal(v, after), x.data() + at);
     });
@@ -50,9 +50,10 @@ class MomentumSweep {
 
   /// Row v of A x for the x of the last apply(r, x), U x being known from its backward part.
   Nodal product(int v, const float* x) const {
-    const Nodal lower = matrix_.lower.product(matrix_.lower_begin(v), matrix_.lower_end(v), x);
-    const Nodal beyond = matrix_.upper.product(chunks_.last[v], matrix_.upper_end(v), x);  // the chunk
-    return load<n>(upper_part_.data() + static_cast<std::size_t>(v) * lanes) + lower + beyond;
+    const Nodal lower = matrix_.lower_product(v, matrix_.lower_begin(v), matrix_.lower_end(v), x);
+    const Nodal beyond = matrix_.upper_product(v, chunks_.last[v], matrix_.upper_end(v), x);  // the chunk
+    return load<n>(upper_part_.data() + static_cast<std::size_t>(v) * lanes) + lower + matrix_.diagonal_product(v, x) +
+           beyond;
   }
 
   std::size_t bytes() const { return sizeof(float) * (inverse_diagonal_.size() + upper_part_.size()); }

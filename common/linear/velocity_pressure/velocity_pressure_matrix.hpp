@@ -15,9 +15,9 @@
 
 namespace fsi {
 
-/// The Jacobian of velocities and pressures, F = [A G; B C], in single precision. Of the mesh motion A has what
-/// InterfaceShapeDerivatives gives, the rest is left out. Half the memory of the assembled matrices, and arranged so
-/// that products and smoothers run over whole registers. Vectors hold `lanes` floats a velocity node (padded with
+/// The Jacobian of velocities and pressures, F = [A G; B C], in single precision, A in 16 bits (SplitBlocks). Of the mesh
+/// motion A has what InterfaceShapeDerivatives gives, the rest is left out. A third of the memory of the assembled matrices,
+/// and arranged so that products and smoothers run over whole registers. Vectors hold `lanes` floats a velocity node (padded with
 /// zero), then one a pressure.
 template <int n>
 class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
@@ -40,8 +40,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
         owns_pressure_(std::move(owns_pressure)) {
     make_momentum_pattern();
     make_continuity_pattern();
-    shape_derivatives_ = std::make_unique<InterfaceShapeDerivatives<n>>(
-        blocks, layout, [&](int row, int column) { return momentum_.position(row, column); });
+    shape_derivatives_ = std::make_unique<InterfaceShapeDerivatives<n>>(blocks, layout);
     gradient_.resize(gradient_columns_.size() * lanes);
     divergence_.resize(continuity_velocities_.size() * lanes);
     compressibility_.resize(compressibility_columns_.size());
@@ -73,7 +72,6 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   /// Takes the present values of the block matrices.
   void fill() {
     fill_momentum();
-    shape_derivatives_->add_to(momentum_);
     fill_continuity();
   }
 
@@ -122,6 +120,13 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     return even + odd;
   }
 
+  /// The norm of what rounding of A's numbers may do to F x (SplitBlocks::rounding_squared), of the rows here.
+  double rounding(const std::vector<float>& x) const {
+    double sum = 0;
+    for (int v = 0; v < layout_.velocities; ++v)
+      sum += momentum_.rounding_squared(v, load(x.data() + static_cast<std::size_t>(v) * lanes));
+    return std::sqrt(sum);
+  }
   /// The shape derivatives that F has.
   const InterfaceShapeDerivatives<n>& shape_derivatives() const { return *shape_derivatives_; }
 
@@ -175,10 +180,13 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   }
 
   void fill_momentum() {
-#pragma omp parallel for schedule(static) if (layout_.velocities > 500)
-    for (int v = 0; v < layout_.velocities; ++v) {
-      momentum_.clear_row(v);
-      if (!has_rows(owns_velocity_, v)) continue;
+    constexpr int stride = SplitBlocks<n>::stride;
+    parallel_for(layout_.velocities, layout_.velocities > 500, [&](int v) {
+      if (!has_rows(owns_velocity_, v)) return;
+      std::vector<float> row(static_cast<std::size_t>(momentum_.count(v)) * stride, 0.0f);
+      const auto block_of = [&](int u) {
+        return row.data() + static_cast<std::size_t>(momentum_.place(v, u)) * stride;
+      };
       int gradient_at = gradient_offsets_[v];
       for_blocks_of(v, [&](const double* block, int u, int p, double factor) {
         if (p >= 0) {
@@ -186,12 +194,15 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
           for (int i = 0; i < n; ++i) g[i] = static_cast<float>(block[MixedLayout<n>::in_block(i, n)]);
         }
         if (u < 0) return;
-        float* a = momentum_.block(momentum_.position(v, u));
+        float* a = block_of(u);
         for (int i = 0; i < n; ++i)
           for (int k = 0; k < n; ++k)
             a[k * lanes + i] += static_cast<float>(factor * block[MixedLayout<n>::in_block(i, k)]);
       });
-    }
+      shape_derivatives_->for_row(
+          v, [&](int u, int i, int k, double value) { block_of(u)[k * lanes + i] += static_cast<float>(value); });
+      momentum_.set_row(v, row.data());
+    });
   }
 
   void fill_continuity() {

@@ -30,10 +30,8 @@ class WallCoarseCorrection {
     auto graph = std::make_shared<NodeGraph>();
     graph->offsets.push_back(0);
     for (int v : nodes_) {
-      matrix.momentum().for_row(v, [&](int u, int position) {
-        if (number[u] < 0) return;
-        positions_.push_back(position);
-        graph->columns.push_back(number[u]);
+      matrix.momentum().for_row(v, [&](int u, const float*) {
+        if (number[u] >= 0) graph->columns.push_back(number[u]);
       });
       graph->offsets.push_back(static_cast<int>(graph->columns.size()));
     }
@@ -44,12 +42,14 @@ class WallCoarseCorrection {
 
   /// Takes the present values of the matrix.
   void set_up(const typename RigidMotionMultigrid<n>::Options& options) {
-    for (std::size_t at = 0; at < positions_.size(); ++at) {
-      const float* from = matrix_.momentum().block(positions_[at]);
-      double* to = stiffness_.block(static_cast<int>(at));
-      for (int i = 0; i < n; ++i)
-        for (int k = 0; k < n; ++k) to[i * n + k] = from[k * lanes + i];
-    }
+    int at = 0;
+    for (const int v : nodes_)
+      matrix_.momentum().for_row(v, [&](int u, const float* from) {
+        if (matrix_.layout().wall_of_velocity[u] < 0) return;
+        double* to = stiffness_.block(at++);
+        for (int i = 0; i < n; ++i)
+          for (int k = 0; k < n; ++k) to[i * n + k] = from[k * lanes + i];
+      });
     multigrid_.set_up(stiffness_, points_, options, fixed_);
   }
 
@@ -75,7 +75,6 @@ class WallCoarseCorrection {
   std::vector<int> nodes_;                     ///< velocity nodes of the wall
   std::vector<std::array<double, 3>> points_;  ///< their places at rest
   std::vector<char> fixed_;                    ///< per node and component: no unknown; empty: none
-  std::vector<int> positions_;                 ///< of the blocks among the matrix's own
   BlockMatrix<n, n> stiffness_;
   RigidMotionMultigrid<n> multigrid_;
   std::vector<float> residual_, correction_;

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "fem/contributions.hpp"
 #include "fem/elements.hpp"
 #include "fem/facet_load.hpp"
 #include "fem/function_space.hpp"
@@ -137,6 +139,45 @@ TYPED_TEST(EveryElement, InterpolatesPolynomialsOfItsOrderWithTheirGradients) {
       EXPECT_NEAR(linear_slope[i], i == second, 1e-14);
     }
   }
+}
+
+// Gradients by way of the vertices are those of the shape functions, and what is summed up for test gradients goes to the rows
+// that it would go to point by point.
+TYPED_TEST(EveryElement, GradientsByTheVerticesAreThoseOfItsShapeFunctions) {
+  using Element = TypeParam;
+  if constexpr (Element::order == 2)
+    for (const double curved : {0.0, 0.1}) {
+      std::array<Point, Element::nodes> x;
+      const auto geometry = this->geometry(curved, x);
+      NodalVector<Element> u;
+      for (int a = 0; a < Element::nodes; ++a)
+        for (int k = 0; k < Element::components; ++k) u.at[a][k] = Pack(std::sin(3.0 * a + k));
+      const FieldGradients<Element> gradients(u);
+      ElementRows<Element, Pack> by_points, by_vertices;
+      by_points.set_zero();
+      by_vertices.set_zero();
+      FluxSums<Element> sums;
+      double size = 0;
+      for (int q = 0; q < Element::points; ++q) {
+        const auto g = Element::at(geometry, q);
+        const Mat3<Pack> exact = gradient_of(u, g), h = gradient_of(gradients, g);
+        Integrand<Pack> f{};
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j) {
+            size = std::max(size, std::abs(exact(i, j)[0]));
+            EXPECT_NEAR(h(i, j)[0], exact(i, j)[0], 1e-13 * (1 + size)) << i << j;
+            f.flux(i, j) = Pack(std::cos(5.0 * q + 3 * i + j));
+          }
+        by_points.add_fluxes(f, g, g.weight);
+        sums.add(f.flux, g, g.weight);
+        by_vertices.add_hoop_flux(f, g, g.weight);
+      }
+      EXPECT_GT(size, 1);
+      sums.add_to(by_vertices.at);
+      for (int a = 0; a < Element::nodes; ++a)
+        for (int k = 0; k < Element::components; ++k)
+          EXPECT_NEAR(by_vertices.at[a][k][0], by_points.at[a][k][0], 1e-13) << a << " " << k;
+    }
 }
 
 // Gauss's theorem over one cell, for the field (first coordinate, 0, 0), in a body of revolution with u_r / r: the

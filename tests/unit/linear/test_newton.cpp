@@ -412,6 +412,40 @@ TEST(Newton, StopsByTheEstimatedError) {
   EXPECT_EQ(newton(problem, by_increment).count(), 2);
 }
 
+// The same iterations to the same error, the last residual left out; and all of them where others need its rows, where nothing
+// is known of what an increment leaves, and where the residual itself is asked to be small.
+TEST(Newton, LeavesTheLastResidualOutWhereTheErrorIsKnownWithoutIt) {
+  const auto solve = [](NewtonOptions options, double kept, Scalar& problem) {
+    problem.before = 1;
+    problem.keep(kept);
+    options.tolerance = 1e-300;
+    options.error_tolerance = 1e-3;
+    return newton(problem, options);
+  };
+  NewtonOptions with, without, small;
+  without.last_residual = small.last_residual = false;
+  small.residual_tolerance = 1e-2;
+  auto all = square_root_of_two(1.3), fewer = all, demanding = all;
+  const auto evaluated = solve(with, 3.2, all), left_out = solve(without, 3.2, fewer),
+             asked = solve(small, 3.2, demanding);
+  ASSERT_TRUE(evaluated.converged && left_out.converged && asked.converged);
+  ASSERT_GT(left_out.count(), 1);
+  EXPECT_EQ(left_out.linearisations(), 0);
+  EXPECT_EQ(left_out.count(), evaluated.count());
+  EXPECT_EQ(fewer.evaluations, all.evaluations - 1);
+  EXPECT_EQ(fewer.x, all.x);
+  EXPECT_TRUE(std::isnan(left_out.iterations.back().residual));
+  EXPECT_FALSE(std::isnan(left_out.iterations.front().residual));
+  EXPECT_LE(error_of(fewer), left_out.error);
+  EXPECT_LE(left_out.error, 1e-3);
+  EXPECT_FALSE(std::isnan(asked.iterations.back().residual));
+
+  auto near = square_root_of_two(1.41421);
+  const auto first = solve(without, 2.8, near);  // one increment is enough
+  EXPECT_EQ(first.count(), 1);
+  EXPECT_FALSE(std::isnan(first.iterations.back().residual));
+}
+
 /// Whose last solution nobody knows.
 class Statics : public Scalar {
  public:

@@ -69,7 +69,7 @@ TEST(SweepChunks, OfTrianglesAreThoseOfTheWhole) {
     EXPECT_EQ(chunks.begin, whole.begin);
     for (int row = 0; row < size; ++row) {
       EXPECT_EQ(chunks.diagonal[row] - chunks.first[row], whole.diagonal[row] - whole.first[row]) << row;
-      EXPECT_EQ(split.lower.columns[chunks.diagonal[row]], row);
+      EXPECT_EQ(chunks.diagonal[row], split.lower_end(row));
       EXPECT_EQ(chunks.last[row] - split.upper_begin(row), whole.last[row] - whole.diagonal[row] - 1) << row;
     }
   }

@@ -92,10 +92,15 @@ TEST(FastSolver, LooseTolerancesAreMetWithFewerIterations) {
   for (double tolerance : {1e-1, 1e-3, 1e-6}) {
     const auto report = solver.solve(artery().b(), tolerance, x);
     jacobian.multiply(x, product);
-    EXPECT_LE(relative_difference(product, artery().b()), tolerance);
-    // Loose ones are found in single precision, and without the mesh's own equations.
-    const double digits = tolerance >= 1e-3 ? 1e-7 : 1e-12;
-    EXPECT_NEAR(relative_difference(product, artery().b()), report.relative_residual, digits) << tolerance;
+    const double residual = relative_difference(product, artery().b());
+    EXPECT_LE(residual, tolerance);
+    // Loose ones are met by a bound, from what the inner iteration estimates in single precision.
+    if (tolerance >= 1e-3) {
+      EXPECT_LE(residual, 1.001 * report.relative_residual) << tolerance;
+      EXPECT_GE(residual, 0.5 * report.relative_residual) << tolerance;
+    } else {
+      EXPECT_NEAR(residual, report.relative_residual, 1e-12);
+    }
     EXPECT_GT(report.iterations, last);
     last = report.iterations;
   }

@@ -1,6 +1,7 @@
 // What the condensed matrix knows of the mesh motion: on the interface, all that needs no harmonic extension.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "linear/interface/jacobian_product.hpp"
@@ -67,6 +68,41 @@ TEST(InterfaceShapeDerivatives, AreThoseOfTheJacobianInTheFluidWithItsDomain) {
   EXPECT_LT(relative_error(number_fluid_and_domain(scene), scene), 1e-3);
 }
 
+// By displacements of the mesh as by the velocities that they come with.
+TEST(InterfaceShapeDerivatives, MultiplyDisplacementsAsTheirVelocities) {
+  auto& scene = linearised_box().scene();
+  System<3> system("scene", scene, number_scene(scene));
+  State state = scene.at_rest();
+  for (std::size_t i = 0; i < state.now.fluid.size(); ++i) state.now.fluid[i] = std::sin(static_cast<double>(i));
+  StepData data;
+  data.rates = scene.integrator->rates(state, 0.125);
+  data.opening_pressures = {1.332};
+  data.interface_load.assign(state.now.wall.size(), 0.0);
+  system.work_on(state, data);
+  system.linearise();
+  const auto blocks = system.blocks();
+  VelocityPressureLayout<3> layout(blocks);
+  const InterfaceShapeDerivatives<3> derivatives(blocks, layout);
+
+  std::vector<double> v(layout.size(), 0.0), x(static_cast<std::size_t>(blocks.numbering.size), 0.0);
+  for (std::size_t i = 0; i < layout.velocity_size(); ++i) v[i] = std::cos(static_cast<double>(i));
+  layout.give(v, x);
+  std::vector<double> mesh(blocks.numbering.mesh.size());
+  for (std::size_t i = 0; i < mesh.size(); ++i)
+    if (const Unknown& unknown = blocks.numbering.mesh[i]; unknown.index >= 0)
+      mesh[i] = unknown.factor * x[unknown.index];
+  std::vector<double> by_mesh(layout.size(), 0.0), by_velocity = by_mesh;
+  derivatives.add_product(mesh, by_mesh);
+  double largest = 0;
+  for (int row = 0; row < layout.velocities; ++row)
+    derivatives.for_row(row, [&](int column, int i, int k, double value) {
+      by_velocity[VectorLayout<3>::vector(row, i)] += value * v[VectorLayout<3>::vector(column, k)];
+      largest = std::max(largest, std::abs(value));
+    });
+  ASSERT_GT(largest, 0);
+  for (std::size_t i = 0; i < by_mesh.size(); ++i) EXPECT_NEAR(by_mesh[i], by_velocity[i], 1e-12 * largest) << i;
+}
+
 // A part alone has no mesh motion: its matrix is the Jacobian.
 TEST(InterfaceShapeDerivatives, AreNoneWhereTheMeshIsGiven) {
   auto& scene = linearised_box().scene();
@@ -74,8 +110,8 @@ TEST(InterfaceShapeDerivatives, AreNoneWhereTheMeshIsGiven) {
   const auto blocks = system.blocks();
   VelocityPressureLayout<3> layout(blocks);
   int asked = 0;
-  const InterfaceShapeDerivatives<3> none(blocks, layout, [&](int, int) { return asked++; });
-  none.for_each([&](int, int, int, double) { ++asked; });
+  const InterfaceShapeDerivatives<3> none(blocks, layout);
+  for (int v = 0; v < layout.velocities; ++v) none.for_row(v, [&](int, int, int, double) { ++asked; });
   EXPECT_EQ(asked, 0);
 }
 
