@@ -14,32 +14,9 @@ struct PreparedWork {
   typename Form::template Prepared<MetricOf<Element>, Pack, Pack> form;
   Pack since_start;      ///< J - J_0
   Pack to_end;           ///< J_1 - J
+  Pack end_ratio;        ///< J_1
   Pack mesh_divergence;  ///< D = W cof F : grad w
 };
-
-}  // namespace detail
-
-/// (rho/2 J, |u|^2) in uJ, of a level in the layouts of FluidInput. \param mesh  null where the domain is rigid
-template <class Element>
-double fluid_kinetic_energy(const AleFluid& form, const ElementPacks<Element>& packs, const double* mesh,
-                            const double* fluid) {
-  constexpr int n = Element::components;
-  const auto integrals = [&](const auto& pack, int, std::size_t) FSI_WITH_ALL_CALLS_INLINE {
-    NodalVector<Element> d{}, u{};
-    gather<MixedLayout<n>>(u, pack, fluid);
-    if (mesh) gather<VectorLayout<n>>(d, pack, mesh);
-    const FieldGradients<Element> grad_d(d);
-    return pack_integrals<Element, 1>(
-        pack.geometry, [&](const auto& g) { return volume_change(gradient_of(grad_d, g)) + 1.0; },
-        [&](const Pack& volume_ratio, const auto& g, int) {
-          const Vec3<Pack> velocity = value_of(u, g);
-          return std::array<Pack, 1>{Pack(0.5 * form.density) * volume_ratio * dot(velocity, velocity)};
-        });
-  };
-  return sum_over_elements<1>(packs, integrals)[0];
-}
-
-namespace detail {
 
 /// fluid_work() of one kind of fluid.
 template <class Element, class Form>
@@ -72,7 +49,9 @@ FluidWork work_of_form(Form form, const ElementPacks<Element>& packs, const Flui
           k.form = form.prepare(h, gradient_of(grad_u, g), gradient_of(at.p, g), pack.geometry.metric);
           const Pack change = volume_change(h);
           k.since_start = change - volume_change(gradient_of(grad_start, g));
-          k.to_end = volume_change(gradient_of(grad_end, g)) - change;
+          const Pack end_change = volume_change(gradient_of(grad_end, g));
+          k.to_end = end_change - change;
+          k.end_ratio = end_change + 1.0;
           k.mesh_divergence =
               duration * Pack(in.mesh_factor) * contract(k.form.cofactor_gradient, h - gradient_of(grad_reference, g));
           return k;
@@ -95,7 +74,7 @@ FluidWork work_of_form(Form form, const ElementPacks<Element>& packs, const Flui
               mesh_divergence - half_density * weight * (k.to_end * dot(u1, u1) + k.since_start * dot(u0, u0)),
               -divergence,
               Pack(2.0) * duration * volume * dot(k.form.velocity_gradient * c, u) + divergence - mesh_divergence,
-              half_density * (k.form.volume_ratio + k.to_end) * dot(u1, u1),
+              half_density * k.end_ratio * dot(u1, u1),
           };
         });
   };

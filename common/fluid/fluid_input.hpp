@@ -72,9 +72,9 @@ struct FluidWork {
   double inertia = 0;        ///< rho (W J du/dt, u) - omega rho/2 (J, |u_1|^2 - |u_0|^2): the scheme in time
   /// rho/2 (D, |u|^2) + omega rho/2 [(J - J_1, |u_1|^2) - (J - J_0, |u_0|^2)]: the domain's motion is not conserved
   double mesh_motion = 0;
-  double divergence = 0;  ///< -W rho/2 (J div u, |u|^2): convection in convective form
-  double backflow = 0;    ///< W beta rho <(u . n)_-, |u|^2> of the openings: stabilisation of backflow
-  double convection = 0;  ///< W rho ((J grad u F^-1 c, u) + (J div c, |u|^2)/2), the outflow if integrated exactly
+  double divergence = 0;   ///< -W rho/2 (J div u, |u|^2): convection in convective form
+  double backflow = 0;     ///< W beta rho <(u . n)_-, |u|^2> of the openings: stabilisation of backflow
+  double convection = 0;   ///< W rho ((J grad u F^-1 c, u) + (J div c, |u|^2)/2), the outflow if integrated exactly
   double kinetic_end = 0;  ///< kinetic_1 = rho/2 (J_1, |u_1|^2), for it costs nothing here
 
   FluidWork& operator+=(const FluidWork& b) {
