@@ -184,38 +184,49 @@ class SplitBlocks {
   /// Two blocks at a time: their numbers fill whole registers. Behind an odd last one others' numbers, or zeros, meet zeros.
   static Register<n> product(const Half& half, int row, int begin, int end, const float* x) {
     const std::int16_t* a = half.values.data() + static_cast<std::size_t>(begin) * stride;
-    const auto node = [&](int at) { return load<n>(x + static_cast<std::size_t>(half.columns[at]) * lanes); };
-    Register<8> parts[n == 3 ? 3 : 1] = {};
-    const auto add = [&](Register<n> f, Register<n> g) {
-      __builtin_prefetch(a + ahead);
-      if constexpr (n == 3) {
-        parts[0] += floats(a) * __builtin_shufflevector(f, g, 0, 0, 0, 0, 1, 1, 1, 1);
-        parts[1] += floats(a + 8) * __builtin_shufflevector(f, g, 2, 2, 2, 2, 4, 4, 4, 4);
-        parts[2] += floats(a + 16) * __builtin_shufflevector(f, g, 5, 5, 5, 5, 6, 6, 6, 6);
-      } else {
-        parts[0] += floats(a) * __builtin_shufflevector(f, g, 0, 0, 1, 1, 2, 2, 3, 3);
-      }
-      a += 2 * stride;
-    };
-    int at = begin;
-    for (; at + 1 < end; at += 2) add(node(at), node(at + 1));
-    if (at < end) {
-      if constexpr (n == 3) {
-        const Register<n> f = node(at);
-        parts[0] += floats(a) * __builtin_shufflevector(f, f, 0, 0, 0, 0, 1, 1, 1, 1);
-        parts[1] += floats(a + 8) * __builtin_shufflevector(f, Register<n>{}, 2, 2, 2, 2, 4, 4, 4, 4);
-      } else {
-        add(node(at), Register<n>{});
-      }
-    }
+    const int* columns = half.columns.data();
+    const auto node = [&](int at) { return x + static_cast<std::size_t>(columns[at]) * lanes; };
     Register<n> sum;
     if constexpr (n == 3) {
+      Register<8> parts[3] = {};
+      int at = begin;
+      for (; at + 1 < end; at += 2, a += 2 * stride) {
+        __builtin_prefetch(a + ahead);
+        const Register<n> f = load<n>(node(at)), g = load<n>(node(at + 1));
+        parts[0] += floats(a) * __builtin_shufflevector(f, f, 0, 0, 0, 0, 1, 1, 1, 1);
+        parts[1] += floats(a + 8) * __builtin_shufflevector(f, g, 2, 2, 2, 2, 4, 4, 4, 4);
+        parts[2] += floats(a + 16) * __builtin_shufflevector(g, g, 1, 1, 1, 1, 2, 2, 2, 2);
+      }
+      if (at < end) {
+        const Register<n> f = load<n>(node(at));
+        parts[0] += floats(a) * __builtin_shufflevector(f, f, 0, 0, 0, 0, 1, 1, 1, 1);
+        parts[1] += floats(a + 8) * __builtin_shufflevector(f, Register<n>{}, 2, 2, 2, 2, 4, 4, 4, 4);
+      }
       sum = folded(parts[0] + parts[1] + parts[2]);
     } else {
-      const Register<4> half_sum = folded(parts[0]);
+      Register<8> parts{};
+      const auto by_columns = [](Register<4> two) { return __builtin_shufflevector(two, two, 0, 0, 1, 1, 2, 2, 3, 3); };
+      int at = begin;
+      for (; at + 1 < end; at += 2, a += 2 * stride) parts += floats(a) * by_columns(two_nodes(node(at), node(at + 1)));
+      if (at < end) {
+        constexpr float nowhere[lanes] = {};
+        parts += floats(a) * by_columns(two_nodes(node(at), nowhere));
+      }
+      const Register<4> half_sum = folded(parts);
       sum = __builtin_shufflevector(half_sum, half_sum, 0, 1) + __builtin_shufflevector(half_sum, half_sum, 2, 3);
     }
     return sum * load<n>(half.scales.data() + static_cast<std::size_t>(row) * lanes);
+  }
+  /// Each two floats, moved as one number: put together float by float they take several times as long.
+  static Register<4> two_nodes(const float* first, const float* second) {
+    using Two = double __attribute__((vector_size(16)));
+    double f, s;
+    __builtin_memcpy(&f, first, sizeof f);
+    __builtin_memcpy(&s, second, sizeof s);
+    const Two both = {f, s};
+    Register<4> x;
+    __builtin_memcpy(&x, &both, sizeof x);
+    return x;
   }
 };
 
