@@ -108,15 +108,36 @@ def changed_since(root: Path, record: Path) -> set[Path] | None:
 
 
 def touched(root: Path, sources: list[Path], changed: set[Path]) -> list[Path]:
-    """The sources that have changed, or that include a header that has. Headers are named from the folders that hold the
-    rooms, as "fem/elements.hpp"."""
-    headers = {str(path.relative_to(root)) for path in changed if path.suffix == ".hpp" and path.is_relative_to(root)}
-    names = headers | {name.split("/", 1)[1] for name in headers if "/" in name}
+    """The sources that have changed, or that include a header that has; of a header that other headers alone include, one
+    source that it reaches: it is looked at there as well as in all of them. Headers are named from the folders that hold
+    the rooms, as "fem/elements.hpp"."""
+    headers = {path for folder in FOLDERS for path in (root / folder).rglob("*.hpp")}
+    names = {str(path.relative_to(root)): path for path in headers}
+    names |= {name.split("/", 1)[1]: path for name, path in names.items()}
+    included: dict[Path, set[Path]] = {}
 
-    def includes_changed(source: Path) -> bool:
-        return any(line[1].strip('"<>') in names for line in map(INCLUDE.match, source.read_text().split("\n")) if line)
+    def includes(file: Path) -> set[Path]:
+        if file not in included:
+            lines = (line for line in map(INCLUDE.match, file.read_text().split("\n")) if line)
+            included[file] = {names[name] for line in lines if (name := line[1].strip('"<>')) in names}
+        return included[file]
 
-    return [source for source in sources if source in changed or includes_changed(source)]
+    def reached(source: Path) -> set[Path]:
+        found, last = set(), {source}
+        while last:
+            last = {header for file in last for header in includes(file)} - found
+            found |= last
+        return found
+
+    left = changed & headers
+    found = {source for source in sources if source in changed or includes(source) & left}
+    for source in found:
+        left = left - reached(source)
+    for source in sources if left else ():
+        if fresh := left & reached(source):
+            found.add(source)
+            left = left - fresh
+    return sorted(found)
 
 
 @dataclass

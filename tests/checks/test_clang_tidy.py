@@ -89,6 +89,20 @@ class ClangTidy(unittest.TestCase):
         self.assertEqual(names(), ["b"])
         (self.root / "common/mesh/header.hpp").write_text(HEADER + "inline int thrice(int x) { return 3 * x; }\n")
         self.assertEqual(names(), ["a", "b"])
+        # Of a header that headers alone include one source is enough.
+        (self.root / "common/mesh/header.hpp").write_text('#include "mesh/inner.hpp"\n' + HEADER)
+        (self.root / "common/mesh/inner.hpp").write_text("#pragma once\n")
+        for name in ("c", "d"):
+            (self.root / f"common/mesh/{name}.cpp").write_text(GOOD.replace("one", name))
+        git("add", "-A")
+        git("commit", "-q", "-m", "second")
+        record.write_text(git("rev-parse", "HEAD") + "A commit.\n")
+        sources = sorted((self.root / "common/mesh").glob("*.cpp"))
+        self.assertEqual(names(), [])
+        (self.root / "common/mesh/inner.hpp").write_text("#pragma once\ninline int zero() { return 0; }\n")
+        self.assertEqual(names(), ["a"])
+        (self.root / "common/mesh/d.cpp").write_text(GOOD)
+        self.assertEqual(names(), ["d"], "it reaches the header, too")
         record.write_text("0123456789012345678901234567890123456789\n")
         self.assertIsNone(changed_since(self.root, record), "a commit that the clone does not have")
 
