@@ -123,7 +123,8 @@ def touched(root: Path, sources: list[Path], changed: set[Path]) -> list[Path]:
         return included[file]
 
     def reached(source: Path) -> set[Path]:
-        found, last = set(), {source}
+        found: set[Path] = set()
+        last = {source}
         while last:
             last = {header for file in last for header in includes(file)} - found
             found |= last
