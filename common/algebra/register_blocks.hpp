@@ -21,9 +21,6 @@ inline Register<R> block_times(const float* block, const float* x) {
 template <int R, int C>
 struct RegisterBlocks {
   static constexpr int stride = C * padded<R>;  ///< floats a block
-  /// Floats from a block in use to one that is prefetched meanwhile, 4 KiB on. By themselves not all processors prefetch as
-  /// far (docs/guide/solvers.md#speed).
-  static constexpr std::ptrdiff_t ahead = 1024;
 
   std::vector<int> offsets{0}, columns;
   std::vector<float> values;
@@ -46,7 +43,7 @@ struct RegisterBlocks {
     Register<R> parts[C] = {};
     const float* a = values.data() + static_cast<std::size_t>(begin) * stride;
     for (int at = begin; at < end; ++at, a += stride) {
-      __builtin_prefetch(a + ahead);
+      __builtin_prefetch(reinterpret_cast<const char*>(a) + prefetch_distance);
       const float* from = x + static_cast<std::size_t>(columns[at]) * padded<C>;
       for (int k = 0; k < C; ++k) parts[k] += load<R>(a + k * padded<R>) * from[k];
     }

@@ -32,6 +32,10 @@ constexpr int padded = size <= 2   ? 2
                        : size <= 4 ? 4
                                    : 8;
 
+/// From numbers in use to those that are prefetched meanwhile, in bytes. By themselves not all processors prefetch as far
+/// (docs/guide/solvers.md#speed).
+inline constexpr int prefetch_distance = 4096;
+
 /// A padded vector in a register.
 template <int size, class Real = float>
 using Register = typename detail::Lanes<Real, padded<size>>::Type;

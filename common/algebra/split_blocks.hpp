@@ -132,9 +132,6 @@ class SplitBlocks {
   static constexpr float largest = 32767;
   /// Numbers that a product may read behind the last block.
   static constexpr std::size_t read_beyond = 16;
-  /// Numbers from a block in use to one that is prefetched meanwhile, 4 KiB on. By themselves not all processors prefetch as
-  /// far (docs/guide/solvers.md#speed).
-  static constexpr std::ptrdiff_t ahead = 2048;
 
   int below(int v) const { return lower_end(v) - lower_begin(v); }
   int upper_row(int v) const { return rows() - 1 - v; }
@@ -191,7 +188,7 @@ class SplitBlocks {
       Register<8> parts[3] = {};
       int at = begin;
       for (; at + 1 < end; at += 2, a += 2 * stride) {
-        __builtin_prefetch(a + ahead);
+        __builtin_prefetch(reinterpret_cast<const char*>(a) + prefetch_distance);
         const Register<n> f = load<n>(node(at)), g = load<n>(node(at + 1));
         parts[0] += floats(a) * __builtin_shufflevector(f, f, 0, 0, 0, 0, 1, 1, 1, 1);
         parts[1] += floats(a + 8) * __builtin_shufflevector(f, g, 2, 2, 2, 2, 4, 4, 4, 4);

@@ -39,7 +39,7 @@ struct StepReport {
   std::vector<std::string> history;  ///< convergence history, for the log
   std::optional<CouplingReport> coupling;
   std::vector<Balance> balances;       ///< what was solved, where Stepper::keep_balances() asked for it
-  LevelEnergy level;                   ///< of the level that it led to
+  LevelEnergy level;                   ///< of the level that it led to, without the fluid's
   std::vector<LayerDeformation> wall;  ///< of that level, layer by layer; empty without a wall
   /// Newton's method did not go straight to the solution, which may lie on another branch than the start.
   bool strayed = false;

@@ -55,7 +55,7 @@ struct JacobianBlocks {
 struct LinearReport {
   bool converged = true;
   int iterations = 0;            ///< Krylov or multigrid iterations; 0 for a direct solve
-  double relative_residual = 0;  ///< true one, |b - J x| / |b|; 0 where a direct solver does not compute it
+  double relative_residual = 0;  ///< |b - J x| / |b|, of loose tolerances a bound; 0: not computed, by factors
   std::string failure;           ///< why it stopped, when it did not converge
 };
 
