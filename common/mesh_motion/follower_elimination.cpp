@@ -8,34 +8,38 @@ namespace fsi {
 
 namespace {
 
-constexpr int most_leaders = 2;
-
 /// Per row, whether it is a follower: none couples with another.
 std::vector<char> find_followers(const CsrMatrix<double>& a) {
   std::vector<char> follows(a.rows(), 0);
   for (int row = 0; row < a.rows(); ++row) {
-    int leaders = 0;
     bool beside_follower = false;
-    for (int at = a.offsets[row]; at < a.offsets[row + 1]; ++at) {
-      const int column = a.indices[at];
-      if (column == row || a.values[at] == 0) continue;
-      ++leaders;
-      beside_follower = beside_follower || follows[column] != 0;
-    }
-    follows[row] = leaders <= most_leaders && !beside_follower;
+    for (int at = a.offsets[row]; at < a.offsets[row + 1]; ++at)
+      if (a.indices[at] != row && a.values[at] != 0)
+        beside_follower = beside_follower || follows[a.indices[at]] != 0;
+    follows[row] = FollowerElimination::leaders(a, row) <= FollowerElimination::most_leaders && !beside_follower;
   }
   return follows;
 }
 
 }  // namespace
 
-FollowerElimination::FollowerElimination(const CsrMatrix<double>& a, CsrMatrix<double>& reduced) {
-  const std::vector<char> follows = find_followers(a);
+int FollowerElimination::leaders(const CsrMatrix<double>& a, int row) {
+  int count = 0;
+  for (int at = a.offsets[row]; at < a.offsets[row + 1]; ++at) count += a.indices[at] != row && a.values[at] != 0;
+  return count;
+}
+
+FollowerElimination::FollowerElimination(const CsrMatrix<double>& a, CsrMatrix<double>& reduced)
+    : FollowerElimination(a, find_followers(a), a.rows(), reduced) {}
+
+FollowerElimination::FollowerElimination(const CsrMatrix<double>& a, const std::vector<char>& follows, int own,
+                                         CsrMatrix<double>& reduced) {
   std::vector<int> number(a.rows());  // among the kept ones, or among the followers
   for (int row = 0; row < a.rows(); ++row) {
     auto& among = follows[row] ? followers_ : kept_;
     number[row] = static_cast<int>(among.size());
     among.push_back(row);
+    if (row < own) ++(follows[row] ? own_followers_ : own_kept_);
   }
   const int kept = static_cast<int>(kept_.size());
   shares_.columns = kept;
@@ -45,7 +49,7 @@ FollowerElimination::FollowerElimination(const CsrMatrix<double>& a, CsrMatrix<d
       if (a.indices[at] == row) diagonal = a.values[at];
     inverse_diagonal_.push_back(1 / diagonal);
     for (int at = a.offsets[row]; at < a.offsets[row + 1]; ++at) {
-      if (a.indices[at] == row || a.values[at] == 0) continue;
+      if (a.indices[at] == row || a.values[at] == 0 || follows[a.indices[at]]) continue;
       shares_.indices.push_back(number[a.indices[at]]);
       shares_.values.push_back(a.values[at] / diagonal);
     }
@@ -58,7 +62,8 @@ FollowerElimination::FollowerElimination(const CsrMatrix<double>& a, CsrMatrix<d
   std::vector<double> sum(kept, 0.0);
   std::vector<char> seen(kept, 0);
   std::vector<int> columns;
-  for (const int row : kept_) {
+  for (int i = 0; i < own_kept_; ++i) {
+    const int row = kept_[i];
     columns.clear();
     const auto add = [&](int column, double value) {
       if (!seen[column]) columns.push_back(column);
@@ -87,7 +92,7 @@ FollowerElimination::FollowerElimination(const CsrMatrix<double>& a, CsrMatrix<d
 }
 
 void FollowerElimination::reduce(const std::vector<double>& b, int count, std::vector<double>& of_kept) const {
-  const std::size_t kept = kept_.size(), rows = kept + followers_.size();
+  const std::size_t kept = own_kept_, rows = kept_.size() + followers_.size();
   of_kept.resize(kept * count);
   for (int c = 0; c < count; ++c) {
     const double* from = b.data() + rows * c;
@@ -110,7 +115,7 @@ void FollowerElimination::complete(const std::vector<double>& b, const std::vect
     const double* from = of_kept.data() + kept * c;
     double* to = x.data() + rows * c;
     for (std::size_t i = 0; i < kept; ++i) to[kept_[i]] = from[i];
-    parallel_for(followers_.size(), followers_.size() > 20000, [&](std::size_t f) {
+    parallel_for(own_followers_, own_followers_ > 20000, [&](std::size_t f) {
       double value = inverse_diagonal_[f] * right[followers_[f]];
       for (int at = shares_.offsets[f]; at < shares_.offsets[f + 1]; ++at)
         value -= shares_.values[at] * from[shares_.indices[at]];

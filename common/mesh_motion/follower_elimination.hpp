@@ -17,13 +17,27 @@ class FollowerElimination {
   /// \param a        symmetric, both halves stored
   /// \param reduced  set to the matrix of what is kept
   FollowerElimination(const CsrMatrix<double>& a, CsrMatrix<double>& reduced);
+  /// Of a matrix that processes share.
+  /// \param a        rows and columns of own unknowns, behind them of copies, whose rows are whole where they couple with own
+  ///                 ones
+  /// \param follows  per row, decided alike by all processes; none couples with another
+  /// \param own      rows
+  /// \param reduced  set to the own rows of what is kept, columns of copies behind
+  FollowerElimination(const CsrMatrix<double>& a, const std::vector<char>& follows, int own,
+                      CsrMatrix<double>& reduced);
+
+  static constexpr int most_leaders = 2;
+  /// Others that a row couples with.
+  static int leaders(const CsrMatrix<double>& a, int row);
 
   /// Rows of A that are kept, ascending.
   const std::vector<int>& kept() const { return kept_; }
+  int own_kept() const { return own_kept_; }
 
-  /// What `count` right-hand sides of A come to for the kept ones, one behind the other in both.
+  /// What `count` right-hand sides of A come to for own kept ones, one behind the other in both.
+  /// \param b  of all rows
   void reduce(const std::vector<double>& b, int count, std::vector<double>& of_kept) const;
-  /// The whole solution from that of the kept ones.
+  /// The whole solution from that of all kept ones; what follows among copies is left.
   /// \param b  of the whole
   /// \param x  the whole one, overwritten
   void complete(const std::vector<double>& b, const std::vector<double>& of_kept, int count,
@@ -33,6 +47,7 @@ class FollowerElimination {
 
  private:
   std::vector<int> kept_, followers_;
+  int own_kept_ = 0, own_followers_ = 0;  ///< the first of each
   std::vector<double> inverse_diagonal_;  ///< per follower
   CsrMatrix<double> shares_;              ///< A_ff^-1 A_fk
   CsrMatrix<double> transposed_shares_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "algebra/block_products.hpp"
@@ -18,10 +19,10 @@ namespace {
 
 constexpr int chunk_rows = 2048;  // of a partial sum: fixed, so that sums do not depend on the number of threads
 
-/// m scalar products of vectors that hold m numbers a row.
+/// m scalar products of vectors that hold m numbers a row, over the first rows.
 template <int m>
-std::array<double, m> dots(const std::vector<double>& x, const std::vector<double>& y) {
-  const int rows = static_cast<int>(x.size()) / m, chunks = (rows + chunk_rows - 1) / chunk_rows;
+std::array<double, m> dots(int rows, const std::vector<double>& x, const std::vector<double>& y) {
+  const int chunks = (rows + chunk_rows - 1) / chunk_rows;
   std::vector<std::array<double, m>> partial(chunks);
 #pragma omp parallel for schedule(static) if (chunks > 4)
   for (int c = 0; c < chunks; ++c) {
@@ -62,6 +63,40 @@ HarmonicExtension<n>::HarmonicExtension(const BlockMatrix<1, n>& laplacian, std:
 }
 
 template <int n>
+HarmonicExtension<n>::HarmonicExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner,
+                                        const NodalFrames<n>* frames, const NodeShare& share,
+                                        std::function<std::unique_ptr<MeshExtension<n>>()> rescue)
+    : laplacian_(laplacian),
+      inner_(std::move(inner)),
+      frames_(frames),
+      nodes_(&share),
+      make_rescue_(std::move(rescue)) {
+  assert(!mixes(frames));
+  values_.resize(inner_.size());
+  rows_ = values_;
+  for (std::size_t i = 0; i < inner_.size(); ++i) values_[i] = inner_[i] ? 1 : 0;
+  update_ghosts(values_);
+  for (std::size_t i = 0; i < inner_.size(); ++i) inner_[i] = values_[i] != 0;
+  find_couplings_to_given();
+  build_groups();
+}
+
+template <int n>
+bool HarmonicExtension<n>::mixes(const NodalFrames<n>* frames) {
+  for (int k = 0; k < n && frames; ++k)
+    if (is_mixed(*frames, k)) return true;
+  return false;
+}
+
+template <int n>
+std::int64_t HarmonicExtension<n>::unknowns() const {
+  std::int64_t own = 0;
+  for (const Group& group : groups_)
+    own += group.followers.own_kept() * static_cast<std::int64_t>(group.offset.size());
+  return processes().sum(own);
+}
+
+template <int n>
 void HarmonicExtension<n>::find_couplings_to_given() {
   const NodeGraph& graph = *laplacian_.graph;
   const auto has_given = [&](int node) {
@@ -83,6 +118,7 @@ void HarmonicExtension<n>::find_couplings_to_given() {
 
 template <int n>
 void HarmonicExtension<n>::update() {
+  rescue_.reset();
   build_groups();
 }
 
@@ -92,7 +128,7 @@ void HarmonicExtension<n>::build_groups() {
     std::copy_n(laplacian_.block(blocks_[c]), n, couplings_[c].numbers);
   groups_.clear();
   for (int k = 0; k < n; ++k) {
-    const bool mixed = is_mixed(k);
+    const bool mixed = frames_ && is_mixed(*frames_, k);
     const auto group = std::find_if(groups_.begin(), groups_.end(), [&](const Group& g) {
       return g.mixed == mixed && (mixed || same(g.components.front(), k));
     });
@@ -110,18 +146,17 @@ void HarmonicExtension<n>::build_groups() {
 /// Two components have the same equations.
 template <int n>
 bool HarmonicExtension<n>::same(int i, int k) const {
-  for (std::size_t a = 0; a < inner_.size(); a += n)
-    if (inner_[a + i] != inner_[a + k]) return false;
-  for (int at = 0; at < laplacian_.graph->blocks(); ++at)
-    if (laplacian_.block(at)[i] != laplacian_.block(at)[k]) return false;
-  return true;
+  bool differ = false;
+  for (std::size_t a = 0; a < inner_.size() && !differ; a += n) differ = inner_[a + i] != inner_[a + k];
+  for (int at = 0; at < laplacian_.graph->blocks() && !differ; ++at)
+    differ = laplacian_.block(at)[i] != laplacian_.block(at)[k];
+  return !processes().any(differ);
 }
 
 template <int n>
-bool HarmonicExtension<n>::is_mixed(int component) const {
-  if (!frames_) return false;
-  return std::any_of(frames_->nodes().begin(), frames_->nodes().end(), [&](int node) {
-    const auto& axis = (*frames_->at(node))[component];
+bool HarmonicExtension<n>::is_mixed(const NodalFrames<n>& frames, int component) {
+  return std::any_of(frames.nodes().begin(), frames.nodes().end(), [&](int node) {
+    const auto& axis = (*frames.at(node))[component];
     return std::count(axis.begin(), axis.end(), 0.0) < n - 1;
   });
 }
@@ -152,24 +187,41 @@ void HarmonicExtension<n>::for_row(const Group& group, std::size_t row, Visit vi
 template <int n>
 void HarmonicExtension<n>::set_up(Group& group) {
   group.row.assign(inner_.size(), -1);
-  for (std::size_t node = 0; node < inner_.size(); node += n)
-    for (const int component : group.components) {
-      if (component != group.components.front() && !group.mixed) continue;
-      if (!inner_[node + component]) continue;
-      group.row[node + component] = static_cast<int>(group.entry.size());
-      group.entry.push_back(node + component);
-    }
+  for (const bool own : {true, false}) {
+    for (std::size_t node = 0; node < inner_.size(); node += n)
+      for (const int component : group.components) {
+        if (component != group.components.front() && !group.mixed) continue;
+        if (!inner_[node + component] || owns(node / n) != own) continue;
+        group.row[node + component] = static_cast<int>(group.entry.size());
+        group.entry.push_back(node + component);
+      }
+    if (own) group.own = static_cast<int>(group.entry.size());
+  }
+  group.anywhere = processes().any(group.own > 0);
   group.offset = {0};
   for (std::size_t k = 1; k < group.components.size() && !group.mixed; ++k)
     group.offset.push_back(static_cast<std::size_t>(group.components[k] - group.components[0]));
   CsrMatrix<double> a, reduced;
   a.columns = static_cast<int>(group.entry.size());
+  std::vector<std::pair<int, double>> entries;
   for (std::size_t row = 0; row < group.entry.size(); ++row) {
-    for_row(group, row, [&](int column, double value) {
+    entries.clear();
+    for_row(group, row, [&](int column, double value) { entries.emplace_back(column, value); });
+    if (nodes_) std::sort(entries.begin(), entries.end());
+    for (const auto& [column, value] : entries) {
       a.indices.push_back(column);
       a.values.push_back(value);
-    });
+    }
     a.offsets.push_back(static_cast<int>(a.indices.size()));
+  }
+  ScalarMultigrid::Options options;
+  options.post_smoothing = true;  // conjugate gradients want a symmetric cycle
+  if (nodes_) {
+    group.followers = FollowerElimination(a, find_followers(group, a), group.own, group.matrix);
+    group.share = share_of_kept(group);
+    group.iterative = true;
+    group.multigrid.set_up(group.matrix, group.share, options);
+    return;
   }
   group.followers = FollowerElimination(a, reduced);
   const int rows = reduced.rows();
@@ -181,9 +233,42 @@ void HarmonicExtension<n>::set_up(Group& group) {
     return;
   }
   group.matrix = std::move(reduced);
-  ScalarMultigrid::Options options;
-  options.post_smoothing = true;  // conjugate gradients want a symmetric cycle
   group.multigrid.set_up(group.matrix, options);
+}
+
+template <int n>
+std::vector<char> HarmonicExtension<n>::find_followers(const Group& group, const CsrMatrix<double>& a) const {
+  constexpr double many = FollowerElimination::most_leaders + 1;
+  const auto to_rows = [&](std::vector<double>& of_rows) {  // ghosts' from their owners
+    std::vector<double> of_entries(inner_.size(), 0.0);
+    for (int row = 0; row < group.own; ++row) of_entries[group.entry[row]] = of_rows[row];
+    update_ghosts(of_entries);
+    for (int row = group.own; row < a.rows(); ++row) of_rows[row] = of_entries[group.entry[row]];
+  };
+  std::vector<double> leaders(a.rows(), many), follows(a.rows(), 0.0);
+  for (int row = 0; row < group.own; ++row) leaders[row] = FollowerElimination::leaders(a, row);
+  to_rows(leaders);
+  for (int row = 0; row < group.own; ++row) {
+    follows[row] = leaders[row] < many;
+    for (int at = a.offsets[row]; at < a.offsets[row + 1]; ++at)
+      if (a.indices[at] != row && a.values[at] != 0 && leaders[a.indices[at]] < many) follows[row] = 0;
+  }
+  to_rows(follows);
+  return {follows.begin(), follows.end()};
+}
+
+template <int n>
+ShareOfNumbers HarmonicExtension<n>::share_of_kept(const Group& group) const {
+  const auto& kept = group.followers.kept();
+  const int own = group.followers.own_kept();
+  const std::int64_t first = processes().sum_before(std::int64_t{own});
+  std::vector<double> numbers(inner_.size(), -1.0);
+  for (int i = 0; i < own; ++i) numbers[group.entry[kept[i]]] = static_cast<double>(first + i);
+  update_ghosts(numbers);
+  std::vector<std::int64_t> copies;
+  for (std::size_t i = own; i < kept.size(); ++i)
+    copies.push_back(static_cast<std::int64_t>(numbers[group.entry[kept[i]]]));
+  return {processes(), own, std::move(copies)};
 }
 
 template <int n>
@@ -201,17 +286,28 @@ template <int n>
 void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<double>& field, double tolerance) {
   assert(right.size() == inner_.size() && field.size() == inner_.size());
   iterations_ = 0;
+  if (rescue_) return rescue_->solve(right, field, tolerance);
   parallel_for(inner_.size(), inner_.size() > 50000, [&](std::size_t i) { values_[i] = inner_[i] ? 0 : field[i]; });
   apply_operator_to_given();
+  if (nodes_) {
+    balance_.resize(rows_.size());
+    for (std::size_t i = 0; i < rows_.size(); ++i) balance_[i] = right[i] - rows_[i];
+    update_ghosts(balance_);
+  }
   bool reached = true;  // by factors in single precision
   for (Group& group : groups_) {
-    if (group.entry.empty()) continue;
+    if (!group.anywhere) continue;
     if (group.iterative) {
       const std::size_t count = group.offset.size();
       const bool converged = count == 1   ? iterate<1>(group, right, field, tolerance)
                              : count == 2 ? iterate<2>(group, right, field, tolerance)
                                           : iterate<3>(group, right, field, tolerance);
       if (converged) continue;
+      if (nodes_) {
+        rescue_ = make_rescue_();
+        rescue_->update();
+        return rescue_->solve(right, field, tolerance);
+      }
       if (!group.solver.factorised()) factorise(group, group.matrix);
     }
     for (std::size_t c = 0; c < group.offset.size(); ++c)
@@ -219,6 +315,7 @@ void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<d
     add_solution(group, right, field);
     reached = reached && group.solver.reaches(tolerance);
   }
+  update_ghosts(field);
   if (!reached) refine(right, field, tolerance, residual(right));
 }
 
@@ -250,7 +347,7 @@ void HarmonicExtension<n>::take(const Group& group, const std::vector<double>& r
   for (std::size_t c = 0; c < count; ++c)
     for (std::size_t i = 0; i < rows; ++i) {
       const std::size_t entry = group.entry[i] + group.offset[c];
-      right_[c * rows + i] = right[entry] - rows_[entry];
+      right_[c * rows + i] = nodes_ ? balance_[entry] : right[entry] - rows_[entry];
     }
 }
 
@@ -303,21 +400,27 @@ bool HarmonicExtension<n>::iterate(Group& group, const std::vector<double>& righ
                                    double tolerance) {
   constexpr int lanes = m == 1 ? 1 : padded<m>;
   const auto& kept = group.followers.kept();
-  const int rows = static_cast<int>(kept.size());
-  const std::size_t size = static_cast<std::size_t>(rows) * m;
-  std::vector<double> x(size), r(size), z(size), p(size, 0.0), q(size);
+  const int rows = group.followers.own_kept();
+  const std::size_t size = static_cast<std::size_t>(rows) * m, with_copies = kept.size() * m;
+  std::vector<double> x(with_copies), r(size), z(size), p(with_copies, 0.0), q(size);
   std::vector<float> single_r(static_cast<std::size_t>(rows) * lanes, 0.0f), single_z(single_r);
+  const auto sums = [&](const std::vector<double>& y, const std::vector<double>& z) {
+    auto of_all = dots<m>(rows, y, z);
+    processes().sum(of_all.data(), m);
+    return of_all;
+  };
   take(group, right);
   group.followers.reduce(right_, m, right_of_kept_);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    for (int k = 0; k < m; ++k) x[i * m + k] = field[group.entry[kept[i]] + group.offset[k]];
+  group.share.exchange.update(x, m);
   for (int i = 0; i < rows; ++i)
-    for (int k = 0; k < m; ++k) {
-      x[static_cast<std::size_t>(i) * m + k] = field[group.entry[kept[i]] + group.offset[k]];
+    for (int k = 0; k < m; ++k)
       r[static_cast<std::size_t>(i) * m + k] = right_of_kept_[static_cast<std::size_t>(k) * rows + i];
-    }
-  const auto reference = dots<m>(r, r);
+  const auto reference = sums(r, r);
   multiply_each<m>(group.matrix, x, q);
   for (std::size_t i = 0; i < size; ++i) r[i] -= q[i];
-  auto square = dots<m>(r, r);
+  auto square = sums(r, r);
   const auto done = [&] {
     for (int k = 0; k < m; ++k)
       if (!(square[k] <= tolerance * tolerance * reference[k])) return false;
@@ -339,7 +442,7 @@ bool HarmonicExtension<n>::iterate(Group& group, const std::vector<double>& righ
     for (int i = 0; i < rows; ++i)
       for (int k = 0; k < m; ++k)
         z[static_cast<std::size_t>(i) * m + k] = length[k] * single_z[static_cast<std::size_t>(i) * lanes + k];
-    const auto overlap = dots<m>(z, q), next = dots<m>(z, r);
+    const auto overlap = sums(z, q), next = sums(z, r);
     for (int k = 0; k < m; ++k) {
       beta[k] = iteration > 0 && rho[k] > 0 ? -alpha[k] * overlap[k] / rho[k] : 0;  // r - r_old = -alpha q
       rho[k] = next[k];
@@ -350,8 +453,9 @@ bool HarmonicExtension<n>::iterate(Group& group, const std::vector<double>& righ
         const std::size_t at = static_cast<std::size_t>(i) * m + k;
         p[at] = z[at] + beta[k] * p[at];
       }
+    group.share.exchange.update(p, m);
     multiply_each<m>(group.matrix, p, q);
-    const auto curvature = dots<m>(p, q);
+    const auto curvature = sums(p, q);
     for (int k = 0; k < m; ++k) alpha[k] = curvature[k] > 0 ? rho[k] / curvature[k] : 0;
 #pragma omp parallel for schedule(static) if (rows > 8000)
     for (int i = 0; i < rows; ++i)
@@ -360,16 +464,17 @@ bool HarmonicExtension<n>::iterate(Group& group, const std::vector<double>& righ
         x[at] += alpha[k] * p[at];
         r[at] -= alpha[k] * q[at];
       }
-    square = dots<m>(r, r);
+    square = sums(r, r);
   }
   iterations_ = std::max(iterations_, iteration);
   if (!done()) return false;
-  kept_.resize(size);
-  for (int i = 0; i < rows; ++i)
-    for (int k = 0; k < m; ++k) kept_[static_cast<std::size_t>(k) * rows + i] = x[static_cast<std::size_t>(i) * m + k];
+  group.share.exchange.update(x, m);
+  kept_.resize(with_copies);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    for (int k = 0; k < m; ++k) kept_[k * kept.size() + i] = x[i * m + k];
   group.followers.complete(right_, kept_, m, solution_);
   const std::size_t all = group.entry.size();
-  for (std::size_t i = 0; i < all; ++i)
+  for (int i = 0; i < group.own; ++i)
     for (int k = 0; k < m; ++k) field[group.entry[i] + group.offset[k]] = solution_[k * all + i];
   return true;
 }

@@ -1,15 +1,20 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
 #include "algebra/csr_matrix.hpp"
 #include "fem/nodal_frames.hpp"
+#include "fem/nodal_layout.hpp"
 #include "linear/amg/scalar_multigrid.hpp"
 #include "linear/direct/cholesky_solver.hpp"
 #include "mesh_motion/follower_elimination.hpp"
 #include "mesh_motion/mesh_extension.hpp"
+#include "parallel/node_share.hpp"
 
 namespace fsi {
 
@@ -27,7 +32,8 @@ struct HarmonicExtensionOptions {
 /// solved at once, by a factorisation or, where that is large, by conjugate gradients in double precision around a
 /// V-cycle of smoothed aggregation in single precision. Nodes that follow two others at most, as those in the middle of
 /// edges, are eliminated before. Components that frames of nodes mix have one matrix together.
-/// Results do not depend on the number of threads.
+/// Results do not depend on the number of threads. Processes that share the nodes iterate together, each with the rows of its
+/// own nodes; frames must not mix components there.
 /// \tparam n  components of a node
 template <int n>
 class HarmonicExtension : public MeshExtension<n> {
@@ -38,6 +44,17 @@ class HarmonicExtension : public MeshExtension<n> {
   ///                   null: none
   HarmonicExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner,
                     const HarmonicExtensionOptions& options = {}, const NodalFrames<n>* frames = nullptr);
+  /// Of nodes that processes share. Right sides count at own entries; fields hold ghosts: given values have to be in them,
+  /// sought ones are brought to them.
+  /// \param inner   at ghosts it does not matter
+  /// \param share   must outlive this
+  /// \param rescue  makes what solves where the iteration fails
+  HarmonicExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner, const NodalFrames<n>* frames,
+                    const NodeShare& share, std::function<std::unique_ptr<MeshExtension<n>>()> rescue);
+  /// A frame turns some component out of its axis. \param frames  null: none
+  static bool mixes(const NodalFrames<n>* frames);
+  /// That are iterated for, of all processes: without followers.
+  std::int64_t unknowns() const;
 
   /// The operator has new values.
   /// \throws ConvergenceError when it is singular
@@ -61,10 +78,13 @@ class HarmonicExtension : public MeshExtension<n> {
     std::vector<int> components;
     bool mixed = false;
     std::vector<int> row;             ///< per entry of the vector layout; -1 where the value is given
-    std::vector<std::size_t> entry;   ///< per row, of the first of its vectors
+    std::vector<std::size_t> entry;   ///< per row, of the first of its vectors; rows of ghosts behind
+    int own = 0;                      ///< rows
+    bool anywhere = true;             ///< some process has rows
     std::vector<std::size_t> offset;  ///< from there to the entry of each of its vectors
     FollowerElimination followers;    ///< what is solved for is without them
     CsrMatrix<double> matrix;         ///< of what is kept, for the iteration
+    ShareOfNumbers share;             ///< of its rows and columns
     ScalarMultigrid multigrid;        ///< its preconditioner
     CholeskySolver solver;
     bool iterative = false;
@@ -74,8 +94,17 @@ class HarmonicExtension : public MeshExtension<n> {
   void build_groups();
   bool same(int i, int k) const;
   /// Some frame is turned out of this component's axis.
-  bool is_mixed(int component) const;
+  static bool is_mixed(const NodalFrames<n>& frames, int component);
+  bool owns(std::size_t node) const { return !nodes_ || nodes_->owned[node] != 0; }
+  const Communicator& processes() const { return nodes_ ? *nodes_->processes : Communicator::alone(); }
+  /// Those of all processes have the owners' values.
+  void update_ghosts(std::vector<double>& field) const {
+    if (nodes_) nodes_->template update<VectorLayout<n>>(field);
+  }
   void set_up(Group& group);
+  /// Of a matrix with rows of ghosts: per row.
+  std::vector<char> find_followers(const Group& group, const CsrMatrix<double>& a) const;
+  ShareOfNumbers share_of_kept(const Group& group) const;
   /// Calls visit(column, value) for the entries of a row of the group's matrix, columns ascending.
   template <class Visit>
   void for_row(const Group& group, std::size_t row, Visit visit) const;
@@ -103,6 +132,9 @@ class HarmonicExtension : public MeshExtension<n> {
   std::vector<char> inner_;
   HarmonicExtensionOptions options_;
   const NodalFrames<n>* frames_;
+  const NodeShare* nodes_ = nullptr;  ///< null: all are here
+  std::function<std::unique_ptr<MeshExtension<n>>()> make_rescue_;
+  std::unique_ptr<MeshExtension<n>> rescue_;  ///< of the present operator; null: the iteration serves
   std::vector<Group> groups_;
   /// A node of which some component is given, and the numbers by which another one's rows, or its own, know it: a copy, for
   /// they lie far apart in the matrix.
@@ -115,7 +147,7 @@ class HarmonicExtension : public MeshExtension<n> {
   std::vector<Coupling> couplings_;
   std::vector<int> blocks_;  ///< of the matrix, that these are copies of
   int iterations_ = 0;
-  std::vector<double> values_, rows_, right_, right_of_kept_, kept_, solution_;
+  std::vector<double> values_, rows_, right_, right_of_kept_, kept_, solution_, balance_;
 };
 
 }  // namespace fsi

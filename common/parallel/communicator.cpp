@@ -50,7 +50,7 @@ std::int64_t Communicator::sum(std::int64_t mine) const {
 
 void Communicator::sum(double* mine, std::size_t count) const {
   if (is_alone() || count == 0) return;
-  const std::vector<double> all = gather(std::vector<double>(mine, mine + count));
+  const std::vector<double> all = gather_equal(mine, count);
   std::fill_n(mine, count, 0.0);
   for (std::size_t at = 0; at < all.size(); ++at) mine[at % count] += all[at];
 }
@@ -176,6 +176,25 @@ std::vector<double> Communicator::gather_at_first(const std::vector<double>& min
   return all;
 }
 
+void Communicator::gather(const float* mine, const std::vector<int>& counts, float* all) const {
+  if (is_alone()) {
+    std::copy_n(mine, counts[0], all);
+    return;
+  }
+  ++traffic_.reductions;
+  std::vector<int> starts(size_, 0);
+  for (int r = 1; r < size_; ++r) starts[r] = starts[r - 1] + counts[r - 1];
+  MPI_Allgatherv(mine, counts[rank_], MPI_FLOAT, all, counts.data(), starts.data(), MPI_FLOAT, handle_->communicator);
+}
+
+std::vector<double> Communicator::gather_equal(const double* mine, std::size_t count) const {
+  ++traffic_.reductions;
+  std::vector<double> all(count * static_cast<std::size_t>(size_));
+  MPI_Allgather(mine, static_cast<int>(count), MPI_DOUBLE, all.data(), static_cast<int>(count), MPI_DOUBLE,
+                handle_->communicator);
+  return all;
+}
+
 void Communicator::broadcast(std::string& text) const {
   if (is_alone()) return;
   std::int64_t length = static_cast<std::int64_t>(text.size());
@@ -271,6 +290,12 @@ std::vector<int> Communicator::gather(const std::vector<int>& mine) const {
 }
 std::vector<double> Communicator::gather_at_first(const std::vector<double>& mine) const {
   return mine;
+}
+void Communicator::gather(const float* mine, const std::vector<int>& counts, float* all) const {
+  std::copy_n(mine, counts[0], all);
+}
+std::vector<double> Communicator::gather_equal(const double* mine, std::size_t count) const {
+  return {mine, mine + count};
 }
 void Communicator::broadcast(std::string&) const {}
 void Communicator::broadcast(std::vector<double>&) const {}

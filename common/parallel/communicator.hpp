@@ -52,7 +52,9 @@ class Communicator {
   std::vector<double> gather(const std::vector<double>& mine) const;
   std::vector<std::int64_t> gather(const std::vector<std::int64_t>& mine) const;
   std::vector<int> gather(const std::vector<int>& mine) const;
-  /// The same, at the first process alone; empty at the others.
+  /// The same of lengths that all know. \param counts  per process \param all  their sum
+  void gather(const float* mine, const std::vector<int>& counts, float* all) const;
+  /// As above, at the first process alone; empty at the others.
   std::vector<double> gather_at_first(const std::vector<double>& mine) const;
 
   /// What the first process has, at all of them.
@@ -76,6 +78,9 @@ class Communicator {
   friend class ProcessGroup;
   friend class Exchange;
   explicit Communicator(std::unique_ptr<Handle> handle);
+
+  /// Of as many numbers from each.
+  std::vector<double> gather_equal(const double* mine, std::size_t count) const;
 
   std::unique_ptr<Handle> handle_;  ///< null: alone
   int rank_ = 0, size_ = 1;

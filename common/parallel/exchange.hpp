@@ -1,7 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -27,8 +27,14 @@ class Exchange {
   const std::vector<Neighbour>& neighbours() const { return neighbours_; }
 
   /// Gives copies the values of their owners. \param entries  numbers of an item i, from values[i * entries] on
-  void update(std::vector<double>& values, int entries = 1) const { update(values.data(), entries); }
+  template <class Real>
+  void update(std::vector<Real>& values, int entries = 1) const {
+    update(values.data(), entries);
+  }
   void update(double* values, int entries) const;
+  void update(float* values, int entries) const;
+  /// The same for rows of any lengths. All processes together. \param rows  per item here
+  void update_rows(std::vector<std::vector<double>>& rows) const;
   /// The other way: for each neighbour what its copies of the items sent to it have, in the order of `sent`.
   std::vector<std::vector<double>> from_copies(const std::vector<double>& values, int entries = 1) const;
 
@@ -37,18 +43,45 @@ class Exchange {
 
  private:
   enum class Way { to_copies, to_owners };
+  template <class Real>
+  struct Buffers {
+    std::vector<std::vector<Real>> outgoing, incoming;  ///< per neighbour
+  };
   static const std::vector<int>& outgoing(const Neighbour& n, Way way) {
     return way == Way::to_copies ? n.sent : n.received;
   }
   static const std::vector<int>& incoming(const Neighbour& n, Way way) {
     return way == Way::to_copies ? n.received : n.sent;
   }
-  /// Fills incoming_ with what the neighbours send.
-  void communicate(const double* values, int entries, Way way) const;
+  template <class Real>
+  Buffers<Real>& buffers() const;
+  /// Fills `incoming` with what the neighbours send.
+  template <class Real>
+  void communicate(const Real* values, int entries, Way way) const;
+  template <class Real>
+  void update_copies(Real* values, int entries) const;
 
   [[maybe_unused]] const Communicator* processes_ = nullptr;  ///< not asked without MPI
   std::vector<Neighbour> neighbours_;
-  mutable std::vector<std::vector<double>> outgoing_, incoming_;  ///< buffers, per neighbour
+  mutable Buffers<double> doubles_;
+  mutable Buffers<float> floats_;
+};
+
+/// Items of which each process has a stretch of consecutive numbers among all processes', and copies of others.
+struct ShareOfNumbers {
+  const Communicator* processes = &Communicator::alone();
+  std::int64_t first = 0;            ///< number of the first own item; they are the first items here
+  int own = 0;
+  std::vector<std::int64_t> copies;  ///< numbers of the items behind the own ones
+  Exchange exchange;
+
+  ShareOfNumbers() = default;
+  /// All processes together. \param copies  each with an owner
+  ShareOfNumbers(const Communicator& processes, int own, std::vector<std::int64_t> copies);
+
+  int items() const { return own + static_cast<int>(copies.size()); }
+  /// Among all processes'. \param item  here
+  std::int64_t number(int item) const { return item < own ? first + item : copies[item - own]; }
 };
 
 }  // namespace fsi

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "base/error.hpp"
 #include "host/parallel_for.hpp"
 #include "linear/amg/aggregation.hpp"
+#include "linear/amg/shared_rows.hpp"
 #include "linear/direct/dense_inverse.hpp"
 #include "linear/krylov/power_iteration.hpp"
 
@@ -26,6 +28,7 @@ struct Coarsened {
   BlockMatrix<size, modes> prolongation;
   BlockMatrix<modes, size> restriction;
   BlockMatrix<modes, modes> matrix;
+  ShareOfNumbers share;
   std::vector<double> space;  ///< the rigid motions on the coarse nodes: rows x modes
 };
 
@@ -63,9 +66,9 @@ std::vector<double> rigid_motions(const std::vector<std::array<double, 3>>& poin
 
 /// Frobenius norms of the blocks.
 template <int size>
-CsrMatrix<double> block_norms(const BlockMatrix<size, size>& a) {
+CsrMatrix<double> block_norms(const BlockMatrix<size, size>& a, int columns) {
   CsrMatrix<double> norms;
-  norms.columns = a.graph->rows();
+  norms.columns = columns;
   norms.offsets = a.graph->offsets;
   norms.indices = a.graph->columns;
   norms.values.resize(norms.indices.size());
@@ -119,11 +122,12 @@ BlockMatrix<size, modes> tentative_prolongation(const std::vector<int>& aggregat
   return t;
 }
 
-/// P = (I - omega / lambda D^-1 A_F) T; A_F is A with weak couplings added to the diagonal blocks, D its diagonal
-/// (its diagonal blocks in place of that cost a third more iterations).
+/// P = (I - omega / lambda D^-1 A_F) T; A_F is A with weak couplings, and those with other processes, added to the diagonal
+/// blocks, D its diagonal (its diagonal blocks in place of that cost a third more iterations).
 template <int modes, int size>
 void smooth(const BlockMatrix<size, size>& a, const std::vector<char>& strong,
-            const BlockMatrix<size, modes>& tentative, int count, double damping, BlockMatrix<size, modes>& p) {
+            const BlockMatrix<size, modes>& tentative, int count, double damping, const Communicator& processes,
+            BlockMatrix<size, modes>& p) {
   auto graph = std::make_shared<NodeGraph>();
   graph->offsets.push_back(0);
   BlockMatrix<size, size> filtered;  // D^-1 A_F
@@ -148,8 +152,9 @@ void smooth(const BlockMatrix<size, size>& a, const std::vector<char>& strong,
   }
   filtered.graph = std::move(graph);
   const double scale =
-      damping / largest_eigenvalue(rough_vector(static_cast<std::size_t>(a.graph->rows()) * size),
-                                   eigenvalue_iterations, [&](const auto& x, auto& y) { multiply(filtered, x, y); });
+      damping / processes.largest(largest_eigenvalue(
+                    rough_vector(static_cast<std::size_t>(a.graph->rows()) * size), eigenvalue_iterations,
+                    [&](const auto& x, auto& y) { multiply(filtered, x, y); }));
   p = block_product(filtered, tentative, count);
   for (double& value : p.values) value *= -scale;
   for (int row = 0; row < a.graph->rows(); ++row) {
@@ -158,24 +163,49 @@ void smooth(const BlockMatrix<size, size>& a, const std::vector<char>& strong,
   }
 }
 
+/// Behind own rows those of copies. \param share  gets that of the columns
+template <int modes, int size>
+BlockMatrix<size, modes> with_rows_of_copies(const BlockMatrix<size, modes>& p, const ShareOfNumbers& fine, int coarse,
+                                             ShareOfNumbers& share) {
+  SparseRows all = fsi::with_rows_of_copies({size * modes, p.graph->offsets, p.graph->columns, p.values}, fine, coarse,
+                                            share);
+  auto graph = std::make_shared<NodeGraph>();
+  graph->offsets = std::move(all.offsets);
+  graph->columns = std::move(all.columns);
+  BlockMatrix<size, modes> result;
+  result.graph = std::move(graph);
+  result.values = std::move(all.values);
+  return result;
+}
+
 /// The next level; none where nothing couples.
 template <int modes, int size>
-std::optional<Coarsened<modes, size>> coarsened(const BlockMatrix<size, size>& a, const std::vector<double>& space,
-                                                double& threshold, double first_threshold, double damping) {
-  const auto norms = block_norms(a);
-  const auto diagonal = diagonal_of(norms);
+std::optional<Coarsened<modes, size>> coarsened(const BlockMatrix<size, size>& a, const ShareOfNumbers& share,
+                                                const std::vector<double>& space, double& threshold,
+                                                double first_threshold, double damping) {
+  const Communicator& processes = *share.processes;
+  const auto norms = block_norms(a, share.items());
+  auto diagonal = diagonal_of(norms);
+  diagonal.resize(share.items());
+  share.exchange.update(diagonal);
+  const auto whole = static_cast<double>(processes.sum(std::int64_t{norms.rows()}));
   for (; threshold > 1e-4 * first_threshold; threshold *= 0.5) {
-    const auto strong = strong_entries(norms, diagonal, threshold);
+    auto strong = strong_entries(norms, diagonal, threshold);
+    for (std::size_t at = 0; at < strong.size(); ++at)
+      if (norms.indices[at] >= norms.rows()) strong[at] = 0;  // an aggregate is one process's
     int count = 0;
     const auto aggregate = aggregates(norms, strong, count);
-    if (count > 0.8 * norms.rows()) continue;  // hardly anything is strong: demand less
+    if (static_cast<double>(processes.sum(std::int64_t{count})) > 0.8 * whole)
+      continue;  // hardly anything is strong: demand less
     threshold *= 0.5;
     Coarsened<modes, size> result;
     result.space = space;
     const auto tentative = tentative_prolongation<modes, size>(aggregate, count, result.space);
-    smooth(a, strong, tentative, count, damping, result.prolongation);
+    smooth(a, strong, tentative, count, damping, processes, result.prolongation);
     result.restriction = transposed(result.prolongation, count);
-    result.matrix = block_product(result.restriction, block_product(a, result.prolongation, count), count);
+    const auto all = with_rows_of_copies(result.prolongation, share, count, result.share);
+    const int columns = result.share.items();
+    result.matrix = block_product(result.restriction, block_product(a, all, columns), columns);
     // Rigid motions that depend on others within an aggregate have left empty rows: a one keeps them at zero.
     for (int i = 0; i < count; ++i) {
       double* block = result.matrix.block(result.matrix.graph->find(i, i));
@@ -188,63 +218,77 @@ std::optional<Coarsened<modes, size>> coarsened(const BlockMatrix<size, size>& a
 }
 
 /// Inverses of the diagonal blocks, padded.
+/// \throws ConvergenceError by all processes when one has a singular block
 template <int modes>
-std::vector<float> inverse_diagonal(const BlockMatrix<modes, modes>& a) {
+std::vector<float> inverse_diagonal(const BlockMatrix<modes, modes>& a, const Communicator& processes) {
+  bool singular = false;
   std::vector<float> inverses(static_cast<std::size_t>(a.graph->rows()) * modes * padded<modes>, 0.0f);
   std::vector<double> block(modes * modes);
   for (int row = 0; row < a.graph->rows(); ++row) {
     const double* from = a.block(a.graph->find(row, row));
     block.assign(from, from + modes * modes);
     const auto inverse = dense_inverse(block, modes);
-    if (inverse.empty()) throw ConvergenceError("the wall's stiffness has a singular block on a coarse level", "");
+    singular = singular || inverse.empty();
+    if (singular) break;
     float* to = inverses.data() + static_cast<std::size_t>(row) * modes * padded<modes>;
     for (int c = 0; c < modes; ++c)
       for (int r = 0; r < modes; ++r) to[c * padded<modes> + r] = static_cast<float>(inverse[r * modes + c]);
   }
+  if (processes.any(singular))
+    throw ConvergenceError("the wall's stiffness has a singular block on a coarse level", "");
   return inverses;
 }
 
 }  // namespace
 
 template <int n>
-void RigidMotionMultigrid<n>::set_up(const BlockMatrix<n, n>& finest, const std::vector<std::array<double, 3>>& points,
-                                     const Options& options, const std::vector<char>& fixed) {
+void RigidMotionMultigrid<n>::set_up(const BlockMatrix<n, n>& finest, const ShareOfNumbers& share_of_finest,
+                                     const std::vector<std::array<double, 3>>& points, const Options& options,
+                                     const std::vector<char>& fixed) {
   assert(static_cast<int>(points.size()) == finest.graph->rows());
   assert(fixed.empty() || fixed.size() == points.size() * n);
+  assert(share_of_finest.own == finest.graph->rows());
   levels_.clear();
   coarsest_inverse_.clear();
+  processes_ = share_of_finest.processes;
   post_smoothing_ = options.post_smoothing;
   double threshold = options.threshold;
-  auto first = coarsened<modes>(finest, rigid_motions<n>(points, fixed), threshold, options.threshold, options.damping);
+  auto first = coarsened<modes>(finest, share_of_finest, rigid_motions<n>(points, fixed), threshold, options.threshold,
+                                options.damping);
+  coarsens_ = first.has_value();
   if (!first) return;
   restriction_ = RegisterBlocks<modes, n>(first->restriction);
   prolongation_ = RegisterBlocks<n, modes>(first->prolongation);
   BlockMatrix<modes, modes> a = std::move(first->matrix);
+  ShareOfNumbers share = std::move(first->share);
   std::vector<double> space = std::move(first->space);
-  while (a.graph->rows() > options.coarsest_nodes && static_cast<int>(levels_.size()) < options.levels) {
-    auto next = coarsened<modes>(a, space, threshold, options.threshold, options.damping);
+  while (processes_->sum(std::int64_t{a.graph->rows()}) > options.coarsest_nodes &&
+         static_cast<int>(levels_.size()) < options.levels) {
+    auto next = coarsened<modes>(a, share, space, threshold, options.threshold, options.damping);
     if (!next) break;
     Level level;
     level.matrix = RegisterBlocks<modes, modes>(a);
     level.prolongation = RegisterBlocks<modes, modes>(next->prolongation);
     level.restriction = RegisterBlocks<modes, modes>(next->restriction);
     level.chunks = SweepChunks(a.graph->offsets, a.graph->columns);
-    level.inverse_diagonal = inverse_diagonal(a);
+    level.inverse_diagonal = inverse_diagonal(a, *processes_);
     const std::size_t size = static_cast<std::size_t>(a.graph->rows()) * lanes;
-    for (auto* v : {&level.b, &level.x, &level.residual}) v->assign(size, 0.0f);
+    for (auto* v : {&level.b, &level.residual}) v->assign(size, 0.0f);
+    level.x.assign(static_cast<std::size_t>(share.items()) * lanes, 0.0f);
+    level.share = std::exchange(share, std::move(next->share));
     levels_.push_back(std::move(level));
     a = std::move(next->matrix);
     space = std::move(next->space);
   }
-  invert_coarsest(a);
   const std::size_t size = static_cast<std::size_t>(a.graph->rows()) * lanes;
+  invert_coarsest(std::move(a), share);
   coarsest_b_.assign(size, 0.0f);
   coarsest_x_.assign(size, 0.0f);
 }
 
 template <int n>
 void RigidMotionMultigrid<n>::correct(const std::vector<float>& residual, std::vector<float>& velocity) {
-  if (coarsest_inverse_.empty()) return;
+  if (!coarsens_) return;
   restriction_.multiply(residual, b(0));
   cycle(0);
   add(prolongation_, x(0), velocity);
@@ -260,29 +304,41 @@ std::size_t RigidMotionMultigrid<n>::bytes() const {
 }
 
 template <int n>
-void RigidMotionMultigrid<n>::invert_coarsest(const BlockMatrix<modes, modes>& a) {
-  coarsest_rows_ = a.graph->rows() * modes;
-  const std::size_t size = coarsest_rows_;
+void RigidMotionMultigrid<n>::invert_coarsest(BlockMatrix<modes, modes> matrix, const ShareOfNumbers& share) {
+  const auto all = gather_rows({modes * modes, matrix.graph->offsets, matrix.graph->columns, std::move(matrix.values)},
+                               share);
+  const std::size_t size = static_cast<std::size_t>(all.rows()) * modes;
   std::vector<double> dense(size * size, 0.0);  // column-major
-  for (int row = 0; row < a.graph->rows(); ++row)
-    for (int at = a.graph->offsets[row]; at < a.graph->offsets[row + 1]; ++at)
+  for (int row = 0; row < all.rows(); ++row)
+    for (int at = all.offsets[row]; at < all.offsets[row + 1]; ++at)
       for (int r = 0; r < modes; ++r)
         for (int c = 0; c < modes; ++c)
-          dense[(a.graph->columns[at] * modes + c) * size + row * modes + r] = a.block(at)[r * modes + c];
-  const auto inverse = dense_inverse(dense, coarsest_rows_);
+          dense[(static_cast<std::size_t>(all.columns[at]) * modes + c) * size + row * modes + r] =
+              all.values[static_cast<std::size_t>(at) * modes * modes + r * modes + c];
+  const auto inverse = dense_inverse(dense, static_cast<int>(size));
   if (inverse.empty()) throw ConvergenceError("the wall's stiffness is singular on the coarsest level", "");
-  coarsest_inverse_.assign(inverse.begin(), inverse.end());
+  const std::size_t own = static_cast<std::size_t>(share.own) * modes, first = share.first * modes;
+  coarsest_inverse_.resize(own * size);
+  for (std::size_t column = 0; column < size; ++column)
+    for (std::size_t row = 0; row < own; ++row)
+      coarsest_inverse_[column * own + row] = static_cast<float>(inverse[column * size + first + row]);
+  coarsest_counts_.clear();
+  for (const std::int64_t rows : processes_->gather(std::int64_t{share.own}))
+    coarsest_counts_.push_back(static_cast<int>(rows) * lanes);
+  coarsest_right_.resize(static_cast<std::size_t>(all.rows()) * lanes);
 }
 
 template <int n>
 void RigidMotionMultigrid<n>::solve_coarsest() {
-  dense_x_.assign(coarsest_rows_, 0.0f);
-  for (int j = 0; j < coarsest_rows_; ++j) {
-    const float* column = coarsest_inverse_.data() + static_cast<std::size_t>(j) * coarsest_rows_;
-    const float value = coarsest_b_[j / modes * lanes + j % modes];
-    for (int i = 0; i < coarsest_rows_; ++i) dense_x_[i] += column[i] * value;
+  processes_->gather(coarsest_b_.data(), coarsest_counts_, coarsest_right_.data());
+  const std::size_t own = coarsest_b_.size() / lanes * modes, size = coarsest_right_.size() / lanes * modes;
+  dense_x_.assign(own, 0.0f);
+  for (std::size_t j = 0; j < size; ++j) {
+    const float* column = coarsest_inverse_.data() + j * own;
+    const float value = coarsest_right_[j / modes * lanes + j % modes];
+    for (std::size_t i = 0; i < own; ++i) dense_x_[i] += column[i] * value;
   }
-  for (int i = 0; i < coarsest_rows_; ++i) coarsest_x_[i / modes * lanes + i % modes] = dense_x_[i];
+  for (std::size_t i = 0; i < own; ++i) coarsest_x_[i / modes * lanes + i % modes] = dense_x_[i];
 }
 
 template <int n>
@@ -306,7 +362,8 @@ void RigidMotionMultigrid<n>::cycle(std::size_t depth) {
     const Register<modes> before = a.product(chunks.first[row], chunks.diagonal[row], level.x.data());
     store<modes>(solve_diagonal(row, load<modes>(place(level.b, row)) - before), place(level.x, row));
   });
-  // b - A x = -(U x) - (couplings between chunks) x: half a product
+  level.share.exchange.update(level.x, lanes);
+  // b - A x = -(U x) - (couplings between chunks, and with copies) x: half a product
   parallel_for(a.rows(), chunks.chunks() > 1, [&](int row) {
     store<modes>(-a.product(a.offsets[row], chunks.first[row], level.x.data()) -
                      a.product(chunks.diagonal[row] + 1, a.offsets[row + 1], level.x.data()),
@@ -316,6 +373,7 @@ void RigidMotionMultigrid<n>::cycle(std::size_t depth) {
   cycle(depth + 1);
   add(level.prolongation, x(depth + 1), level.x);
   if (!post_smoothing_) return;
+  level.share.exchange.update(level.x, lanes);
   // (D + U) e = b - A x, x += e; e takes the residual's place
   parallel_for(a.rows(), chunks.chunks() > 1, [&](int row) {
     store<modes>(load<modes>(place(level.b, row)) - a.row_product(row, level.x.data()), place(level.residual, row));

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "algebra/register_blocks.hpp"
 #include "base/error.hpp"
 #include "host/parallel_for.hpp"
 #include "linear/amg/aggregation.hpp"
+#include "linear/amg/shared_rows.hpp"
 #include "linear/direct/dense_inverse.hpp"
 #include "linear/krylov/power_iteration.hpp"
 
@@ -54,12 +56,13 @@ struct RowOf<1> {
   }
 };
 
-/// P = (I - omega / lambda D^-1 A_F) T; A_F is A with weak couplings added to its diagonal, T the aggregates'
-/// indicator.
+/// P = (I - omega / lambda D^-1 A_F) T; A_F is A with weak couplings, and those with other processes, added to its diagonal,
+/// T the aggregates' indicator.
 CsrMatrix<double> smoothed_prolongation(const CsrMatrix<double>& a, const std::vector<char>& strong,
-                                        const std::vector<int>& aggregate, int count, double omega) {
+                                        const std::vector<int>& aggregate, int count, double omega,
+                                        const Communicator& processes) {
   CsrMatrix<double> filtered;
-  filtered.columns = a.columns;
+  filtered.columns = a.rows();
   for (int row = 0; row < a.rows(); ++row) {
     double weak = 0;
     int diagonal_at = -1;
@@ -80,7 +83,7 @@ CsrMatrix<double> smoothed_prolongation(const CsrMatrix<double>& a, const std::v
   for (int row = 0; row < a.rows(); ++row)
     // Weak couplings of the diagonal's own sign and size would leave nothing to divide by.
     if (diagonal[row] * original[row] < 0.1 * original[row] * original[row]) diagonal[row] = original[row];
-  const double scale = omega / largest_eigenvalue_of(filtered, diagonal);
+  const double scale = omega / processes.largest(largest_eigenvalue_of(filtered, diagonal));
 
   CsrMatrix<double> tentative;
   tentative.columns = count;
@@ -98,27 +101,38 @@ CsrMatrix<double> smoothed_prolongation(const CsrMatrix<double>& a, const std::v
 
 }  // namespace
 
-void ScalarMultigrid::set_up(const CsrMatrix<double>& matrix, const Options& options) {
-  assert(matrix.rows() == matrix.columns);
+void ScalarMultigrid::set_up(const CsrMatrix<double>& matrix, const ShareOfNumbers& share_of_matrix,
+                             const Options& options) {
+  assert(matrix.rows() == share_of_matrix.own && matrix.columns == share_of_matrix.items());
   levels_.clear();
+  processes_ = share_of_matrix.processes;
   post_smoothing_ = options.post_smoothing;
   CsrMatrix<double> a = matrix;
+  ShareOfNumbers share = share_of_matrix;
   double threshold = options.threshold;
   std::size_t entries = 0;
-  while (a.rows() > options.coarsest_size && levels() < options.levels) {
-    const auto diagonal = diagonal_of(a);
-    const auto strong = strong_entries(a, diagonal, threshold);
+  while (levels() < options.levels) {
+    const std::int64_t whole = processes_->sum(std::int64_t{a.rows()});
+    if (whole <= options.coarsest_size) break;
+    auto diagonal = diagonal_of(a);
+    diagonal.resize(share.items());
+    share.exchange.update(diagonal);
+    auto strong = strong_entries(a, diagonal, threshold);
+    for (std::size_t at = 0; at < strong.size(); ++at)
+      if (a.indices[at] >= a.rows()) strong[at] = 0;  // an aggregate is one process's
+    diagonal.resize(a.rows());
     int count = 0;
     const auto aggregate = aggregates(a, strong, count);
     threshold *= 0.5;
-    const bool stuck = count > 0.8 * a.rows();
+    const bool stuck =
+        static_cast<double>(processes_->sum(std::int64_t{count})) > 0.8 * static_cast<double>(whole);
     if (stuck && threshold > 1e-3 * options.threshold) continue;  // hardly anything is strong: demand less
     CsrMatrix<double> p;
     if (stuck) {  // nothing couples: the smoother alone solves it
       count = 0;
       p.offsets.assign(static_cast<std::size_t>(a.rows()) + 1, 0);
     } else {
-      p = smoothed_prolongation(a, strong, aggregate, count, options.damping);
+      p = smoothed_prolongation(a, strong, aggregate, count, options.damping, *processes_);
     }
     const auto r = transposed(p);
     Level level;
@@ -128,55 +142,81 @@ void ScalarMultigrid::set_up(const CsrMatrix<double>& matrix, const Options& opt
     level.chunks = SweepChunks(a.offsets, a.indices);
     for (double d : diagonal) level.inverse_diagonal.push_back(static_cast<float>(1 / d));
     level.residual.resize(a.rows());
-    level.coarse_residual.resize(count);
-    level.coarse_correction.resize(count);
     entries += a.nonzeros();
+    ShareOfNumbers coarse;
+    auto all = with_rows_of_copies({1, std::move(p.offsets), std::move(p.indices), std::move(p.values)}, share, count,
+                                   coarse);
+    a = product(r, product(a, {coarse.items(), std::move(all.offsets), std::move(all.columns), std::move(all.values)}));
+    level.share = std::exchange(share, std::move(coarse));
     levels_.push_back(std::move(level));
-    a = product(r, product(a, p));
   }
-  entries += a.nonzeros();
-  complexity_ = matrix.nonzeros() > 0 ? static_cast<double>(entries) / static_cast<double>(matrix.nonzeros()) : 0;
-  invert_coarsest(a);
+  double sums[2] = {static_cast<double>(entries + a.nonzeros()), static_cast<double>(matrix.nonzeros())};
+  processes_->sum(sums, 2);
+  complexity_ = sums[1] > 0 ? sums[0] / sums[1] : 0;
+  invert_coarsest(std::move(a), share);
 }
 
-void ScalarMultigrid::invert_coarsest(const CsrMatrix<double>& matrix) {
-  coarsest_size_ = matrix.rows();
-  coarsest_inverse_.clear();
-  if (coarsest_size_ == 0) return;
-  const std::size_t size = coarsest_size_;
-  std::vector<double> dense(size * size, 0.0);  // column-major
-  for (int row = 0; row < matrix.rows(); ++row)
-    for (int at = matrix.offsets[row]; at < matrix.offsets[row + 1]; ++at)
-      dense[matrix.indices[at] * size + row] = matrix.values[at];
-  const auto inverse = dense_inverse(dense, coarsest_size_);
+void ScalarMultigrid::invert_coarsest(CsrMatrix<double> matrix, const ShareOfNumbers& share) {
+  const int own = matrix.rows();
+  const auto whole =
+      gather_rows({1, std::move(matrix.offsets), std::move(matrix.indices), std::move(matrix.values)}, share);
+  const int size = whole.rows();
+  std::vector<double> dense(static_cast<std::size_t>(size) * size, 0.0);  // column-major
+  for (int row = 0; row < size; ++row)
+    for (int at = whole.offsets[row]; at < whole.offsets[row + 1]; ++at)
+      dense[static_cast<std::size_t>(whole.columns[at]) * size + row] = whole.values[at];
+  const auto inverse = dense_inverse(dense, size);
   if (inverse.empty()) throw ConvergenceError("the matrix of a multigrid is singular on the coarsest level", "");
-  coarsest_inverse_.assign(inverse.begin(), inverse.end());
+  coarsest_inverse_.resize(static_cast<std::size_t>(own) * size);
+  for (int column = 0; column < size; ++column)
+    for (int row = 0; row < own; ++row)
+      coarsest_inverse_[static_cast<std::size_t>(column) * own + row] =
+          static_cast<float>(inverse[static_cast<std::size_t>(column) * size + share.first + row]);
+  coarsest_counts_.clear();
+  for (const std::int64_t rows : processes_->gather(std::int64_t{own}))
+    coarsest_counts_.push_back(static_cast<int>(rows));
 }
 
 template <int m>
 void ScalarMultigrid::cycle_each(const std::vector<float>& b, std::vector<float>& x) {
   assert(b.size() == x.size());
-  cycle_from<m>(0, b, x);
+  if (levels_.empty() || levels_.front().share.copies.empty()) return cycle_from<m>(0, b, x);
+  finest_.resize(static_cast<std::size_t>(levels_.front().share.items()) * RowOf<m>::lanes);
+  cycle_from<m>(0, b, finest_);
+  std::copy_n(finest_.begin(), x.size(), x.begin());
+}
+
+template <int m>
+void ScalarMultigrid::solve_coarsest(const std::vector<float>& b, std::vector<float>& x) {
+  using Row = RowOf<m>;
+  const int own = coarsest_counts_[processes_->rank()];
+  std::vector<int> counts = coarsest_counts_;
+  int size = 0;
+  for (int& count : counts) {
+    size += count;
+    count *= Row::lanes;
+  }
+  coarsest_right_.resize(static_cast<std::size_t>(size) * Row::lanes);
+  processes_->gather(b.data(), counts, coarsest_right_.data());
+  std::fill(x.begin(), x.end(), 0.0f);
+  for (int j = 0; j < size; ++j) {
+    const float* column = coarsest_inverse_.data() + static_cast<std::size_t>(j) * own;
+    const auto value = Row::load(coarsest_right_, j);
+    for (int i = 0; i < own; ++i) Row::store(Row::load(x, i) + column[i] * value, x, i);
+  }
 }
 
 template <int m>
 void ScalarMultigrid::cycle_from(std::size_t depth, const std::vector<float>& b, std::vector<float>& x) {
   using Row = RowOf<m>;
-  if (depth == levels_.size()) {
-    std::fill(x.begin(), x.end(), 0.0f);
-    for (int j = 0; j < coarsest_size_; ++j) {
-      const float* column = coarsest_inverse_.data() + static_cast<std::size_t>(j) * coarsest_size_;
-      const auto value = Row::load(b, j);
-      for (int i = 0; i < coarsest_size_; ++i) Row::store(Row::load(x, i) + column[i] * value, x, i);
-    }
-    return;
-  }
+  if (depth == levels_.size()) return solve_coarsest<m>(b, x);
   Level& level = levels_[depth];
   const auto& a = level.matrix;
   const auto& chunks = level.chunks;
   level.residual.resize(static_cast<std::size_t>(a.rows()) * Row::lanes);
   level.coarse_residual.resize(static_cast<std::size_t>(level.restriction.rows()) * Row::lanes);
-  level.coarse_correction.resize(level.coarse_residual.size());
+  const std::size_t copies = depth + 1 < levels_.size() ? levels_[depth + 1].share.copies.size() : 0;
+  level.coarse_correction.resize(level.coarse_residual.size() + copies * Row::lanes);
   auto& r = level.residual;
   // (D + L) x = b
   chunks.forward([&](int row) {
@@ -184,7 +224,8 @@ void ScalarMultigrid::cycle_from(std::size_t depth, const std::vector<float>& b,
         (Row::load(b, row) - Row::product(a, chunks.first[row], chunks.diagonal[row], x)) * level.inverse_diagonal[row],
         x, row);
   });
-  // b - A x = -(U x) - (couplings between chunks) x: half a product
+  level.share.exchange.update(x, Row::lanes);
+  // b - A x = -(U x) - (couplings between chunks, and with copies) x: half a product
   parallel_for(a.rows(), chunks.chunks() > 1, [&](int row) {
     Row::store(-Row::product(a, a.offsets[row], chunks.first[row], x) -
                    Row::product(a, chunks.diagonal[row] + 1, a.offsets[row + 1], x),
@@ -203,6 +244,7 @@ void ScalarMultigrid::cycle_from(std::size_t depth, const std::vector<float>& b,
                                                 level.coarse_correction),
                x, row);
   if (!post_smoothing_) return;
+  level.share.exchange.update(x, Row::lanes);
     // (D + U) e = b - A x, x += e; e takes the residual's place
 #pragma omp parallel for schedule(static) if (a.nonzeros() > parallel_entries)
   for (int row = 0; row < a.rows(); ++row)

@@ -5,12 +5,14 @@
 
 #include "algebra/csr_matrix.hpp"
 #include "linear/amg/sweep_chunks.hpp"
+#include "parallel/exchange.hpp"
 
 namespace fsi {
 
 /// One V-cycle of smoothed aggregation [Vanek1996] for a scalar matrix like a Laplacian, in single
 /// precision: a preconditioner. Gauss-Seidel forward before the coarse correction and, if wanted, backward after it;
-/// dense inverse on the coarsest level.
+/// dense inverse on the coarsest level. Where processes share the rows out, each smooths, aggregates and interpolates among
+/// its own ones, so that restriction and prolongation are its own; residuals and coarse matrices are those of the whole.
 class ScalarMultigrid {
  public:
   struct Options {
@@ -21,11 +23,16 @@ class ScalarMultigrid {
     bool post_smoothing = false;  ///< a backward sweep after the coarse correction: costs as much as all the rest
   };
 
-  /// Makes all levels anew.
+  /// Makes all levels anew. By all processes together.
+  /// \param matrix  own rows; columns of copies behind those of own rows
+  /// \param share   of rows and columns
   /// \throws ConvergenceError when the coarsest matrix is singular
-  void set_up(const CsrMatrix<double>& matrix, const Options& options);
+  void set_up(const CsrMatrix<double>& matrix, const ShareOfNumbers& share, const Options& options);
+  void set_up(const CsrMatrix<double>& matrix, const Options& options) {
+    set_up(matrix, ShareOfNumbers(Communicator::alone(), matrix.rows(), {}), options);
+  }
   void set_up(const CsrMatrix<double>& matrix) { set_up(matrix, Options()); }
-  /// x = M b, overwritten.
+  /// x = M b in own rows, overwritten.
   void cycle(const std::vector<float>& b, std::vector<float>& x) { cycle_each<1>(b, x); }
   /// The same for m vectors at once, m = 1, 2 or 3: a row holds padded<m> floats (algebra/register_blocks.hpp), one for
   /// m = 1.
@@ -39,6 +46,7 @@ class ScalarMultigrid {
  private:
   struct Level {
     CsrMatrix<float> matrix, prolongation, restriction;
+    ShareOfNumbers share;
     SweepChunks chunks;
     std::vector<float> inverse_diagonal;
     std::vector<float> residual, coarse_residual, coarse_correction;
@@ -46,11 +54,16 @@ class ScalarMultigrid {
 
   template <int m>
   void cycle_from(std::size_t depth, const std::vector<float>& b, std::vector<float>& x);
-  void invert_coarsest(const CsrMatrix<double>& matrix);
+  template <int m>
+  void solve_coarsest(const std::vector<float>& b, std::vector<float>& x);
+  void invert_coarsest(CsrMatrix<double> matrix, const ShareOfNumbers& share);
 
   std::vector<Level> levels_;
-  int coarsest_size_ = 0;
-  std::vector<float> coarsest_inverse_;  ///< dense, column-major
+  std::vector<float> finest_;  ///< x with places for copies
+  const Communicator* processes_ = &Communicator::alone();
+  std::vector<int> coarsest_counts_;     ///< rows of each process
+  std::vector<float> coarsest_inverse_;  ///< own rows, dense, column-major
+  std::vector<float> coarsest_right_;    ///< of all processes
   double complexity_ = 0;
   bool post_smoothing_ = false;
 };

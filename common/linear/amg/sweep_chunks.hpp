@@ -63,9 +63,10 @@ struct SweepChunks {
     });
   }
   /// Of triangles: `first` and `diagonal` are positions in the lower one, which ends at the diagonal, `last` in the upper one.
+  /// \param rows  the first of a's, which are divided
   template <int n>
-  explicit SweepChunks(const SplitBlocks<n>& a) {
-    divide(a.rows());
+  SweepChunks(const SplitBlocks<n>& a, int rows) {
+    divide(rows);
     for_rows([&](int row, int from, int to) {
       int at = a.lower_begin(row);
       while (at < a.lower_end(row) && a.lower.columns[at] < from) ++at;

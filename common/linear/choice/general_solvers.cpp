@@ -7,9 +7,10 @@
 
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
-#include "linear/choice/fast_on_processes.hpp"
+#include "linear/distributed/mesh_extensions.hpp"
 #include "linear/distributed/petsc_factories.hpp"
 #include "linear/distributed/petsc_options.hpp"
+#include "linear/interface/central_direct_solver.hpp"
 #include "linear/interface/direct_linear_solver.hpp"
 #include "linear/velocity_pressure/fast_solver.hpp"
 
@@ -19,8 +20,8 @@ void refuse_preconditioner(const FastOptions& fast, const std::string& where) {
   if (fast.preconditioner == flow_preconditioner_list[0]) return;
   throw InputError(
       case_of_petsc_options(), "linear.preconditioner",
-      "\"" + fast.preconditioner + "\" is a preconditioner of \"fast\" on one process, and there is none for " + where,
-      "leave it out, or start the program without mpirun and with linear_solver = \"fast\"");
+      "\"" + fast.preconditioner + "\" is a preconditioner of \"fast\", and there is none for " + where,
+      "leave it out, or take linear_solver = \"fast\" without [petsc] options");
 }
 
 namespace {
@@ -28,17 +29,32 @@ namespace {
 template <int n>
 using Blocks = JacobianBlocks<n>;
 
+/// On several processes options of PETSc are for `petsc`.
+bool is_petsc_in_place_of_fast(const Communicator& processes) {
+  return !processes.is_alone() && has_petsc_options();
+}
+
 template <int n>
-std::unique_ptr<LinearSolver> make_fast(const Blocks<n>& blocks, const FastOptions& fast) {
-  if (blocks.numbering.processes->is_alone()) return std::make_unique<FastSolver<n>>(blocks, fast);
-  refuse_preconditioner(fast, "several processes");
-  return std::make_unique<FastOnProcesses<n>>(blocks, fast, JacobianPolicy<n>(blocks, fast, has_petsc_options()));
+FastParts<n> parts_on_processes() {
+  FastParts<n> parts;
+  parts.extension = make_shared_extension<n>;
+  parts.factors = [](const Blocks<n>& blocks) { return std::make_unique<CentralDirectSolver<n>>(blocks); };
+  parts.rescue = [](const Blocks<n>& blocks) { return make_petsc_direct_solver<n>(blocks); };
+  return parts;
 }
 
 template <int n>
 std::unique_ptr<LinearSolver> make_petsc(const Blocks<n>& blocks, const FastOptions& fast) {
   refuse_preconditioner(fast, "\"petsc\"");
   return make_petsc_solver<n>(blocks, fast);
+}
+
+template <int n>
+std::unique_ptr<LinearSolver> make_fast(const Blocks<n>& blocks, const FastOptions& fast) {
+  const Communicator& processes = *blocks.numbering.processes;
+  if (processes.is_alone()) return std::make_unique<FastSolver<n>>(blocks, fast);
+  if (is_petsc_in_place_of_fast(processes)) return make_petsc(blocks, fast);
+  return std::make_unique<FastSolver<n>>(blocks, fast, JacobianPolicy<n>(blocks, fast), parts_on_processes<n>());
 }
 
 template <int n>
@@ -98,24 +114,25 @@ std::unique_ptr<LinearSolver> make_fast_or_direct(const std::string& name, const
 }
 
 std::string linear_solver_in_words(const std::string& name, const FastOptions& fast, const Communicator& processes) {
-  if (name != "fast" || !processes.is_alone()) return name;
+  if (name != "fast" || is_petsc_in_place_of_fast(processes)) return name;
   return fmt::format("{}, where it iterates preconditioned by {}", name, fast.preconditioner);
 }
 
 std::string other_solver_on_processes(const std::string& name, const FastOptions& fast, int dimension,
                                       const Communicator& processes) {
   if (processes.is_alone()) return "";
+  if (is_petsc_in_place_of_fast(processes) && name == "fast")
+    return "linear_solver = \"petsc\" in place of \"fast\", since the case has [petsc] options";
   if (name == "fast") {
-    const std::string other = "linear_solver = \"petsc\" in place of \"fast\", which works on one process";
-    const SolverPolicy policy(SolvedSystem::jacobian, dimension,
-                              {fast.direct_below, has_petsc_options(), processes.size()});
+    const SolverPolicy policy(SolvedSystem::jacobian, dimension, {fast.direct_below, false, processes.size()});
     const auto bound = policy.factorises_below();
-    return bound == 0 ? other
-                      : fmt::format("{}; systems below {} unknowns are factorised at the first process{}", other, bound,
-                                    policy.wall_decides(bound - 1)
-                                        ? fmt::format(", but for coupled ones from {} on that the wall decides about",
-                                                      SolverPolicy::wall_decides_from)
-                                        : "");
+    if (bound > 0)
+      return fmt::format("linear_solver = \"fast\": systems below {} unknowns are factorised at the first process{}",
+                         bound,
+                         policy.wall_decides(bound - 1)
+                             ? fmt::format(", but for coupled ones from {} on that the wall decides about",
+                                           SolverPolicy::wall_decides_from)
+                             : "");
   }
   if (name == "direct") return "linear_solver = \"direct\" factorises by MUMPS, since UMFPACK works on one process";
   return "";

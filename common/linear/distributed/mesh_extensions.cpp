@@ -29,8 +29,17 @@ std::unique_ptr<MeshExtension<n>> make_harmonic_extension(const BlockMatrix<1, n
                                                           const NodalFrames<n>* frames,
                                                           [[maybe_unused]] const PartNodes& part) {
 #ifdef FSI_WITH_MPI
-  if (part.share)
-    return std::make_unique<PetscExtension<n>>(laplacian, std::move(inner), frames, part, factorised_at_first_below(n));
+  if (part.share) {
+    const auto by_petsc = [&laplacian, inner, frames, &part](std::int64_t central_below) {
+      return std::make_unique<PetscExtension<n>>(laplacian, inner, frames, part, central_below);
+    };
+    const std::int64_t central_below = factorised_at_first_below(n);
+    if (has_petsc_options() || part.processes().any(HarmonicExtension<n>::mixes(frames))) return by_petsc(central_below);
+    auto iteration = std::make_unique<HarmonicExtension<n>>(laplacian, inner, frames, *part.share,
+                                                            [by_petsc] { return by_petsc(0); });
+    if (iteration->unknowns() < central_below) return by_petsc(central_below);
+    return iteration;
+  }
 #endif
   return std::make_unique<HarmonicExtension<n>>(laplacian, std::move(inner), HarmonicExtensionOptions{}, frames);
 }
@@ -46,12 +55,20 @@ std::unique_ptr<MeshExtension<n>> make_tangent_extension(const MeshMotionTangent
 }
 
 template <int n>
+std::unique_ptr<MeshExtension<n>> make_shared_extension(const JacobianBlocks<n>& blocks, std::vector<char> inner) {
+  if (blocks.mesh_tangent)
+    return make_tangent_extension<n>(*blocks.mesh_tangent, std::move(inner), *blocks.fluid_nodes);
+  return make_harmonic_extension<n>(*blocks.mesh_laplacian, std::move(inner), blocks.fluid_frames, *blocks.fluid_nodes);
+}
+
+template <int n>
 using OwnedExtension = std::unique_ptr<MeshExtension<n>>;
 
 #define FSI_INSTANTIATE(n)                                                                        \
   template OwnedExtension<n> make_harmonic_extension(const BlockMatrix<1, n>&, std::vector<char>, \
                                                      const NodalFrames<n>*, const PartNodes&);    \
-  template OwnedExtension<n> make_tangent_extension(const MeshMotionTangent<n>&, std::vector<char>, const PartNodes&);
+  template OwnedExtension<n> make_tangent_extension(const MeshMotionTangent<n>&, std::vector<char>, const PartNodes&); \
+  template OwnedExtension<n> make_shared_extension(const JacobianBlocks<n>&, std::vector<char>);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

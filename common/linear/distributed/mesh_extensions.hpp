@@ -5,6 +5,7 @@
 
 #include "algebra/block_matrix.hpp"
 #include "fem/nodal_frames.hpp"
+#include "linear/interface/linear_solver.hpp"
 #include "mesh/submesh.hpp"
 #include "mesh_motion/mesh_extension.hpp"
 #include "mesh_motion/nonlinear_mesh_motion.hpp"
@@ -27,5 +28,9 @@ std::unique_ptr<MeshExtension<n>> make_harmonic_extension(const BlockMatrix<1, n
 template <int n>
 std::unique_ptr<MeshExtension<n>> make_tangent_extension(const MeshMotionTangent<n>& tangent, std::vector<char> inner,
                                                          const PartNodes& part);
+
+/// That of a Jacobian's mesh motion, tangent or harmonic. \param inner  per entry: it is sought
+template <int n>
+std::unique_ptr<MeshExtension<n>> make_shared_extension(const JacobianBlocks<n>& blocks, std::vector<char> inner);
 
 }  // namespace fsi

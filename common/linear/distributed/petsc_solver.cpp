@@ -18,20 +18,8 @@
 
 namespace fsi {
 
-namespace {
-
-template <int n>
-std::unique_ptr<MeshExtension<n>> make_extension(const JacobianBlocks<n>& blocks, std::vector<char> inner) {
-  if (blocks.mesh_tangent)
-    return make_tangent_extension<n>(*blocks.mesh_tangent, std::move(inner), *blocks.fluid_nodes);
-  return make_harmonic_extension<n>(*blocks.mesh_laplacian, std::move(inner), blocks.fluid_frames, *blocks.fluid_nodes);
-}
-
-}  // namespace
-
 template <int n>
 struct PetscSolver<n>::Iterative {
-  const Communicator& processes;
   VelocityPressureLayout<n> layout;
   VelocityPressureSystem<n> system;
   PetscMomentumSolver<n> momentum;
@@ -42,11 +30,10 @@ struct PetscSolver<n>::Iterative {
   OwnedVec in_velocities, in_pressures, out_velocities, out_pressures;  ///< of the preconditioner's vectors
 
   Iterative(const JacobianBlocks<n>& blocks, const FastOptions& options)
-      : processes(*blocks.numbering.processes),
-        layout(blocks),
+      : layout(blocks),
         system(blocks, layout),
         momentum(system),
-        iteration(blocks, layout, make_extension<n>, options.max_iterations),
+        iteration(blocks, layout, make_shared_extension<n>, options.max_iterations),
         b(petsc_vector(system.communicator(), system.shared().rows())),
         x(petsc_vector(system.communicator(), system.shared().rows())),
         pressure_residual(petsc_vector(system.communicator(), system.shared().pressure_rows)),
@@ -171,7 +158,7 @@ struct PetscSolver<n>::Iterative {
     if (norm != KSP_NORM_UNPRECONDITIONED) return report;
     PetscReal left = 0;
     petsc_check(KSPGetResidualNorm(krylov, &left));
-    report.relative_residual = (left + system.products().rounding(x, processes)) / norm_of_right;
+    report.relative_residual = (left + system.products().rounding(x)) / norm_of_right;
     return report;
   }
 

@@ -12,8 +12,8 @@ SharedProducts<n>::SharedProducts(const JacobianBlocks<n>& blocks, const Velocit
                                   const SharedLayout<n>& shared, MPI_Comm communicator)
     : layout_(layout),
       shared_(shared),
-      matrix_(blocks, layout, shared.owns_velocity, shared.owns_pressure),
-      sweep_(matrix_.momentum()),
+      matrix_(blocks, layout),
+      sweep_(matrix_.momentum(), layout.own_velocities),
       local_(matrix_.size()),
       product_(matrix_.size()),
       residual_(matrix_.velocity_size()),
@@ -56,8 +56,7 @@ template <int n>
 void SharedProducts<n>::fill(MomentumDiagonals<n>& diagonals, bool few_pressures, const Communicator& processes) {
   matrix_.fill();
   diagonals.fill(
-      matrix_, few_pressures, [&](int v, const auto& diagonal) { sweep_.set_diagonal(v, diagonal); },
-      shared_.owns_velocity, processes);
+      matrix_, few_pressures, [&](int v, const auto& diagonal) { sweep_.set_diagonal(v, diagonal); }, processes);
 }
 
 template <int n>
@@ -111,12 +110,9 @@ void SharedProducts<n>::multiply(Vec x, Vec y) {
 }
 
 template <int n>
-double SharedProducts<n>::rounding(Vec x, const Communicator& processes) {
+double SharedProducts<n>::rounding(Vec x) {
   take_velocities(x, local_);
-  double sum = 0;
-  for (const int v : shared_.own_velocities)
-    sum += matrix_.momentum().rounding_squared(v, load<n>(local_.data() + std::size_t{lanes} * v));
-  return std::sqrt(processes.sum(sum));
+  return matrix_.rounding(local_);
 }
 
 template <int n>

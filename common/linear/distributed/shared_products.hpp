@@ -33,7 +33,7 @@ class SharedProducts {
   void sweep(Vec residual, Vec velocities);
 
   /// VelocityPressureMatrix::rounding() of the velocities of x, in the rows of all processes. \param x  in the rows of SharedLayout
-  double rounding(Vec x, const Communicator& processes);
+  double rounding(Vec x);
   const InterfaceShapeDerivatives<n>& shape_derivatives() const { return matrix_.shape_derivatives(); }
   double bytes() const { return static_cast<double>(matrix_.bytes() + sweep_.bytes()); }
 

@@ -35,24 +35,26 @@ struct Arithmetic<double> {
   using Vector = std::vector<double>;
   static constexpr double dependent = 1e-14;
 
-  static double norm(const Vector& x, std::vector<double>&) { return fsi::norm(x); }
+  static double norm(const Vector& x, std::vector<double>&, const Communicator& processes) {
+    return processes.is_alone() ? fsi::norm(x) : std::sqrt(processes.sum(dot(x, x)));
+  }
   static void normalise(const Vector& x, double length, Vector& to) { scaled_copy(1 / length, x, to); }
   static void normalise(Vector& x, double length) { scale(1 / length, x); }
   static bool is_exhausted(const Lengths& w, double /*diagonal*/) { return w.rest <= dependent * w.whole; }
 
   /// Modified Gram-Schmidt, a second time where the first removed most of w ("twice is enough").
   static Lengths orthogonalise(const std::vector<Vector>& basis, int count, Vector& w, double* column,
-                               std::vector<double>&) {
-    Lengths length{fsi::norm(w), 0};
+                               std::vector<double>& partial, const Communicator& processes) {
+    Lengths length{norm(w, partial, processes), 0};
     if (!std::isfinite(length.whole)) return length;
     length.rest = length.whole;
     for (int pass = 0; pass < 2; ++pass) {
       for (int j = 0; j < count; ++j) {
-        const double overlap = dot(basis[j], w);
+        const double overlap = processes.sum(dot(basis[j], w));
         column[j] += overlap;
         axpy(-overlap, basis[j], w);
       }
-      const double left = fsi::norm(w);
+      const double left = norm(w, partial, processes);
       const bool clean = left > 0.5 * length.rest;
       length.rest = left;
       if (clean) break;
@@ -72,7 +74,7 @@ struct Arithmetic<float> {
     for (std::size_t i = 0; i < size; ++i) sum += x[i] * y[i];
     return sum;
   }
-  static double norm(const Vector& x, std::vector<double>& partial) {
+  static double norm(const Vector& x, std::vector<double>& partial, const Communicator& processes) {
     const std::size_t chunks = chunks_of(x.size());
     partial.resize(chunks);
     parallel_for(chunks, chunks > 4, [&](std::size_t c) {
@@ -81,7 +83,7 @@ struct Arithmetic<float> {
     });
     double square = 0;
     for (std::size_t c = 0; c < chunks; ++c) square += partial[c];
-    return std::sqrt(square);
+    return std::sqrt(processes.sum(square));
   }
   static void normalise(const Vector& x, double length, Vector& to) {
     for (std::size_t i = 0; i < x.size(); ++i) to[i] = static_cast<float>(x[i] / length);
@@ -96,7 +98,7 @@ struct Arithmetic<float> {
 
   /// Classical Gram-Schmidt.
   static Lengths orthogonalise(const std::vector<Vector>& basis, int count, Vector& w, double* column,
-                               std::vector<double>& partial) {
+                               std::vector<double>& partial, const Communicator& processes) {
     const std::size_t size = w.size(), chunks = chunks_of(size), width = static_cast<std::size_t>(count) + 1;
     partial.resize(chunks * width);
     parallel_for(chunks, chunks > 4, [&](std::size_t c) {
@@ -106,6 +108,7 @@ struct Arithmetic<float> {
     });
     for (int j = 0; j < count; ++j)
       for (std::size_t c = 0; c < chunks; ++c) column[j] += partial[c * width + j];
+    processes.sum(column, static_cast<std::size_t>(count));
     parallel_for(chunks, chunks > 4, [&](std::size_t c) {
       const std::size_t from = c * chunk_size, length = std::min(chunk_size, size - from);
       float* to = w.data() + from;
@@ -118,7 +121,7 @@ struct Arithmetic<float> {
     });
     double square = 0;
     for (std::size_t c = 0; c < chunks; ++c) square += partial[c * width + count];
-    Lengths length{0, std::sqrt(square)};
+    Lengths length{0, std::sqrt(processes.sum(square))};
     for (int j = 0; j < count; ++j) length.whole = std::hypot(length.whole, column[j]);
     length.whole = std::hypot(length.whole, length.rest);
     return length;
@@ -215,7 +218,7 @@ typename BasicGmres<Number, kind>::Cycle BasicGmres<Number, kind>::run_cycle(con
     Vector& w = vector_at(basis_, k + 1);
     both(basis_[k], kind == Preconditioning::varying ? vector_at(preconditioned_, k) : work_, w);
     std::fill_n(&h(0, k), k + 2, 0.0);
-    const Lengths length = Sums::orthogonalise(basis_, k + 1, w, &h(0, k), partial_sums_);
+    const Lengths length = Sums::orthogonalise(basis_, k + 1, w, &h(0, k), partial_sums_, *processes_);
     cycle.finite = std::isfinite(length.whole);
     if (!cycle.finite) break;
     ++cycle.products;
@@ -246,7 +249,7 @@ KrylovReport BasicGmres<Number, kind>::solve(const Operator& a, const Operator& 
   x.resize(size_, Number{0});
   residual_.resize(size_);
   work_.resize(size_);
-  const double norm_b = Arithmetic<Number>::norm(b, partial_sums_);
+  const double norm_b = Arithmetic<Number>::norm(b, partial_sums_, *processes_);
   if (!std::isfinite(norm_b)) {
     report.relative_residual = norm_b;
     report.failure = "the right-hand side is not finite";
@@ -262,7 +265,7 @@ KrylovReport BasicGmres<Number, kind>::solve(const Operator& a, const Operator& 
   const auto recompute = [&] {
     a(x, residual_);
     for (std::size_t i = 0; i < size_; ++i) residual_[i] = b[i] - residual_[i];
-    report.relative_residual = Arithmetic<Number>::norm(residual_, partial_sums_) / norm_b;
+    report.relative_residual = Arithmetic<Number>::norm(residual_, partial_sums_, *processes_) / norm_b;
   };
   recompute();
   report.history.push_back(report.relative_residual);
@@ -310,7 +313,7 @@ typename BasicGmres<Number, kind>::Estimate BasicGmres<Number, kind>::solve_from
   assert(directions >= 0);
   size_ = b.size();
   x.assign(size_, Number{0});
-  const double norm_b = Arithmetic<Number>::norm(b, partial_sums_);
+  const double norm_b = Arithmetic<Number>::norm(b, partial_sums_, *processes_);
   if (norm_b == 0 || !std::isfinite(norm_b)) return {norm_b == 0, 0, 1};
   tolerance = std::max(tolerance, smallest_tolerance);
   Vector unused(kind == Preconditioning::fixed ? size_ : 0);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "linear/krylov/krylov.hpp"
+#include "parallel/communicator.hpp"
 
 namespace fsi {
 
@@ -17,7 +18,7 @@ enum class Preconditioning {
 
 /// Right-preconditioned GMRES in the precision of `Number`: minimises |b - A x| over x0 + M^-1 K_m(A M^-1, r0); [Saad2003],
 /// algorithms 9.5 and 9.6. Vectors are kept between calls. Sums are taken by fixed chunks: results do not depend on the
-/// number of threads.
+/// number of threads. Where processes share the vectors out, entries that others own are zero in right sides and products.
 ///
 /// In double precision Arnoldi's method is by modified Gram-Schmidt, repeated where cancellation spoils orthogonality. In
 /// single precision, for a few digits at a time, it is by classical Gram-Schmidt over chunks, which reads each basis vector
@@ -26,6 +27,11 @@ template <class Number, Preconditioning kind>
 class BasicGmres {
  public:
   using Vector = std::vector<Number>;
+
+  BasicGmres() = default;
+  /// \param processes  that share the vectors out; must outlive this
+  explicit BasicGmres(const Communicator& processes) : processes_(&processes) {}
+
   /// y = L x. `y` has its size already and is overwritten; x and y are different vectors.
   using Operator = std::function<void(const Vector& x, Vector& y)>;
   /// z = M^-1 v and y = A z, for callers that find both together more cheaply.
@@ -73,6 +79,7 @@ class BasicGmres {
   Vector& vector_at(std::vector<Vector>& set, int k) const;
   double& h(int row, int column) { return hessenberg_[static_cast<std::size_t>(column) * stride_ + row]; }
 
+  const Communicator* processes_ = &Communicator::alone();
   std::size_t size_ = 0;
   int stride_ = 0;                              ///< of a column of the Hessenberg matrix
   std::vector<Vector> basis_, preconditioned_;  ///< V, and Z = M^-1 V where the preconditioner varies

@@ -1,12 +1,14 @@
 #include "linear/velocity_pressure/fast_solver.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
 #include "algebra/vector_operations.hpp"
 #include "fem/dimensions.hpp"
 #include "linear/direct/direct_solver.hpp"
+#include "linear/interface/direct_linear_solver.hpp"
 #include "linear/interface/linear_attempts.hpp"
 #include "linear/krylov/gmres.hpp"
 #include "linear/velocity_pressure/condensed_iteration.hpp"
@@ -59,11 +61,14 @@ struct FastSolver<n>::Iterative : MediumPreconditioner {
   std::vector<double> restricted, solution;
   mutable std::vector<double> gathered;
 
-  Iterative(const JacobianBlocks<n>& blocks, const FastOptions& options)
+  Iterative(const JacobianBlocks<n>& blocks, const FastOptions& options, const FastParts<n>& parts)
       : layout(blocks),
         matrix(blocks, layout),
         preconditioner(make_flow_preconditioner<n>(options.preconditioner, matrix)),
-        iteration(blocks, layout, make_extension<n>, options.max_iterations) {}
+        iteration(blocks, layout,
+                  parts.extension ? parts.extension : typename CondensedIteration<n>::MakeExtension(make_extension<n>),
+                  options.max_iterations),
+        gmres(matrix.processes()) {}
 
   std::size_t size() const override { return matrix.size(); }
   int place(int node) const override {
@@ -144,13 +149,19 @@ FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& op
     : FastSolver(blocks, options, JacobianPolicy<n>(blocks, options)) {}
 
 template <int n>
-FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options, JacobianPolicy<n> policy)
-    : blocks_(blocks), options_(options), policy_(std::move(policy)) {
+FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options, JacobianPolicy<n> policy,
+                          FastParts<n> parts)
+    : blocks_(blocks), options_(options), policy_(std::move(policy)), parts_(std::move(parts)) {
+  assert(blocks.numbering.processes->is_alone() || (parts_.extension && parts_.factors && parts_.rescue));
   if (!policy_.wall_decides() && !policy_.iterates()) make_factors();
 }
 
 template <int n>
 void FastSolver<n>::make_factors() {
+  if (parts_.factors) {
+    if (!direct_) direct_ = parts_.factors(blocks_);
+    return;
+  }
   const bool mesh_moves = blocks_.mesh_laplacian || blocks_.mesh_tangent;
   if (n == 2 && mesh_moves && blocks_.numbering.size >= apart_from) {
     if (!factorised_) factorised_ = std::make_unique<Factorised>(blocks_, options_);
@@ -200,10 +211,10 @@ void FastSolver<n>::update() {
     direct_.reset();
   } else if (factorised_ || direct_) {
     if (factorised_) count("factorisations with the mesh motion");
-    make_whole_factors();
+    if (!direct_) make_whole_factors();
     direct_->update();
   } else {
-    if (!iterative_) iterative_ = std::make_unique<Iterative>(blocks_, options_);
+    if (!iterative_) iterative_ = std::make_unique<Iterative>(blocks_, options_, parts_);
     iterative_->iteration.update();
     iterative_->layout.update();
     iterative_->matrix.fill();
@@ -237,7 +248,7 @@ LinearReport FastSolver<n>::solve(const std::vector<double>& b, double tolerance
   attempts.strengthenings = factorised_ || strengthened_ ? 0 : policy_.policy().strengthenings();
   if (may_factorise || factorised_)  // factors of a part become factors of the whole
     attempts.factorise = [&] {
-      direct_ = std::make_unique<DirectLinearSolver<n>>(blocks_);
+      direct_ = parts_.rescue ? parts_.rescue(blocks_) : std::make_unique<DirectLinearSolver<n>>(blocks_);
       const OneDenseThread same_bits_for_any_number;
       direct_->update();
       return by_factors();
@@ -271,7 +282,7 @@ LinearStatistics FastSolver<n>::statistics() const {
 
 template <int n>
 MediumPreconditioner* FastSolver<n>::medium_preconditioner() {
-  return uses_factorisation() ? nullptr : iterative_.get();
+  return uses_factorisation() || !blocks_.numbering.processes->is_alone() ? nullptr : iterative_.get();
 }
 
 template <int n>

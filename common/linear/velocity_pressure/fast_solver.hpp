@@ -1,16 +1,27 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "case/fast_options.hpp"
-#include "linear/interface/direct_linear_solver.hpp"
 #include "linear/interface/linear_solver.hpp"
 #include "linear/velocity_pressure/jacobian_policy.hpp"
+#include "mesh_motion/mesh_extension.hpp"
 
 namespace fsi {
+
+/// What FastSolver makes by others where several processes share a scene; empty: what one process takes.
+template <int n>
+struct FastParts {
+  using MakeSolver = std::function<std::unique_ptr<LinearSolver>(const JacobianBlocks<n>&)>;
+
+  std::function<std::unique_ptr<MeshExtension<n>>(const JacobianBlocks<n>&, std::vector<char> inner)> extension;
+  MakeSolver factors;  ///< of a system that is not iterated
+  MakeSolver rescue;   ///< factors of one that defeats the iteration
+};
 
 /// `fast`: the linear solver that a user should run. What is known exactly is eliminated: the numbering holds one
 /// velocity on the interface, and the mesh displacement follows from it by a harmonic extension whose matrix is
@@ -18,13 +29,16 @@ namespace fsi {
 /// from GMRES in single precision for velocities and pressures of both media without shape derivatives,
 /// preconditioned by a FlowPreconditioner. The shape derivatives, small against the rest, come back through
 /// the residual. Small systems are factorised; so is one that defeats the iteration, and a larger one in two dimensions
-/// whose wall is stiff.
+/// whose wall is stiff. On several processes the same iteration runs on all of them together, each with the rows of its own
+/// unknowns.
 template <int n>
 class FastSolver : public LinearSolver {
  public:
   explicit FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options = {});
   /// \param policy  decides in place of that of a system by itself
-  FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options, JacobianPolicy<n> policy);
+  /// \param parts   all of them where several processes share the scene
+  FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options, JacobianPolicy<n> policy,
+             FastParts<n> parts = {});
 
   ~FastSolver() override;
 
@@ -72,9 +86,10 @@ class FastSolver : public LinearSolver {
   JacobianBlocks<n> blocks_;
   FastOptions options_;
   JacobianPolicy<n> policy_;
+  FastParts<n> parts_;
   std::unique_ptr<Iterative> iterative_;
-  std::unique_ptr<Factorised> factorised_;         ///< of a plane system with a mesh motion
-  std::unique_ptr<DirectLinearSolver<n>> direct_;  ///< of others, and where the other two do not serve
+  std::unique_ptr<Factorised> factorised_;  ///< of a plane system with a mesh motion
+  std::unique_ptr<LinearSolver> direct_;    ///< of others, and where the other two do not serve
   bool ready_ = false;
   bool strengthened_ = false;  ///< the preconditioner, for a system that defeated the usual one
 };

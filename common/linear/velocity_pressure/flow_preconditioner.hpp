@@ -25,9 +25,9 @@ class FlowPreconditioner {
   /// Takes the present values of the matrix, which must have been filled. What is decided must depend on these and on
   /// `choices` alone, so that a restart decides the same.
   virtual void set_up(const BlockPreconditionerChoices& choices) = 0;
-  /// z = P^-1 r, both of the matrix's size
+  /// z = P^-1 r, both of the matrix's size; ghosts in r are zero, those in z get the owners' values.
   virtual void apply(VectorView<const float> r, VectorView<float> z) = 0;
-  /// Besides, product = F z: one may know part of it.
+  /// Besides, product = F z, ghosts zero where they were: one may know part of it.
   virtual void apply(VectorView<const float> r, VectorView<float> z, VectorView<float> product) {
     apply(r, z);
     matrix_.multiply(z, product);

@@ -20,18 +20,15 @@ class MomentumDiagonals {
   using Block = Eigen::Matrix<double, n, n>;
 
   /// Takes the present values of the blocks.
-  /// \param visit      called as visit(v, diagonal block of A) for each velocity node with rows here, in any order
-  /// \param own        whether a velocity node has: per node; empty: all have
+  /// \param visit      called as visit(v, diagonal block of A) for each own velocity node, in any order
   /// \param processes  that hold the others
   template <class Visit>
-  void fill(const VelocityPressureBlocks<n>& blocks, bool few_pressures, Visit visit, const std::vector<char>& own = {},
-            const Communicator& processes = Communicator::alone()) {
+  void fill(const VelocityPressureBlocks<n>& blocks, bool few_pressures, Visit visit, const Communicator& processes) {
     const auto& layout = blocks.layout();
     inverse_.resize(layout.velocity_size());
     std::vector<double> diagonals(layout.velocities, 0.0), lumped_diagonals(layout.velocities, 0.0);
-#pragma omp parallel for schedule(static) if (layout.velocities > 500)
-    for (int v = 0; v < layout.velocities; ++v) {
-      if (!own.empty() && !own[v]) continue;
+#pragma omp parallel for schedule(static) if (layout.own_velocities > 500)
+    for (int v = 0; v < layout.own_velocities; ++v) {
       Block diagonal = Block::Zero();
       double lumped[n] = {};
       blocks.for_blocks_of(v, [&](const double* block, int u, int, double factor) {
@@ -56,8 +53,11 @@ class MomentumDiagonals {
                                : mean_of_ratios(diagonals, lumped_diagonals, processes);
   }
 
-  /// D^-1, n numbers a velocity node; of those without rows here anything.
+  /// D^-1, n numbers a velocity node; of ghosts anything, until they are given the owners'.
   const std::vector<double>& inverse() const {
+    return inverse_;
+  }
+  std::vector<double>& inverse() {
     return inverse_;
   }
   /// Diagonal over lumped diagonal of the wall's momentum: how far stiffness exceeds inertia.

@@ -24,7 +24,11 @@ class MomentumInverse {
 
   /// \param matrix  must outlive this
   explicit MomentumInverse(const Matrix& matrix)
-      : matrix_(matrix), layout_(matrix.layout()), gauss_seidel_(matrix.momentum()) {
+      : matrix_(matrix), layout_(matrix.layout()), gauss_seidel_(matrix.momentum(), layout_.own_velocities) {
+    double counts[2] = {static_cast<double>(layout_.own_pressures), static_cast<double>(layout_.own_velocities)};
+    matrix.processes().sum(counts, 2);
+    few_pressures_ = BlockPreconditionerChoices::has_few_pressures(counts[0], counts[1]);
+    has_wall_ = matrix.processes().any(!layout_.velocity_of_wall.empty());
     for (auto* x : {&sweep_, &sweep_residual_, &inverse_lumped_}) x->resize(matrix.velocity_size());
   }
 
@@ -34,7 +38,7 @@ class MomentumInverse {
     fill_diagonals();
     // Gauss-Seidel solves mass-dominated rows at once, but leaves much of a stiff wall's smooth motions. Decided by the
     // matrix alone, so that a restart decides the same.
-    const bool stiff = choices.has_coarse_levels(wall_stiffness()) && !layout_.velocity_of_wall.empty();
+    const bool stiff = choices.has_coarse_levels(wall_stiffness()) && has_wall_;
     if (!stiff) {
       coarse_.reset();
     } else {
@@ -48,18 +52,17 @@ class MomentumInverse {
   bool has_wall_levels() const { return coarse_ != nullptr; }
   /// Diagonal over lumped diagonal of the wall's momentum at the last set_up(): how far stiffness exceeds inertia.
   double wall_stiffness() const { return diagonals_.stiffness(); }
-  bool has_few_pressures() const {
-    return BlockPreconditionerChoices::has_few_pressures(layout_.pressures, layout_.velocities);
-  }
+  bool has_few_pressures() const { return few_pressures_; }
   /// D^-1, n numbers a velocity node.
   const std::vector<double>& inverse_diagonal() const { return diagonals_.inverse(); }
   /// The same in the order of the matrix, `lanes` numbers a node.
   const std::vector<float>& single_inverse_diagonal() const { return inverse_lumped_; }
 
-  /// x = approximate A^-1 b: symmetric sweeps, and where the wall is stiff its coarse correction and sweeps again.
+  /// x = approximate A^-1 b: symmetric sweeps within each process, and where the wall is stiff its coarse correction and
+  /// sweeps again. Ghosts in x get their values.
   /// \param b, x  of the matrix's velocity_size(); both must stay as they are until the last row()
   void apply(const std::vector<float>& b, std::vector<float>& x) {
-    gauss_seidel_.apply(b, x);
+    sweep(b, x);
     swept_ = &x;
     left_ = &b;
     if (sweeps_ == 1 && !coarse_) return;
@@ -70,6 +73,7 @@ class MomentumInverse {
     if (!coarse_) return;
     if (sweeps_ > 1) leave(sweep_residual_, sweep_);
     coarse_->add(sweep_residual_, x);
+    matrix_.update_velocities(x.data());
     for_velocities([&](int v) {
       const std::size_t at = static_cast<std::size_t>(v) * lanes;
       Matrix::store(Matrix::load(b.data() + at) - matrix_.momentum().row_product(v, x.data()),
@@ -88,7 +92,7 @@ class MomentumInverse {
 
   template <class Work>
   void for_velocities(Work work) const {
-    parallel_for(layout_.velocities, layout_.velocities > 500, work);
+    parallel_for(layout_.own_velocities, layout_.own_velocities > 500, work);
   }
 
   std::size_t bytes() const {
@@ -100,18 +104,25 @@ class MomentumInverse {
   /// A's block diagonal, inverted, and what is made of its diagonals.
   void fill_diagonals() {
     diagonals_.fill(matrix_, has_few_pressures(),
-                    [&](int v, const auto& diagonal) { gauss_seidel_.set_diagonal(v, diagonal); });
-    for (int v = 0; v < layout_.velocities; ++v)
+                    [&](int v, const auto& diagonal) { gauss_seidel_.set_diagonal(v, diagonal); },
+                    matrix_.processes());
+    matrix_.ghosts().velocities.exchange.update(diagonals_.inverse(), n);
+    for (int v = 0; v < layout_.own_velocities; ++v)
       for (int k = 0; k < n; ++k)
         inverse_lumped_[static_cast<std::size_t>(v) * lanes + k] =
             static_cast<float>(diagonals_.inverse()[VectorLayout<n>::vector(v, k)]);
   }
 
+  void sweep(const std::vector<float>& r, std::vector<float>& x) {
+    gauss_seidel_.apply(r, x);
+    matrix_.update_velocities(x.data());
+  }
+
   /// Sweeps on sweep_residual_, which the last one answers to.
   void sweep_again(int count, std::vector<float>& x) {
-    for (int sweep = 0; sweep < count; ++sweep) {
-      if (sweep > 0) leave(sweep_residual_, sweep_);
-      gauss_seidel_.apply(sweep_residual_, sweep_);
+    for (int done = 0; done < count; ++done) {
+      if (done > 0) leave(sweep_residual_, sweep_);
+      sweep(sweep_residual_, sweep_);
       for (std::size_t i = 0; i < x.size(); ++i) x[i] += sweep_[i];
     }
   }
@@ -127,6 +138,8 @@ class MomentumInverse {
   const Matrix& matrix_;
   const VelocityPressureLayout<n>& layout_;
   int sweeps_ = 1;
+  bool few_pressures_ = false;  ///< most velocity nodes carry none
+  bool has_wall_ = false;       ///< some process
   MomentumSweep<n> gauss_seidel_;
   MomentumDiagonals<n> diagonals_;                   ///< D^-1
   std::unique_ptr<WallCoarseCorrection<n>> coarse_;  ///< null where sweeps do

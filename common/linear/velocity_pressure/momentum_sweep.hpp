@@ -18,9 +18,10 @@ class MomentumSweep {
   using Nodal = Register<n>;
 
   /// \param matrix  must outlive this; its numbers may change
-  explicit MomentumSweep(const SplitBlocks<n>& matrix)
+  /// \param rows    that are swept; columns behind them, of ghosts, count in product() alone
+  MomentumSweep(const SplitBlocks<n>& matrix, int rows)
       : matrix_(matrix),
-        chunks_(matrix),
+        chunks_(matrix, rows),
         inverse_diagonal_(static_cast<std::size_t>(matrix.rows()) * n * lanes),
         upper_part_(static_cast<std::size_t>(matrix.rows()) * lanes) {}
 

@@ -18,12 +18,13 @@ namespace fsi {
 /// here by the numbering). In statics v stands for the displacement itself. Nodes are ordered as in the whole mesh, so
 /// that neighbours are close. Vectors: n numbers for each velocity node, then one for each pressure. A node
 /// of which only some components are unknowns has a place for all n; the others stay zero. Where the scene is shared out
-/// among processes, ghosts of their velocities and pressures have places like this process's own.
+/// among processes, ghosts of their velocities and pressures have places behind this process's own.
 template <int n>
 class VelocityPressureLayout {
  public:
   int velocities = 0;  ///< nodes that can move
   int pressures = 0;
+  int own_velocities = 0, own_pressures = 0;  ///< of these, the first, without ghosts
   std::vector<int> velocity_of_fluid, velocity_of_wall;  ///< per node of the part; -1 where it is prescribed
   std::vector<int> pressure_of_fluid, pressure_of_wall;  ///< per node of the part; -1 where it has none
   std::vector<int> fluid_of_velocity, wall_of_velocity;  ///< per velocity node, the first of its nodes; -1: none
@@ -33,6 +34,7 @@ class VelocityPressureLayout {
 
   explicit VelocityPressureLayout(const JacobianBlocks<n>& blocks) : numbering_(blocks.numbering) {
     struct Node {
+      bool ghost;
       int place;  ///< in the whole mesh; the fluid first where both are
       bool wall;
       int part;
@@ -42,10 +44,13 @@ class VelocityPressureLayout {
     assert(same_places(numbering_.fluid, numbering_.fluid_rows) && same_places(numbering_.wall, numbering_.wall_rows));
     const int fluid_nodes = blocks.fluid ? blocks.fluid->graph->rows() : 0;
     const int wall_nodes = blocks.wall ? blocks.wall->graph->rows() : 0;
-    for (int a = 0; a < fluid_nodes; ++a) nodes.push_back({blocks.fluid_nodes->mesh_node[a], false, a});
-    for (int a = 0; a < wall_nodes; ++a) nodes.push_back({blocks.wall_nodes->mesh_node[a], true, a});
+    for (const bool wall : {false, true}) {
+      const PartNodes* part = wall ? blocks.wall_nodes : blocks.fluid_nodes;
+      for (int a = 0; a < (wall ? wall_nodes : fluid_nodes); ++a)
+        nodes.push_back({!part->owns(a), part->mesh_node[a], wall, a});
+    }
     std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) {
-      return std::tuple(a.place, a.wall, a.part) < std::tuple(b.place, b.wall, b.part);
+      return std::tuple(a.ghost, a.place, a.wall, a.part) < std::tuple(b.ghost, b.place, b.wall, b.part);
     });
     velocity_of_fluid.assign(fluid_nodes, -1);
     pressure_of_fluid = velocity_of_fluid;
@@ -66,6 +71,7 @@ class VelocityPressureLayout {
       if (moves) {
         if (velocity < 0) {
           velocity = velocities++;
+          own_velocities += !node.ghost;
           fluid_of_velocity.push_back(-1);
           wall_of_velocity.push_back(-1);
           entries_.resize(entries_.size() + n);
@@ -87,6 +93,7 @@ class VelocityPressureLayout {
       }
       if (map[first + n].index < 0) continue;
       (node.wall ? pressure_of_wall : pressure_of_fluid)[node.part] = pressures++;
+      own_pressures += !node.ghost;
       pressure_unknown_.push_back(map[first + n].index);
       node_of_pressure.push_back(node.part);
       wall_pressure.push_back(node.wall);

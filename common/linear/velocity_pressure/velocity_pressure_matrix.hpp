@@ -12,13 +12,15 @@
 #include "host/parallel_for.hpp"
 #include "linear/velocity_pressure/interface_shape_derivatives.hpp"
 #include "linear/velocity_pressure/velocity_pressure_blocks.hpp"
+#include "linear/velocity_pressure/velocity_pressure_ghosts.hpp"
 
 namespace fsi {
 
 /// The Jacobian of velocities and pressures, F = [A G; B C], in single precision, A in 16 bits (SplitBlocks). Of the mesh
 /// motion A has what InterfaceShapeDerivatives gives, the rest is left out. A third of the memory of the assembled matrices,
 /// and arranged so that products and smoothers run over whole registers. Vectors hold `lanes` floats a velocity node (padded with
-/// zero), then one a pressure.
+/// zero), then one a pressure. Where the scene is shared out among processes, rows are those of own unknowns, and vectors have
+/// places for ghosts behind each.
 template <int n>
 class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
  public:
@@ -31,13 +33,8 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   static Nodal load(const float* from) { return fsi::load<n>(from); }
   static void store(Nodal x, float* to) { fsi::store<n>(x, to); }
 
-  /// \param owns_velocity, owns_pressure  whether each has rows here; empty: all have. Those of others are zero.
-  VelocityPressureMatrix(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout,
-                         std::vector<char> owns_velocity = {}, std::vector<char> owns_pressure = {})
-      : VelocityPressureBlocks<n>(blocks, layout),
-        layout_(layout),
-        owns_velocity_(std::move(owns_velocity)),
-        owns_pressure_(std::move(owns_pressure)) {
+  VelocityPressureMatrix(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout)
+      : VelocityPressureBlocks<n>(blocks, layout), layout_(layout), ghosts_(blocks, layout) {
     make_momentum_pattern();
     make_continuity_pattern();
     shape_derivatives_ = std::make_unique<InterfaceShapeDerivatives<n>>(blocks, layout);
@@ -75,10 +72,10 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     fill_continuity();
   }
 
-  /// y = F x, both of size()
+  /// y = F x, both of size(). Ghosts in x must have the owners' values; those of y are left as they are.
   void multiply(VectorView<const float> x, VectorView<float> y) const {
     const float* pressure = x.data() + velocity_size();
-    parallel_for(layout_.velocities, layout_.velocities > 500, [&](int v) {
+    parallel_for(layout_.own_velocities, layout_.own_velocities > 500, [&](int v) {
       store(momentum_.row_product(v, x.data()) + gradient_product(v, pressure),
             y.data() + static_cast<std::size_t>(v) * lanes);
     });
@@ -88,7 +85,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   void multiply_continuity(VectorView<const float> x, VectorView<float> y) const {
     const float* pressure = x.data() + velocity_size();
     float* rows = y.data() + velocity_size();
-    parallel_for(layout_.pressures, layout_.pressures > 500, [&](int p) {
+    parallel_for(layout_.own_pressures, layout_.own_pressures > 500, [&](int p) {
       float sum = divergence_product(p, x.data());
       for (int at = compressibility_offsets_[p]; at < compressibility_offsets_[p + 1]; ++at)
         sum += compressibility_[at] * pressure[compressibility_columns_[at]];
@@ -120,17 +117,23 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     return even + odd;
   }
 
-  /// The norm of what rounding of A's numbers may do to F x (SplitBlocks::rounding_squared), of the rows here.
+  /// The norm of what rounding of A's numbers may do to F x (SplitBlocks::rounding_squared).
   double rounding(const std::vector<float>& x) const {
     double sum = 0;
-    for (int v = 0; v < layout_.velocities; ++v)
+    for (int v = 0; v < layout_.own_velocities; ++v)
       sum += momentum_.rounding_squared(v, load(x.data() + static_cast<std::size_t>(v) * lanes));
-    return std::sqrt(sum);
+    return std::sqrt(processes().sum(sum));
   }
   /// The shape derivatives that F has.
   const InterfaceShapeDerivatives<n>& shape_derivatives() const { return *shape_derivatives_; }
 
-  /// A by velocity nodes.
+  const Communicator& processes() const { return *ghosts_.velocities.processes; }
+  const VelocityPressureGhosts<n>& ghosts() const { return ghosts_; }
+  /// Gives ghosts the owners' values. \param velocities  `lanes` floats each, as a vector here begins
+  void update_velocities(float* velocities) const { ghosts_.velocities.exchange.update(velocities, lanes); }
+  void update_pressures(float* pressures) const { ghosts_.pressures.exchange.update(pressures, 1); }
+
+  /// A by velocity nodes; rows of ghosts are zero.
   const SplitBlocks<n>& momentum() const { return momentum_; }
   /// G: pressures of each velocity node, one entry per assembled block.
   const std::vector<int>& gradient_offsets() const { return gradient_offsets_; }
@@ -143,14 +146,12 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   }
 
  private:
-  static bool has_rows(const std::vector<char>& owns, int i) { return owns.empty() || owns[i]; }
-
   void make_momentum_pattern() {
     gradient_offsets_ = {0};
     std::vector<std::vector<int>> rows(layout_.velocities);
     for (int v = 0; v < layout_.velocities; ++v) {
       auto& row = rows[v];
-      if (has_rows(owns_velocity_, v))
+      if (v < layout_.own_velocities)
         for_blocks_of(v, [&](const double*, int u, int p, double) {
           if (u >= 0) row.push_back(u);
           if (p >= 0) gradient_columns_.push_back(p);
@@ -168,7 +169,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     continuity_offsets_ = {0};
     compressibility_offsets_ = {0};
     for (int p = 0; p < layout_.pressures; ++p) {
-      if (has_rows(owns_pressure_, p))
+      if (p < layout_.own_pressures)
         for_blocks_of_node(layout_.wall_pressure[p], layout_.node_of_pressure[p],
                            [&](const double*, int v, int q, double) {
                              continuity_velocities_.push_back(std::max(v, 0));  // without one zeros are stored
@@ -181,8 +182,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
 
   void fill_momentum() {
     constexpr int stride = SplitBlocks<n>::stride;
-    parallel_for(layout_.velocities, layout_.velocities > 500, [&](int v) {
-      if (!has_rows(owns_velocity_, v)) return;
+    parallel_for(layout_.own_velocities, layout_.own_velocities > 500, [&](int v) {
       std::vector<float> row(static_cast<std::size_t>(momentum_.count(v)) * stride, 0.0f);
       const auto block_of = [&](int u) {
         return row.data() + static_cast<std::size_t>(momentum_.place(v, u)) * stride;
@@ -206,9 +206,8 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   }
 
   void fill_continuity() {
-#pragma omp parallel for schedule(static) if (layout_.pressures > 500)
-    for (int p = 0; p < layout_.pressures; ++p) {
-      if (!has_rows(owns_pressure_, p)) continue;
+#pragma omp parallel for schedule(static) if (layout_.own_pressures > 500)
+    for (int p = 0; p < layout_.own_pressures; ++p) {
       int at = continuity_offsets_[p], compressibility_at = compressibility_offsets_[p];
       for_blocks_of_node(
           layout_.wall_pressure[p], layout_.node_of_pressure[p], [&](const double* block, int v, int q, double factor) {
@@ -222,7 +221,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   }
 
   const VelocityPressureLayout<n>& layout_;
-  std::vector<char> owns_velocity_, owns_pressure_;
+  VelocityPressureGhosts<n> ghosts_;
   SplitBlocks<n> momentum_;  ///< A
   std::unique_ptr<const InterfaceShapeDerivatives<n>> shape_derivatives_;
   std::vector<int> gradient_offsets_, gradient_columns_;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "linear/amg/rigid_motion_multigrid.hpp"
@@ -19,19 +21,33 @@ class WallCoarseCorrection {
 
   explicit WallCoarseCorrection(const Matrix& matrix) : matrix_(matrix) {
     const auto& layout = matrix.layout();
-    std::vector<int> number(layout.velocities, -1);
-    for (int v = 0; v < layout.velocities; ++v)
-      if (layout.wall_of_velocity[v] >= 0) {
-        number[v] = static_cast<int>(nodes_.size());
-        nodes_.push_back(v);
-        points_.push_back(matrix.wall_points()[layout.wall_of_velocity[v]]);
-        for (int k = 0; k < n && layout.partly_fixed(); ++k) fixed_.push_back(!layout.is_free(v, k));
-      }
+    const auto& velocities = matrix.ghosts().velocities;
+    const auto is_of_wall = [&](int v) { return layout.wall_of_velocity[v] >= 0; };
+    for (int v = 0; v < layout.own_velocities; ++v) {
+      if (!is_of_wall(v)) continue;
+      nodes_.push_back(v);
+      points_.push_back(matrix.wall_points()[layout.wall_of_velocity[v]]);
+      for (int k = 0; k < n && layout.partly_fixed(); ++k) fixed_.push_back(!layout.is_free(v, k));
+    }
+    const int own = static_cast<int>(nodes_.size());
+    const std::int64_t first = matrix.processes().sum_before(std::int64_t{own});
+    std::vector<double> numbers(layout.velocities, -1.0);  // among the wall's velocities of all processes
+    for (int i = 0; i < own; ++i) numbers[nodes_[i]] = static_cast<double>(first + i);
+    velocities.exchange.update(numbers);
+    number_.assign(layout.velocities, -1);
+    std::vector<std::int64_t> copies;
+    for (int i = 0; i < own; ++i) number_[nodes_[i]] = i;
+    for (int v = layout.own_velocities; v < layout.velocities; ++v) {
+      if (numbers[v] < 0) continue;
+      number_[v] = own + static_cast<int>(copies.size());
+      copies.push_back(static_cast<std::int64_t>(numbers[v]));
+    }
+    share_ = ShareOfNumbers(matrix.processes(), own, std::move(copies));
     auto graph = std::make_shared<NodeGraph>();
     graph->offsets.push_back(0);
     for (int v : nodes_) {
       matrix.momentum().for_row(v, [&](int u, const float*) {
-        if (number[u] >= 0) graph->columns.push_back(number[u]);
+        if (number_[u] >= 0) graph->columns.push_back(number_[u]);
       });
       graph->offsets.push_back(static_cast<int>(graph->columns.size()));
     }
@@ -45,12 +61,12 @@ class WallCoarseCorrection {
     int at = 0;
     for (const int v : nodes_)
       matrix_.momentum().for_row(v, [&](int u, const float* from) {
-        if (matrix_.layout().wall_of_velocity[u] < 0) return;
+        if (number_[u] < 0) return;
         double* to = stiffness_.block(at++);
         for (int i = 0; i < n; ++i)
           for (int k = 0; k < n; ++k) to[i * n + k] = from[k * lanes + i];
       });
-    multigrid_.set_up(stiffness_, points_, options, fixed_);
+    multigrid_.set_up(stiffness_, share_, points_, options, fixed_);
   }
 
   /// velocity += correction for `residual`.
@@ -72,7 +88,9 @@ class WallCoarseCorrection {
 
  private:
   const Matrix& matrix_;
-  std::vector<int> nodes_;                     ///< velocity nodes of the wall
+  std::vector<int> nodes_;                     ///< own velocity nodes of the wall
+  std::vector<int> number_;                    ///< per velocity node, among these and then ghosts; -1: not the wall's
+  ShareOfNumbers share_;
   std::vector<std::array<double, 3>> points_;  ///< their places at rest
   std::vector<char> fixed_;                    ///< per node and component: no unknown; empty: none
   BlockMatrix<n, n> stiffness_;

@@ -65,7 +65,7 @@ TEST(SweepChunks, OfTrianglesAreThoseOfTheWhole) {
   for (const int size : {1, 7, 3203}) {
     const SweepChunks whole = chunks_of(size);
     const SplitBlocks<2> split(tridiagonal(size));
-    const SweepChunks chunks(split);
+    const SweepChunks chunks(split, size);
     EXPECT_EQ(chunks.begin, whole.begin);
     for (int row = 0; row < size; ++row) {
       EXPECT_EQ(chunks.diagonal[row] - chunks.first[row], whole.diagonal[row] - whole.first[row]) << row;

@@ -21,8 +21,9 @@ class BlockFactors : public MomentumAndSchur<n> {
   void apply(VectorView<const float> r, VectorView<float> z) override {
     const std::vector<float>& inverse_diagonal = momentum_.single_inverse_diagonal();
     for (std::size_t i = 0; i < right_.size(); ++i) right_[i] = inverse_diagonal[i] * r[i];
+    matrix_.update_velocities(right_.data());
     schur_.apply(r.data() + matrix_.velocity_size(), right_, pressure_);
-    const int velocities = matrix_.layout().velocities;
+    const int velocities = matrix_.layout().own_velocities;
     parallel_for(velocities, velocities > 2000, [&](int v) {
       const std::size_t at = static_cast<std::size_t>(v) * Matrix::lanes;
       Matrix::store(Matrix::load(r.data() + at) - matrix_.gradient_product(v, pressure_.data()), right_.data() + at);

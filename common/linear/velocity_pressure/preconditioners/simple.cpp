@@ -29,6 +29,7 @@ class Simple : public MomentumAndSchur<n> {
                                                     matrix_.gradient_product(v, pressure_.data()),
           z.data() + at);
     });
+    matrix_.update_velocities(z.data());
     std::copy(pressure_.begin(), pressure_.end(), z.begin() + static_cast<std::ptrdiff_t>(matrix_.velocity_size()));
   }
 
