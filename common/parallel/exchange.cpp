@@ -42,23 +42,45 @@ void Exchange::update(float* values, int entries) const {
   update_copies(values, entries);
 }
 
-void Exchange::update_rows(std::vector<std::vector<double>>& rows) const {
-  if (processes_ == nullptr || processes_->is_alone()) return;
-  std::vector<std::vector<double>> to_each(processes_->size());
+template <class Real>
+void Exchange::add_from_copies(std::vector<Real>& values, int entries) const {
+  communicate(values.data(), entries, Way::to_owners);
+  for (std::size_t i = 0; i < neighbours_.size(); ++i) {
+    const Real* from = buffers<Real>().incoming[i].data();
+    for (const int item : neighbours_[i].sent)
+      for (int e = 0; e < entries; ++e) values[static_cast<std::size_t>(item) * entries + e] += *from++;
+  }
+}
+
+template void Exchange::add_from_copies(std::vector<double>&, int) const;
+template void Exchange::add_from_copies(std::vector<float>&, int) const;
+
+std::vector<Exchange::Rows> Exchange::communicate_rows(const Rows& rows, Way way) const {
+  std::vector<Rows> result(neighbours_.size());
+  if (processes_ == nullptr || processes_->is_alone()) return result;
+  Rows to_each(processes_->size());
   for (const Neighbour& n : neighbours_)
-    for (const int item : n.sent) {
+    for (const int item : outgoing(n, way)) {
       to_each[n.rank].push_back(static_cast<double>(rows[item].size()));
       to_each[n.rank].insert(to_each[n.rank].end(), rows[item].begin(), rows[item].end());
     }
   const auto from_each = processes_->send_and_receive(to_each);
-  for (const Neighbour& n : neighbours_) {
-    auto from = from_each[n.rank].begin();
-    for (const int item : n.received) {
+  for (std::size_t i = 0; i < neighbours_.size(); ++i) {
+    auto from = from_each[neighbours_[i].rank].begin();
+    for (std::size_t item = 0; item < incoming(neighbours_[i], way).size(); ++item) {
       const auto length = static_cast<std::ptrdiff_t>(*from++);
-      rows[item].assign(from, from + length);
+      result[i].emplace_back(from, from + length);
       from += length;
     }
   }
+  return result;
+}
+
+void Exchange::update_rows(Rows& rows) const {
+  auto received = communicate_rows(rows, Way::to_copies);
+  for (std::size_t i = 0; i < neighbours_.size(); ++i)
+    for (std::size_t item = 0; item < received[i].size(); ++item)
+      rows[neighbours_[i].received[item]] = std::move(received[i][item]);
 }
 
 std::vector<std::vector<double>> Exchange::from_copies(const std::vector<double>& values, int entries) const {

@@ -20,6 +20,8 @@ class Exchange {
     std::vector<int> received;  ///< copies of the neighbour's items
   };
 
+  using Rows = std::vector<std::vector<double>>;
+
   Exchange() = default;
   /// \param processes  must outlive this
   Exchange(const Communicator& processes, std::vector<Neighbour> neighbours);
@@ -34,8 +36,13 @@ class Exchange {
   void update(double* values, int entries) const;
   void update(float* values, int entries) const;
   /// The same for rows of any lengths. All processes together. \param rows  per item here
-  void update_rows(std::vector<std::vector<double>>& rows) const;
-  /// The other way: for each neighbour what its copies of the items sent to it have, in the order of `sent`.
+  void update_rows(Rows& rows) const;
+  /// The other way: what copies have is added to their owners' values.
+  template <class Real>
+  void add_from_copies(std::vector<Real>& values, int entries = 1) const;
+  /// Rows of copies, for each neighbour in the order of `sent`. All processes together. \param rows  per item here
+  std::vector<Rows> rows_from_copies(const Rows& rows) const { return communicate_rows(rows, Way::to_owners); }
+  /// For each neighbour what its copies of the items sent to it have, in the order of `sent`.
   std::vector<std::vector<double>> from_copies(const std::vector<double>& values, int entries = 1) const;
 
   std::size_t sent_items() const;
@@ -60,6 +67,8 @@ class Exchange {
   void communicate(const Real* values, int entries, Way way) const;
   template <class Real>
   void update_copies(Real* values, int entries) const;
+  /// Per neighbour.
+  std::vector<Rows> communicate_rows(const Rows& rows, Way way) const;
 
   [[maybe_unused]] const Communicator* processes_ = nullptr;  ///< not asked without MPI
   std::vector<Neighbour> neighbours_;

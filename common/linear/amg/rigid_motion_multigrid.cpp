@@ -26,7 +26,7 @@ constexpr int modes_of = RigidMotionMultigrid<n>::modes;
 template <int modes, int size>
 struct Coarsened {
   BlockMatrix<size, modes> prolongation;
-  BlockMatrix<modes, size> restriction;
+  BlockMatrix<modes, size> restriction;  ///< rows of copies, too
   BlockMatrix<modes, modes> matrix;
   ShareOfNumbers share;
   std::vector<double> space;  ///< the rigid motions on the coarse nodes: rows x modes
@@ -122,11 +122,35 @@ BlockMatrix<size, modes> tentative_prolongation(const std::vector<int>& aggregat
   return t;
 }
 
-/// P = (I - omega / lambda D^-1 A_F) T; A_F is A with weak couplings, and those with other processes, added to the diagonal
-/// blocks, D its diagonal (its diagonal blocks in place of that cost a third more iterations).
+template <int R, int C>
+SparseRows as_rows(const BlockMatrix<R, C>& a) {
+  return {R * C, a.graph->offsets, a.graph->columns, a.values};
+}
+
+template <int R, int C>
+BlockMatrix<R, C> as_blocks(SparseRows rows) {
+  auto graph = std::make_shared<NodeGraph>();
+  graph->offsets = std::move(rows.offsets);
+  graph->columns = std::move(rows.columns);
+  BlockMatrix<R, C> a;
+  a.graph = std::move(graph);
+  a.values = std::move(rows.values);
+  return a;
+}
+
+/// The same block matrix with its columns by another share.
+template <int R, int C>
+void renumber(BlockMatrix<R, C>& a, const ShareOfNumbers& from, const ShareOfNumbers& to) {
+  auto graph = std::make_shared<NodeGraph>(*a.graph);
+  fsi::renumber(graph->columns, from, to);
+  a.graph = std::move(graph);
+}
+
+/// P = (I - omega / lambda D^-1 A_F) T; A_F is A with weak couplings added to the diagonal blocks, D its diagonal (its diagonal blocks in place of that cost a third more iterations).
+/// \param coarse  of the tentative's columns; gets copies of those that P names
 template <int modes, int size>
-void smooth(const BlockMatrix<size, size>& a, const std::vector<char>& strong,
-            const BlockMatrix<size, modes>& tentative, int count, double damping, const Communicator& processes,
+void smooth(const BlockMatrix<size, size>& a, const ShareOfNumbers& share, const std::vector<char>& strong,
+            const BlockMatrix<size, modes>& tentative, double damping, ShareOfNumbers& coarse,
             BlockMatrix<size, modes>& p) {
   auto graph = std::make_shared<NodeGraph>();
   graph->offsets.push_back(0);
@@ -151,31 +175,21 @@ void smooth(const BlockMatrix<size, size>& a, const std::vector<char>& strong,
     graph->offsets.push_back(static_cast<int>(graph->columns.size()));
   }
   filtered.graph = std::move(graph);
+  std::vector<double> with_copies(static_cast<std::size_t>(share.items()) * size, 0.0);  // own rows and columns alone
   const double scale =
-      damping / processes.largest(largest_eigenvalue(
+      damping / share.processes->largest(largest_eigenvalue(
                     rough_vector(static_cast<std::size_t>(a.graph->rows()) * size), eigenvalue_iterations,
-                    [&](const auto& x, auto& y) { multiply(filtered, x, y); }));
-  p = block_product(filtered, tentative, count);
+                    [&](const auto& x, auto& y) {
+                      std::copy(x.begin(), x.end(), with_copies.begin());
+                      multiply(filtered, with_copies, y);
+                    }));
+  const auto all = as_blocks<size, modes>(with_rows_of_copies(as_rows(tentative), share, coarse));
+  p = block_product(filtered, all, coarse.items());
   for (double& value : p.values) value *= -scale;
   for (int row = 0; row < a.graph->rows(); ++row) {
     double* to = p.block(p.graph->find(row, tentative.graph->columns[row]));
     for (int i = 0; i < size * modes; ++i) to[i] += tentative.block(row)[i];
   }
-}
-
-/// Behind own rows those of copies. \param share  gets that of the columns
-template <int modes, int size>
-BlockMatrix<size, modes> with_rows_of_copies(const BlockMatrix<size, modes>& p, const ShareOfNumbers& fine, int coarse,
-                                             ShareOfNumbers& share) {
-  SparseRows all = fsi::with_rows_of_copies({size * modes, p.graph->offsets, p.graph->columns, p.values}, fine, coarse,
-                                            share);
-  auto graph = std::make_shared<NodeGraph>();
-  graph->offsets = std::move(all.offsets);
-  graph->columns = std::move(all.columns);
-  BlockMatrix<size, modes> result;
-  result.graph = std::move(graph);
-  result.values = std::move(all.values);
-  return result;
 }
 
 /// The next level; none where nothing couples.
@@ -190,22 +204,30 @@ std::optional<Coarsened<modes, size>> coarsened(const BlockMatrix<size, size>& a
   share.exchange.update(diagonal);
   const auto whole = static_cast<double>(processes.sum(std::int64_t{norms.rows()}));
   for (; threshold > 1e-4 * first_threshold; threshold *= 0.5) {
-    auto strong = strong_entries(norms, diagonal, threshold);
-    for (std::size_t at = 0; at < strong.size(); ++at)
-      if (norms.indices[at] >= norms.rows()) strong[at] = 0;  // an aggregate is one process's
+    const auto strong = strong_entries(norms, diagonal, threshold);
+    auto within = strong;  // an aggregate is one process's
+    for (std::size_t at = 0; at < within.size(); ++at)
+      if (norms.indices[at] >= norms.rows()) within[at] = 0;
     int count = 0;
-    const auto aggregate = aggregates(norms, strong, count);
+    const auto aggregate = aggregates(norms, within, count);
     if (static_cast<double>(processes.sum(std::int64_t{count})) > 0.8 * whole)
       continue;  // hardly anything is strong: demand less
     threshold *= 0.5;
     Coarsened<modes, size> result;
+    ShareOfNumbers& coarse = result.share = ShareOfNumbers(processes, count, {});
     result.space = space;
     const auto tentative = tentative_prolongation<modes, size>(aggregate, count, result.space);
-    smooth(a, strong, tentative, count, damping, processes, result.prolongation);
-    result.restriction = transposed(result.prolongation, count);
-    const auto all = with_rows_of_copies(result.prolongation, share, count, result.share);
-    const int columns = result.share.items();
-    result.matrix = block_product(result.restriction, block_product(a, all, columns), columns);
+    auto& p = result.prolongation;
+    smooth(a, share, strong, tentative, damping, coarse, p);
+    ShareOfNumbers before = coarse;
+    const auto all = as_blocks<size, modes>(with_rows_of_copies(as_rows(p), share, coarse));
+    renumber(p, before, coarse);
+    const int columns = coarse.items();
+    before = coarse;
+    result.matrix = as_blocks<modes, modes>(sum_of_rows(
+        as_rows(block_product(transposed(p, columns), block_product(a, all, columns), columns)), coarse));
+    renumber(p, before, coarse);
+    result.restriction = transposed(p, coarse.items());
     // Rigid motions that depend on others within an aggregate have left empty rows: a one keeps them at zero.
     for (int i = 0; i < count; ++i) {
       double* block = result.matrix.block(result.matrix.graph->find(i, i));
@@ -270,27 +292,28 @@ void RigidMotionMultigrid<n>::set_up(const BlockMatrix<n, n>& finest, const Shar
     level.matrix = RegisterBlocks<modes, modes>(a);
     level.prolongation = RegisterBlocks<modes, modes>(next->prolongation);
     level.restriction = RegisterBlocks<modes, modes>(next->restriction);
-    level.chunks = SweepChunks(a.graph->offsets, a.graph->columns);
+    level.chunks = SweepChunks(a.graph->offsets, a.graph->columns, SweepChunks::count_of_each(processes_->size()));
     level.inverse_diagonal = inverse_diagonal(a, *processes_);
     const std::size_t size = static_cast<std::size_t>(a.graph->rows()) * lanes;
-    for (auto* v : {&level.b, &level.residual}) v->assign(size, 0.0f);
-    level.x.assign(static_cast<std::size_t>(share.items()) * lanes, 0.0f);
+    level.residual.assign(size, 0.0f);
+    for (auto* v : {&level.b, &level.x}) v->assign(static_cast<std::size_t>(share.items()) * lanes, 0.0f);
     level.share = std::exchange(share, std::move(next->share));
     levels_.push_back(std::move(level));
     a = std::move(next->matrix);
     space = std::move(next->space);
   }
-  const std::size_t size = static_cast<std::size_t>(a.graph->rows()) * lanes;
   invert_coarsest(std::move(a), share);
-  coarsest_b_.assign(size, 0.0f);
-  coarsest_x_.assign(size, 0.0f);
+  for (auto* v : {&coarsest_b_, &coarsest_x_}) v->assign(static_cast<std::size_t>(share.items()) * lanes, 0.0f);
+  coarsest_share_ = std::move(share);
 }
 
 template <int n>
 void RigidMotionMultigrid<n>::correct(const std::vector<float>& residual, std::vector<float>& velocity) {
   if (!coarsens_) return;
   restriction_.multiply(residual, b(0));
+  share(0).exchange.add_from_copies(b(0), lanes);
   cycle(0);
+  share(0).exchange.update(x(0), lanes);
   add(prolongation_, x(0), velocity);
 }
 
@@ -331,7 +354,7 @@ void RigidMotionMultigrid<n>::invert_coarsest(BlockMatrix<modes, modes> matrix, 
 template <int n>
 void RigidMotionMultigrid<n>::solve_coarsest() {
   processes_->gather(coarsest_b_.data(), coarsest_counts_, coarsest_right_.data());
-  const std::size_t own = coarsest_b_.size() / lanes * modes, size = coarsest_right_.size() / lanes * modes;
+  const std::size_t own = static_cast<std::size_t>(coarsest_share_.own) * modes, size = coarsest_right_.size() / lanes * modes;
   dense_x_.assign(own, 0.0f);
   for (std::size_t j = 0; j < size; ++j) {
     const float* column = coarsest_inverse_.data() + j * own;
@@ -370,7 +393,9 @@ void RigidMotionMultigrid<n>::cycle(std::size_t depth) {
                  place(level.residual, row));
   });
   level.restriction.multiply(level.residual, b(depth + 1));
+  share(depth + 1).exchange.add_from_copies(b(depth + 1), lanes);
   cycle(depth + 1);
+  share(depth + 1).exchange.update(x(depth + 1), lanes);
   add(level.prolongation, x(depth + 1), level.x);
   if (!post_smoothing_) return;
   level.share.exchange.update(level.x, lanes);

@@ -58,10 +58,13 @@ class RigidMotionMultigrid {
     ShareOfNumbers share;
     SweepChunks chunks;
     std::vector<float> inverse_diagonal;  ///< blocks
-    std::vector<float> b, x, residual;    ///< x with places for copies
+    std::vector<float> b, x, residual;    ///< of the first two copies, too
   };
 
   std::vector<float>& b(std::size_t level) { return level < levels_.size() ? levels_[level].b : coarsest_b_; }
+  const ShareOfNumbers& share(std::size_t level) const {
+    return level < levels_.size() ? levels_[level].share : coarsest_share_;
+  }
   std::vector<float>& x(std::size_t level) { return level < levels_.size() ? levels_[level].x : coarsest_x_; }
   void invert_coarsest(BlockMatrix<modes, modes> a, const ShareOfNumbers& share);
   void solve_coarsest();
@@ -72,6 +75,7 @@ class RigidMotionMultigrid {
   std::vector<Level> levels_;              ///< between the finest and the coarsest
   bool coarsens_ = false;                  ///< there are coarse levels
   const Communicator* processes_ = &Communicator::alone();
+  ShareOfNumbers coarsest_share_;
   std::vector<int> coarsest_counts_;       ///< floats of each process's right side
   std::vector<float> coarsest_inverse_;    ///< own rows, dense, column-major
   std::vector<float> coarsest_b_, coarsest_x_, coarsest_right_, dense_x_;

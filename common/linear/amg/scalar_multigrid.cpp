@@ -17,10 +17,12 @@ namespace fsi {
 
 namespace {
 
-/// Largest eigenvalue of D^-1 A.
+/// Largest eigenvalue of D^-1 A among own rows and columns.
 double largest_eigenvalue_of(const CsrMatrix<double>& a, const std::vector<double>& diagonal) {
+  std::vector<double> with_copies(a.columns, 0.0);
   return largest_eigenvalue(rough_vector(a.rows()), eigenvalue_iterations, [&](const auto& x, auto& y) {
-    multiply(a, x, y);
+    std::copy(x.begin(), x.end(), with_copies.begin());
+    multiply(a, with_copies, y);
     for (int i = 0; i < a.rows(); ++i) y[i] /= diagonal[i];
   });
 }
@@ -56,13 +58,15 @@ struct RowOf<1> {
   }
 };
 
-/// P = (I - omega / lambda D^-1 A_F) T; A_F is A with weak couplings, and those with other processes, added to its diagonal,
-/// T the aggregates' indicator.
-CsrMatrix<double> smoothed_prolongation(const CsrMatrix<double>& a, const std::vector<char>& strong,
-                                        const std::vector<int>& aggregate, int count, double omega,
-                                        const Communicator& processes) {
+/// P = (I - omega / lambda D^-1 A_F) T; A_F is A with weak couplings added to its diagonal, T the aggregates'
+/// indicator.
+/// \param share   of a's columns
+/// \param coarse  of the aggregates: own ones; gets copies of those that P names
+CsrMatrix<double> smoothed_prolongation(const CsrMatrix<double>& a, const ShareOfNumbers& share,
+                                        const std::vector<char>& strong, const std::vector<int>& aggregate,
+                                        double omega, ShareOfNumbers& coarse) {
   CsrMatrix<double> filtered;
-  filtered.columns = a.rows();
+  filtered.columns = a.columns;
   for (int row = 0; row < a.rows(); ++row) {
     double weak = 0;
     int diagonal_at = -1;
@@ -83,20 +87,39 @@ CsrMatrix<double> smoothed_prolongation(const CsrMatrix<double>& a, const std::v
   for (int row = 0; row < a.rows(); ++row)
     // Weak couplings of the diagonal's own sign and size would leave nothing to divide by.
     if (diagonal[row] * original[row] < 0.1 * original[row] * original[row]) diagonal[row] = original[row];
-  const double scale = omega / processes.largest(largest_eigenvalue_of(filtered, diagonal));
+  const double scale = omega / share.processes->largest(largest_eigenvalue_of(filtered, diagonal));
 
-  CsrMatrix<double> tentative;
-  tentative.columns = count;
-  tentative.indices = aggregate;
+  SparseRows tentative;
+  tentative.columns = aggregate;
   tentative.values.assign(aggregate.size(), 1.0);
   for (int row = 0; row < a.rows(); ++row) tentative.offsets.push_back(row + 1);
-  CsrMatrix<double> p = product(filtered, tentative);
+  auto all = with_rows_of_copies(std::move(tentative), share, coarse);
+  CsrMatrix<double> p = product(
+      filtered, {coarse.items(), std::move(all.offsets), std::move(all.columns), std::move(all.values)});
   for (int row = 0; row < a.rows(); ++row)
     for (int at = p.offsets[row]; at < p.offsets[row + 1]; ++at) {
       p.values[at] *= -scale / diagonal[row];
       if (p.indices[at] == aggregate[row]) p.values[at] += 1;
     }
   return p;
+}
+
+/// P^T A P.
+/// \param p       own rows; its columns are renumbered
+/// \param coarse  of p's columns; gets copies of those that the product names
+CsrMatrix<double> galerkin_product(const CsrMatrix<double>& a, const ShareOfNumbers& share, CsrMatrix<double>& p,
+                                   ShareOfNumbers& coarse) {
+  ShareOfNumbers before = coarse;
+  auto all = with_rows_of_copies({1, p.offsets, p.indices, p.values}, share, coarse);
+  renumber(p.indices, before, coarse);
+  p.columns = coarse.items();
+  auto c = product(transposed(p), product(a, {p.columns, std::move(all.offsets), std::move(all.columns),
+                                              std::move(all.values)}));
+  before = coarse;
+  auto sum = sum_of_rows({1, std::move(c.offsets), std::move(c.indices), std::move(c.values)}, coarse);
+  renumber(p.indices, before, coarse);
+  p.columns = coarse.items();
+  return {coarse.items(), std::move(sum.offsets), std::move(sum.columns), std::move(sum.values)};
 }
 
 }  // namespace
@@ -117,39 +140,38 @@ void ScalarMultigrid::set_up(const CsrMatrix<double>& matrix, const ShareOfNumbe
     auto diagonal = diagonal_of(a);
     diagonal.resize(share.items());
     share.exchange.update(diagonal);
-    auto strong = strong_entries(a, diagonal, threshold);
-    for (std::size_t at = 0; at < strong.size(); ++at)
-      if (a.indices[at] >= a.rows()) strong[at] = 0;  // an aggregate is one process's
+    const auto strong = strong_entries(a, diagonal, threshold);
+    auto within = strong;  // an aggregate is one process's
+    for (std::size_t at = 0; at < within.size(); ++at)
+      if (a.indices[at] >= a.rows()) within[at] = 0;
     diagonal.resize(a.rows());
     int count = 0;
-    const auto aggregate = aggregates(a, strong, count);
+    const auto aggregate = aggregates(a, within, count);
     threshold *= 0.5;
     const bool stuck =
         static_cast<double>(processes_->sum(std::int64_t{count})) > 0.8 * static_cast<double>(whole);
     if (stuck && threshold > 1e-3 * options.threshold) continue;  // hardly anything is strong: demand less
-    CsrMatrix<double> p;
-    if (stuck) {  // nothing couples: the smoother alone solves it
-      count = 0;
-      p.offsets.assign(static_cast<std::size_t>(a.rows()) + 1, 0);
-    } else {
-      p = smoothed_prolongation(a, strong, aggregate, count, options.damping, *processes_);
-    }
-    const auto r = transposed(p);
     Level level;
     level.matrix = converted<float>(a);
-    level.prolongation = converted<float>(p);
-    level.restriction = converted<float>(r);
-    level.chunks = SweepChunks(a.offsets, a.indices);
+    level.chunks = SweepChunks(a.offsets, a.indices, SweepChunks::count_of_each(processes_->size()));
     for (double d : diagonal) level.inverse_diagonal.push_back(static_cast<float>(1 / d));
     level.residual.resize(a.rows());
     entries += a.nonzeros();
-    ShareOfNumbers coarse;
-    auto all = with_rows_of_copies({1, std::move(p.offsets), std::move(p.indices), std::move(p.values)}, share, count,
-                                   coarse);
-    a = product(r, product(a, {coarse.items(), std::move(all.offsets), std::move(all.columns), std::move(all.values)}));
+    CsrMatrix<double> p;
+    ShareOfNumbers coarse(*processes_, stuck ? 0 : count, {});
+    if (stuck) {  // nothing couples: the smoother alone solves it
+      p.offsets.assign(static_cast<std::size_t>(a.rows()) + 1, 0);
+      a = CsrMatrix<double>();
+    } else {
+      p = smoothed_prolongation(a, share, strong, aggregate, options.damping, coarse);
+      a = galerkin_product(a, share, p, coarse);
+    }
+    level.prolongation = converted<float>(p);
+    level.restriction = converted<float>(transposed(p));
     level.share = std::exchange(share, std::move(coarse));
     levels_.push_back(std::move(level));
   }
+  coarsest_share_ = share;
   double sums[2] = {static_cast<double>(entries + a.nonzeros()), static_cast<double>(matrix.nonzeros())};
   processes_->sum(sums, 2);
   complexity_ = sums[1] > 0 ? sums[0] / sums[1] : 0;
@@ -161,6 +183,11 @@ void ScalarMultigrid::invert_coarsest(CsrMatrix<double> matrix, const ShareOfNum
   const auto whole =
       gather_rows({1, std::move(matrix.offsets), std::move(matrix.indices), std::move(matrix.values)}, share);
   const int size = whole.rows();
+  coarsest_inverse_.clear();
+  coarsest_counts_.clear();
+  for (const std::int64_t rows : processes_->gather(std::int64_t{own}))
+    coarsest_counts_.push_back(static_cast<int>(rows));
+  if (size == 0) return;
   std::vector<double> dense(static_cast<std::size_t>(size) * size, 0.0);  // column-major
   for (int row = 0; row < size; ++row)
     for (int at = whole.offsets[row]; at < whole.offsets[row + 1]; ++at)
@@ -172,9 +199,6 @@ void ScalarMultigrid::invert_coarsest(CsrMatrix<double> matrix, const ShareOfNum
     for (int row = 0; row < own; ++row)
       coarsest_inverse_[static_cast<std::size_t>(column) * own + row] =
           static_cast<float>(inverse[static_cast<std::size_t>(column) * size + share.first + row]);
-  coarsest_counts_.clear();
-  for (const std::int64_t rows : processes_->gather(std::int64_t{own}))
-    coarsest_counts_.push_back(static_cast<int>(rows));
 }
 
 template <int m>
@@ -215,8 +239,8 @@ void ScalarMultigrid::cycle_from(std::size_t depth, const std::vector<float>& b,
   const auto& chunks = level.chunks;
   level.residual.resize(static_cast<std::size_t>(a.rows()) * Row::lanes);
   level.coarse_residual.resize(static_cast<std::size_t>(level.restriction.rows()) * Row::lanes);
-  const std::size_t copies = depth + 1 < levels_.size() ? levels_[depth + 1].share.copies.size() : 0;
-  level.coarse_correction.resize(level.coarse_residual.size() + copies * Row::lanes);
+  const auto& among_coarse = share(depth + 1).exchange;
+  level.coarse_correction.resize(level.coarse_residual.size());
   auto& r = level.residual;
   // (D + L) x = b
   chunks.forward([&](int row) {
@@ -236,7 +260,9 @@ void ScalarMultigrid::cycle_from(std::size_t depth, const std::vector<float>& b,
   for (int row = 0; row < restriction.rows(); ++row)
     Row::store(Row::product(restriction, restriction.offsets[row], restriction.offsets[row + 1], r),
                level.coarse_residual, row);
+  among_coarse.add_from_copies(level.coarse_residual, Row::lanes);
   cycle_from<m>(depth + 1, level.coarse_residual, level.coarse_correction);
+  among_coarse.update(level.coarse_correction, Row::lanes);
   const auto& prolongation = level.prolongation;
 #pragma omp parallel for schedule(static) if (prolongation.nonzeros() > parallel_entries)
   for (int row = 0; row < prolongation.rows(); ++row)

@@ -11,8 +11,8 @@ namespace fsi {
 
 /// One V-cycle of smoothed aggregation [Vanek1996] for a scalar matrix like a Laplacian, in single
 /// precision: a preconditioner. Gauss-Seidel forward before the coarse correction and, if wanted, backward after it;
-/// dense inverse on the coarsest level. Where processes share the rows out, each smooths, aggregates and interpolates among
-/// its own ones, so that restriction and prolongation are its own; residuals and coarse matrices are those of the whole.
+/// dense inverse on the coarsest level. Where processes share the rows out, each smooths and aggregates its own ones;
+/// residuals, interpolation and coarse matrices are those of the whole.
 class ScalarMultigrid {
  public:
   struct Options {
@@ -45,13 +45,16 @@ class ScalarMultigrid {
 
  private:
   struct Level {
-    CsrMatrix<float> matrix, prolongation, restriction;
+    CsrMatrix<float> matrix, prolongation, restriction;  ///< rows of restriction: of copies, too
     ShareOfNumbers share;
     SweepChunks chunks;
     std::vector<float> inverse_diagonal;
     std::vector<float> residual, coarse_residual, coarse_correction;
   };
 
+  const ShareOfNumbers& share(std::size_t level) const {
+    return level < levels_.size() ? levels_[level].share : coarsest_share_;
+  }
   template <int m>
   void cycle_from(std::size_t depth, const std::vector<float>& b, std::vector<float>& x);
   template <int m>
@@ -61,6 +64,7 @@ class ScalarMultigrid {
   std::vector<Level> levels_;
   std::vector<float> finest_;  ///< x with places for copies
   const Communicator* processes_ = &Communicator::alone();
+  ShareOfNumbers coarsest_share_;
   std::vector<int> coarsest_counts_;     ///< rows of each process
   std::vector<float> coarsest_inverse_;  ///< own rows, dense, column-major
   std::vector<float> coarsest_right_;    ///< of all processes

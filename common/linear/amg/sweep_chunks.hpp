@@ -18,6 +18,8 @@ namespace fsi {
 struct SweepChunks {
   static constexpr int count = 8;
   static constexpr int smallest = 400;  ///< rows; smaller matrices are one chunk
+  /// Chunks of each of several processes: about as many couplings are left out as by one.
+  static constexpr int count_of_each(int processes) { return std::max(2, count / processes); }
 
   std::vector<int> begin;  ///< chunks + 1 rows
   /// Per row, positions of its first entry within the chunk, of its diagonal, and one past its last within the chunk.
@@ -49,8 +51,8 @@ struct SweepChunks {
 
   SweepChunks() = default;
   /// \param offsets, columns  sparsity by rows, columns ascending, every diagonal entry present
-  SweepChunks(const std::vector<int>& offsets, const std::vector<int>& columns) {
-    divide(static_cast<int>(offsets.size()) - 1);
+  SweepChunks(const std::vector<int>& offsets, const std::vector<int>& columns, int chunks = count) {
+    divide(static_cast<int>(offsets.size()) - 1, chunks);
     for_rows([&](int row, int from, int to) {
       int at = offsets[row];
       while (columns[at] < from) ++at;
@@ -65,8 +67,8 @@ struct SweepChunks {
   /// Of triangles: `first` and `diagonal` are positions in the lower one, which ends at the diagonal, `last` in the upper one.
   /// \param rows  the first of a's, which are divided
   template <int n>
-  SweepChunks(const SplitBlocks<n>& a, int rows) {
-    divide(rows);
+  SweepChunks(const SplitBlocks<n>& a, int rows, int chunks = count) {
+    divide(rows, chunks);
     for_rows([&](int row, int from, int to) {
       int at = a.lower_begin(row);
       while (at < a.lower_end(row) && a.lower.columns[at] < from) ++at;
@@ -79,8 +81,8 @@ struct SweepChunks {
   }
 
  private:
-  void divide(int size) {
-    const int parts = size < count * smallest ? 1 : count;
+  void divide(int size, int chunks) {
+    const int parts = size < chunks * smallest ? 1 : chunks;
     for (int c = 0; c <= parts; ++c) begin.push_back(static_cast<int>(static_cast<long long>(size) * c / parts));
     for (int c = 0; c < parts; ++c) longest = std::max(longest, begin[c + 1] - begin[c]);
     for (auto* positions : {&first, &diagonal, &last}) positions->resize(size);

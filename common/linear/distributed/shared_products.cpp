@@ -13,7 +13,7 @@ SharedProducts<n>::SharedProducts(const JacobianBlocks<n>& blocks, const Velocit
     : layout_(layout),
       shared_(shared),
       matrix_(blocks, layout),
-      sweep_(matrix_.momentum(), layout.own_velocities),
+      sweep_(matrix_.momentum(), layout.own_velocities, matrix_.processes().size()),
       local_(matrix_.size()),
       product_(matrix_.size()),
       residual_(matrix_.velocity_size()),

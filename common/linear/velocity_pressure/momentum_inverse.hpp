@@ -24,7 +24,7 @@ class MomentumInverse {
 
   /// \param matrix  must outlive this
   explicit MomentumInverse(const Matrix& matrix)
-      : matrix_(matrix), layout_(matrix.layout()), gauss_seidel_(matrix.momentum(), layout_.own_velocities) {
+      : matrix_(matrix), layout_(matrix.layout()), gauss_seidel_(matrix.momentum(), layout_.own_velocities, matrix.processes().size()) {
     double counts[2] = {static_cast<double>(layout_.own_pressures), static_cast<double>(layout_.own_velocities)};
     matrix.processes().sum(counts, 2);
     few_pressures_ = BlockPreconditionerChoices::has_few_pressures(counts[0], counts[1]);

@@ -19,9 +19,10 @@ class MomentumSweep {
 
   /// \param matrix  must outlive this; its numbers may change
   /// \param rows    that are swept; columns behind them, of ghosts, count in product() alone
-  MomentumSweep(const SplitBlocks<n>& matrix, int rows)
+  /// \param processes  that sweep together
+  MomentumSweep(const SplitBlocks<n>& matrix, int rows, int processes)
       : matrix_(matrix),
-        chunks_(matrix, rows),
+        chunks_(matrix, rows, SweepChunks::count_of_each(processes)),
         inverse_diagonal_(static_cast<std::size_t>(matrix.rows()) * n * lanes),
         upper_part_(static_cast<std::size_t>(matrix.rows()) * lanes) {}
 
