@@ -253,9 +253,11 @@ class Reader {
             fmt::format("degenerate {}, {} {:.6g} {} with edges up to {:.6g} mm", Words::cell, Words::measure, volume,
                         Words::unit, longest),
             "mesh again, with Mesh.Optimize = 1");
-      else if constexpr (Order == 2)
+      else if constexpr (Order == 2) {
+        if (is_surely_positive<Dim>(x)) continue;
         if (const auto jacobian = cell_jacobian<Dim>(x); !jacobian.positive)
           bad(curved, bad_curved_cell(jacobian), curved_cell_remedy);
+      }
     }
     for (const auto& kind : {inverted, degenerate, curved})
       if (kind.count > 0)

@@ -86,6 +86,53 @@ TEST_F(RingOfProcesses, OwnValuesSummedOverCopies) {
   EXPECT_EQ(all.sum(own), all.size() * (3 + copies));
 }
 
+TEST_F(RingOfProcesses, FloatsAreBroughtAndAdded) {
+  const Exchange ring = exchange();
+  std::vector<float> values(static_cast<std::size_t>(3 + copies), static_cast<float>(all.rank() + 1));
+  ring.update(values);
+  if (copies > 0) {
+    EXPECT_EQ(values[3], before + 1);
+    EXPECT_EQ(values[4], behind + 1);
+  }
+  ring.add_from_copies(values);  // items 0 and 2 have one copy each
+  const float own = static_cast<float>(all.rank() + 1);
+  EXPECT_EQ(values[1], own);
+  for (const int item : {0, 2}) EXPECT_EQ(values[item], copies > 0 ? 2 * own : own);
+}
+
+TEST_F(RingOfProcesses, RowsOfAnyLengthGoBothWays) {
+  const Exchange ring = exchange();
+  Exchange::Rows rows(static_cast<std::size_t>(3 + copies));
+  for (int item = 0; item < 3; ++item) rows[item].assign(item, 10.0 * all.rank() + item);  // of 0, 1 and 2 numbers
+  ring.update_rows(rows);
+  if (copies > 0) {
+    EXPECT_EQ(rows[3], std::vector<double>(2, 10.0 * before + 2));
+    EXPECT_TRUE(rows[4].empty());
+  }
+  const auto back = ring.rows_from_copies(rows);
+  ASSERT_EQ(back.size(), ring.neighbours().size());
+  for (std::size_t n = 0; n < back.size(); ++n)
+    for (std::size_t i = 0; i < back[n].size(); ++i) EXPECT_EQ(back[n][i], rows[ring.neighbours()[n].sent[i]]);
+}
+
+/// Each process has as many items as its number says, the first none, and copies of all others'.
+TEST(ShareOfNumbers, FindsOwnersByNumber) {
+  const Communicator& all = Communicator::world();
+  const int own = all.rank();
+  const std::int64_t whole = all.size() * (all.size() - 1) / 2, first = all.sum_before(std::int64_t{own});
+  std::vector<std::int64_t> copies;
+  for (std::int64_t number = whole - 1; number >= 0; --number)
+    if (number < first || number >= first + own) copies.push_back(number);
+  const ShareOfNumbers share(all, own, copies);
+  EXPECT_EQ(share.first, first);
+  EXPECT_EQ(share.items(), whole);
+  std::vector<double> values(share.items(), -1);
+  for (int item = 0; item < own; ++item) values[item] = 100.0 + static_cast<double>(share.number(item));
+  share.exchange.update(values);
+  for (int item = 0; item < share.items(); ++item)
+    EXPECT_EQ(values[item], 100.0 + static_cast<double>(share.number(item)));
+}
+
 TEST_F(RingOfProcesses, MessagesAndBytesAreCounted) {
   const Exchange ring = exchange();
   auto values = own_values(3);
