@@ -131,13 +131,14 @@ class SurfaceChecks {
 
   /// Facets that may lie in several planes normal to one axis.
   void normal_to(int axis, const Plane& plane) const {
+    const double flat_to = flatness();
     for (const auto& facet : plane.group->facets) {
       double low = checked_.mesh.nodes[facet[0]][axis], high = low;
       for (const int node : facet) {
         low = std::min(low, checked_.mesh.nodes[node][axis]);
         high = std::max(high, checked_.mesh.nodes[node][axis]);
       }
-      if (high - low > flatness())
+      if (high - low > flat_to)
         checked_.fail(
             plane.group->name,
             fmt::format("the {} at {} does not lie in a plane normal to {}: its nodes are {:.3g} mm apart along it",
@@ -175,7 +176,7 @@ class SurfaceChecks {
                     "put each plane into a group of its own: symmetry_1, symmetry_2 and so on");
   }
 
-  /// How far off its plane a node may lie, mm.
+  /// How far off its plane a node may lie, mm. Looks at all nodes.
   double flatness() const { return 1e-6 * checked_.size(); }
 
   /// A side of quadratic triangles that runs from axis to axis beside it would be a wall.

@@ -114,7 +114,8 @@ std::unique_ptr<LinearSolver> make_fast_or_direct(const std::string& name, const
 }
 
 std::string linear_solver_in_words(const std::string& name, const FastOptions& fast, const Communicator& processes) {
-  if (name != "fast" || is_petsc_in_place_of_fast(processes)) return name;
+  if (name != "fast") return name;
+  if (is_petsc_in_place_of_fast(processes)) return "petsc";
   return fmt::format("{}, where it iterates preconditioned by {}", name, fast.preconditioner);
 }
 

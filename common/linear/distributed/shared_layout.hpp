@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "linear/distributed/petsc_call.hpp"
-#include "linear/velocity_pressure/velocity_pressure_layout.hpp"
+#include "linear/velocity_pressure/velocity_pressure_ghosts.hpp"
 
 namespace fsi {
 
@@ -26,13 +26,12 @@ class SharedLayout {
   PetscInt first_velocity = 0;                           ///< number of its first velocity node
 
   /// Gives ghosts' velocities the owners' numbers. \param per_velocity  of the layout
-  void update_velocities(std::vector<double>& per_velocity) const;
+  void update_velocities(std::vector<double>& per_velocity) const { ghosts_.velocities.exchange.update(per_velocity); }
 
   PetscInt rows() const { return velocity_rows + pressure_rows; }
 
  private:
-  const PartNodes* parts_[2];  ///< fluid and wall; null where there is none
-  const VelocityPressureLayout<n>& layout_;
+  VelocityPressureGhosts<n> ghosts_;
 };
 
 }  // namespace fsi

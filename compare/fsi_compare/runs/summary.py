@@ -25,9 +25,6 @@ PER_PROCESS = (
     "messages_per_step",
     "bytes_per_step",
     "reductions_per_step",
-    "solver_messages_per_step",
-    "solver_bytes_per_step",
-    "solver_reductions_per_step",
 )
 MOST = 1 << 53  # counts up to here are exact as floating-point numbers too
 

@@ -43,11 +43,18 @@ class Petsc(FolderTest):
         restart(MONOLITHIC, NEO_HOOKEAN, first, self.mesh, *tight, "output.every=0")
         np.testing.assert_array_equal(pressure(first), pressure(whole))
 
-    def test_two_processes_take_petsc_for_fast_and_mumps_for_direct(self):
-        for solver, said in (("fast", '"petsc" in place of "fast"'), ("direct", "MUMPS")):
-            folder = self.solve(f"two-{solver}", solver, "linear.direct_below=0", processes=2)
+    def test_two_processes(self):
+        velocity = "petsc.options=-fsi_velocity_pc_type pbjacobi"
+        for name, solver, said, *settings in (
+            ("fast", "fast", "linear solver: fast, where it iterates preconditioned by block-factors"),
+            ("simple", "fast", "preconditioned by simple", "linear.preconditioner=simple"),
+            ("options", "fast", '"petsc" in place of "fast", since the case has [petsc] options', velocity),
+            ("petsc", "petsc", "linear solver: petsc"),
+            ("direct", "direct", "MUMPS"),
+        ):
+            folder = self.solve(f"two-{name}", solver, "linear.direct_below=0", *settings, processes=2)
             self.expect_exact(folder)
-            self.assertEqual((folder / "run.log").read_text().count(said), 1)
+            self.assertEqual((folder / "run.log").read_text().count(said), 1, name)
 
     def test_two_processes_refuse_the_solvers_of_the_paper(self):
         said = self.refusal("monolithic.linear_solver=amg_fgmres", processes=2)

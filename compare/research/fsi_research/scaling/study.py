@@ -2,9 +2,8 @@
 give.
 
 `[report.scaling]` names groups of runs: `strong`, one mesh on varied processes; `weak`, meshes that grow with them;
-`counts`, on more processes than cores, whose iterations and messages count and whose seconds do not; `reference`, the same
-meshes on one process by the solver that is made for one. `[report.model]`: processes and nodes that the model is asked for,
-and the machine that it imagines."""
+`counts`, on more processes than cores, whose iterations and messages count and whose seconds do not. `[report.model]`:
+processes and nodes that the model is asked for, and the machine that it imagines."""
 
 from dataclasses import dataclass
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
@@ -20,7 +19,7 @@ from .measured import Measured, measure
 from .model import Counted, Machine, Step, assumptions, counted, step
 from .tables import alone, counts_table, short, model_table, strong_table, weak_efficiency, weak_table
 
-GROUPS = ("strong", "weak", "counts", "reference")
+GROUPS = ("strong", "weak", "counts")
 MODEL_KEYS = (
     "processes",
     "nodes",
@@ -105,8 +104,7 @@ def evaluate(context: Context) -> int:
             by_line.setdefault(label, []).append(measure(run, label, processes, runner.threads, cores))
         return [sorted(runs, key=lambda run: run.processes) for runs in by_line.values()]
 
-    strong, weak, counts, reference = (lines(group) for group in GROUPS)
-    single = [run for runs in reference for run in runs]
+    strong, weak, counts = (lines(group) for group in GROUPS)
     everything = [run for lines_of_group in (strong, weak, counts) for runs in lines_of_group for run in runs]
     models = [(runs, _counted(_with_counts(runs, counts), everything)) for runs in strong]
     modelled = _modelled([(runs, model) for runs, model in models if model is not None], settings)
@@ -115,10 +113,9 @@ def evaluate(context: Context) -> int:
     if broken:
         report.text(f"**{len(broken)} runs did not come to their end:**")
         report.list([f"{run.request.label}: {run.status}, {run.message}" for run in broken])
-    report.list([*_in_short(strong, single, cores), *_weak_in_short(weak), *_model_in_short(modelled)])
+    report.list([*_in_short(strong, cores), *_weak_in_short(weak), *_model_in_short(modelled)])
     from .pictures import counts_figure, model_figure, times_figure  # matplotlib takes a second to load
 
-    fast = [_reference(runs, single) for runs in strong]
     report.section("On the cores that are here")
     report.figure(
         "scaling",
@@ -126,7 +123,7 @@ def evaluate(context: Context) -> int:
         f"Seconds of time steps on up to {cores} processes, as many as there are cores; grey: ideal. Above that number "
         "seconds mean nothing and are not drawn.",
     )
-    report.table(strong_table(strong, fast, "strong"))
+    report.table(strong_table(strong, "strong"))
     if weak:
         report.table(weak_table(weak))
     if counts or strong:
@@ -180,16 +177,6 @@ def _dimension(run: StudyRun) -> int:
     return 3 if run.summary.get("geometry", "3d") == "3d" else 2
 
 
-def _reference(runs: Sequence[Measured], single: Sequence[Measured]) -> Optional[Measured]:
-    """The run of the same driver on the same mesh."""
-
-    def same(one: Measured, other: Measured) -> bool:
-        a, b = one.run.request, other.run.request
-        return a.method.program == b.method.program and a.case == b.case and one.nodes == other.nodes
-
-    return next((other for other in single if same(runs[0], other)), None)
-
-
 def _modelled(models: Sequence[Tuple[Sequence[Measured], Counted]], settings: Asked) -> List[Tuple[str, Step, Step]]:
     """(method, step on one process, step) for the study's mesh and those that it names beside it."""
     found = []
@@ -205,7 +192,7 @@ def _row(name: str, one: Step) -> str:
     return f"{name}\n{one.nodes:,} nodes on {one.processes:,} processes"
 
 
-def _in_short(strong: Sequence[Sequence[Measured]], single: Sequence[Measured], cores: int) -> List[str]:
+def _in_short(strong: Sequence[Sequence[Measured]], cores: int) -> List[str]:
     lines = []
     for runs in strong:
         one, most = alone(runs), max(runs, key=lambda run: (not run.crowded, run.processes))
@@ -219,9 +206,6 @@ def _in_short(strong: Sequence[Sequence[Measured]], single: Sequence[Measured], 
             )
         elif cores == 1:
             words += "there is one core, so that no speed-up can be measured. "
-        fast = _reference(runs, single)
-        if fast is not None:
-            words += f"On one process it takes {one.seconds / fast.seconds:.2f} times the seconds of {fast.label}. "
         last = runs[-1]
         words += f"Linear iterations: {one.linear:.1f} a step on one process, {last.linear:.1f} on {last.processes}."
         lines.append(words)

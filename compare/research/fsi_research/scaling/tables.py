@@ -18,11 +18,10 @@ def alone(runs: Sequence[Measured]) -> Optional[Measured]:
 
 
 class Strong(NamedTuple):
-    """A run, that on one process, and that by the solver for one process."""
+    """A run, and that on one process."""
 
     run: Measured
     one: Optional[Measured]
-    reference: Optional[Measured]
 
     @property
     def speed_up(self) -> Optional[float]:
@@ -41,18 +40,10 @@ STRONG: Sequence[Column[Strong]] = (
     Column(csv="nodes", value=lambda s: s.run.nodes),
     Column(csv="unknowns", value=lambda s: s.run.unknowns),
     Column(
-        "measured",
+        "seconds per step",
         "seconds_per_step",
         lambda s: s.run.seconds,
         text=lambda s: fixed(s.run.meaningful_seconds, ".3g"),
-        group="seconds per step",
-    ),
-    Column(
-        "of `fast` on one",
-        "fast_seconds_per_step",
-        lambda s: s.reference and s.reference.seconds,
-        ".3g",
-        group="seconds per step",
     ),
     Column("speed-up", "speed_up", lambda s: s.speed_up, ".2f"),
     Column("efficiency", "efficiency", lambda s: s.efficiency, ".0%"),
@@ -64,9 +55,8 @@ STRONG: Sequence[Column[Strong]] = (
 )
 
 
-def strong_table(by_method: Sequence[Sequence[Measured]], fast: Sequence[Optional[Measured]], stem: str) -> Table:
-    """`fast`: of each method, the run of its driver by the solver for one process."""
-    found = [Strong(run, alone(runs), reference) for runs, reference in zip(by_method, fast) for run in runs]
+def strong_table(by_method: Sequence[Sequence[Measured]], stem: str) -> Table:
+    found = [Strong(run, alone(runs)) for runs in by_method for run in runs]
     table = Table(stem, "The same mesh on more processes", STRONG, found)
     if any(s.run.crowded for s in found):
         table.notes.append(
