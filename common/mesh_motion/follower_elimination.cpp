@@ -14,8 +14,7 @@ std::vector<char> find_followers(const CsrMatrix<double>& a) {
   for (int row = 0; row < a.rows(); ++row) {
     bool beside_follower = false;
     for (int at = a.offsets[row]; at < a.offsets[row + 1]; ++at)
-      if (a.indices[at] != row && a.values[at] != 0)
-        beside_follower = beside_follower || follows[a.indices[at]] != 0;
+      if (a.indices[at] != row && a.values[at] != 0) beside_follower = beside_follower || follows[a.indices[at]] != 0;
     follows[row] = FollowerElimination::leaders(a, row) <= FollowerElimination::most_leaders && !beside_follower;
   }
   return follows;

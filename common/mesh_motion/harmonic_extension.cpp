@@ -91,8 +91,7 @@ bool HarmonicExtension<n>::mixes(const NodalFrames<n>* frames) {
 template <int n>
 std::int64_t HarmonicExtension<n>::unknowns() const {
   std::int64_t own = 0;
-  for (const Group& group : groups_)
-    own += group.followers.own_kept() * static_cast<std::int64_t>(group.offset.size());
+  for (const Group& group : groups_) own += group.followers.own_kept() * static_cast<std::int64_t>(group.offset.size());
   return processes().sum(own);
 }
 
@@ -286,7 +285,6 @@ template <int n>
 void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<double>& field, double tolerance) {
   assert(right.size() == inner_.size() && field.size() == inner_.size());
   iterations_ = 0;
-  if (rescue_) return rescue_->solve(right, field, tolerance);
   parallel_for(inner_.size(), inner_.size() > 50000, [&](std::size_t i) { values_[i] = inner_[i] ? 0 : field[i]; });
   apply_operator_to_given();
   if (nodes_) {
@@ -304,8 +302,10 @@ void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<d
                                           : iterate<3>(group, right, field, tolerance);
       if (converged) continue;
       if (nodes_) {
-        rescue_ = make_rescue_();
-        rescue_->update();
+        if (!rescue_) {
+          rescue_ = make_rescue_();
+          rescue_->update();
+        }
         return rescue_->solve(right, field, tolerance);
       }
       if (!group.solver.factorised()) factorise(group, group.matrix);
@@ -404,8 +404,8 @@ bool HarmonicExtension<n>::iterate(Group& group, const std::vector<double>& righ
   const std::size_t size = static_cast<std::size_t>(rows) * m, with_copies = kept.size() * m;
   std::vector<double> x(with_copies), r(size), z(size), p(with_copies, 0.0), q(size);
   std::vector<float> single_r(static_cast<std::size_t>(rows) * lanes, 0.0f), single_z(single_r);
-  const auto sums = [&](const std::vector<double>& y, const std::vector<double>& z) {
-    auto of_all = dots<m>(rows, y, z);
+  const auto sums = [&](const std::vector<double>& u, const std::vector<double>& v) {
+    auto of_all = dots<m>(rows, u, v);
     processes().sum(of_all.data(), m);
     return of_all;
   };

@@ -134,7 +134,7 @@ class HarmonicExtension : public MeshExtension<n> {
   const NodalFrames<n>* frames_;
   const NodeShare* nodes_ = nullptr;  ///< null: all are here
   std::function<std::unique_ptr<MeshExtension<n>>()> make_rescue_;
-  std::unique_ptr<MeshExtension<n>> rescue_;  ///< of the present operator; null: the iteration serves
+  std::unique_ptr<MeshExtension<n>> rescue_;  ///< of the present operator; null: the iteration served so far
   std::vector<Group> groups_;
   /// A node of which some component is given, and the numbers by which another one's rows, or its own, know it: a copy, for
   /// they lie far apart in the matrix.

@@ -125,8 +125,8 @@ void Exchange::communicate(const Real* values, int entries, Way way) const {
     if (items.empty()) continue;
     Real* to = to_send[i].data();
     for (const int item : items) to = std::copy_n(values + static_cast<std::size_t>(item) * entries, entries, to);
-    MPI_Isend(to_send[i].data(), static_cast<int>(to_send[i].size()), type, neighbours_[i].rank, tag,
-              communicator, &requests[2 * i + 1]);
+    MPI_Isend(to_send[i].data(), static_cast<int>(to_send[i].size()), type, neighbours_[i].rank, tag, communicator,
+              &requests[2 * i + 1]);
     ++processes_->traffic_.messages;
     processes_->traffic_.bytes += static_cast<std::int64_t>(sizeof(Real) * to_send[i].size());
   }

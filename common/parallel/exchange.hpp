@@ -79,7 +79,7 @@ class Exchange {
 /// Items of which each process has a stretch of consecutive numbers among all processes', and copies of others.
 struct ShareOfNumbers {
   const Communicator* processes = &Communicator::alone();
-  std::int64_t first = 0;            ///< number of the first own item; they are the first items here
+  std::int64_t first = 0;  ///< number of the first own item; they are the first items here
   int own = 0;
   std::vector<std::int64_t> copies;  ///< numbers of the items behind the own ones
   Exchange exchange;

@@ -176,13 +176,12 @@ void smooth(const BlockMatrix<size, size>& a, const ShareOfNumbers& share, const
   }
   filtered.graph = std::move(graph);
   std::vector<double> with_copies(static_cast<std::size_t>(share.items()) * size, 0.0);  // own rows and columns alone
-  const double scale =
-      damping / share.processes->largest(largest_eigenvalue(
-                    rough_vector(static_cast<std::size_t>(a.graph->rows()) * size), eigenvalue_iterations,
-                    [&](const auto& x, auto& y) {
-                      std::copy(x.begin(), x.end(), with_copies.begin());
-                      multiply(filtered, with_copies, y);
-                    }));
+  const double scale = damping / share.processes->largest(
+                                     largest_eigenvalue(rough_vector(static_cast<std::size_t>(a.graph->rows()) * size),
+                                                        eigenvalue_iterations, [&](const auto& x, auto& y) {
+                                                          std::copy(x.begin(), x.end(), with_copies.begin());
+                                                          multiply(filtered, with_copies, y);
+                                                        }));
   const auto all = as_blocks<size, modes>(with_rows_of_copies(as_rows(tentative), share, coarse));
   p = block_product(filtered, all, coarse.items());
   for (double& value : p.values) value *= -scale;
@@ -224,8 +223,8 @@ std::optional<Coarsened<modes, size>> coarsened(const BlockMatrix<size, size>& a
     renumber(p, before, coarse);
     const int columns = coarse.items();
     before = coarse;
-    result.matrix = as_blocks<modes, modes>(sum_of_rows(
-        as_rows(block_product(transposed(p, columns), block_product(a, all, columns), columns)), coarse));
+    result.matrix = as_blocks<modes, modes>(
+        sum_of_rows(as_rows(block_product(transposed(p, columns), block_product(a, all, columns), columns)), coarse));
     renumber(p, before, coarse);
     result.restriction = transposed(p, coarse.items());
     // Rigid motions that depend on others within an aggregate have left empty rows: a one keeps them at zero.
@@ -328,8 +327,8 @@ std::size_t RigidMotionMultigrid<n>::bytes() const {
 
 template <int n>
 void RigidMotionMultigrid<n>::invert_coarsest(BlockMatrix<modes, modes> matrix, const ShareOfNumbers& share) {
-  const auto all = gather_rows({modes * modes, matrix.graph->offsets, matrix.graph->columns, std::move(matrix.values)},
-                               share);
+  const auto all =
+      gather_rows({modes * modes, matrix.graph->offsets, matrix.graph->columns, std::move(matrix.values)}, share);
   const std::size_t size = static_cast<std::size_t>(all.rows()) * modes;
   std::vector<double> dense(size * size, 0.0);  // column-major
   for (int row = 0; row < all.rows(); ++row)
@@ -354,7 +353,8 @@ void RigidMotionMultigrid<n>::invert_coarsest(BlockMatrix<modes, modes> matrix, 
 template <int n>
 void RigidMotionMultigrid<n>::solve_coarsest() {
   processes_->gather(coarsest_b_.data(), coarsest_counts_, coarsest_right_.data());
-  const std::size_t own = static_cast<std::size_t>(coarsest_share_.own) * modes, size = coarsest_right_.size() / lanes * modes;
+  const std::size_t own = static_cast<std::size_t>(coarsest_share_.own) * modes,
+                    size = coarsest_right_.size() / lanes * modes;
   dense_x_.assign(own, 0.0f);
   for (std::size_t j = 0; j < size; ++j) {
     const float* column = coarsest_inverse_.data() + j * own;

@@ -76,8 +76,8 @@ class RigidMotionMultigrid {
   bool coarsens_ = false;                  ///< there are coarse levels
   const Communicator* processes_ = &Communicator::alone();
   ShareOfNumbers coarsest_share_;
-  std::vector<int> coarsest_counts_;       ///< floats of each process's right side
-  std::vector<float> coarsest_inverse_;    ///< own rows, dense, column-major
+  std::vector<int> coarsest_counts_;     ///< floats of each process's right side
+  std::vector<float> coarsest_inverse_;  ///< own rows, dense, column-major
   std::vector<float> coarsest_b_, coarsest_x_, coarsest_right_, dense_x_;
   bool post_smoothing_ = false;
 };

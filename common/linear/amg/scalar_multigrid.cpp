@@ -94,8 +94,8 @@ CsrMatrix<double> smoothed_prolongation(const CsrMatrix<double>& a, const ShareO
   tentative.values.assign(aggregate.size(), 1.0);
   for (int row = 0; row < a.rows(); ++row) tentative.offsets.push_back(row + 1);
   auto all = with_rows_of_copies(std::move(tentative), share, coarse);
-  CsrMatrix<double> p = product(
-      filtered, {coarse.items(), std::move(all.offsets), std::move(all.columns), std::move(all.values)});
+  CsrMatrix<double> p =
+      product(filtered, {coarse.items(), std::move(all.offsets), std::move(all.columns), std::move(all.values)});
   for (int row = 0; row < a.rows(); ++row)
     for (int at = p.offsets[row]; at < p.offsets[row + 1]; ++at) {
       p.values[at] *= -scale / diagonal[row];
@@ -113,8 +113,8 @@ CsrMatrix<double> galerkin_product(const CsrMatrix<double>& a, const ShareOfNumb
   auto all = with_rows_of_copies({1, p.offsets, p.indices, p.values}, share, coarse);
   renumber(p.indices, before, coarse);
   p.columns = coarse.items();
-  auto c = product(transposed(p), product(a, {p.columns, std::move(all.offsets), std::move(all.columns),
-                                              std::move(all.values)}));
+  auto c = product(transposed(p),
+                   product(a, {p.columns, std::move(all.offsets), std::move(all.columns), std::move(all.values)}));
   before = coarse;
   auto sum = sum_of_rows({1, std::move(c.offsets), std::move(c.indices), std::move(c.values)}, coarse);
   renumber(p.indices, before, coarse);
@@ -148,8 +148,7 @@ void ScalarMultigrid::set_up(const CsrMatrix<double>& matrix, const ShareOfNumbe
     int count = 0;
     const auto aggregate = aggregates(a, within, count);
     threshold *= 0.5;
-    const bool stuck =
-        static_cast<double>(processes_->sum(std::int64_t{count})) > 0.8 * static_cast<double>(whole);
+    const bool stuck = static_cast<double>(processes_->sum(std::int64_t{count})) > 0.8 * static_cast<double>(whole);
     if (stuck && threshold > 1e-3 * options.threshold) continue;  // hardly anything is strong: demand less
     Level level;
     level.matrix = converted<float>(a);
@@ -271,7 +270,7 @@ void ScalarMultigrid::cycle_from(std::size_t depth, const std::vector<float>& b,
                x, row);
   if (!post_smoothing_) return;
   level.share.exchange.update(x, Row::lanes);
-    // (D + U) e = b - A x, x += e; e takes the residual's place
+  // (D + U) e = b - A x, x += e; e takes the residual's place
 #pragma omp parallel for schedule(static) if (a.nonzeros() > parallel_entries)
   for (int row = 0; row < a.rows(); ++row)
     Row::store(Row::load(b, row) - Row::product(a, a.offsets[row], a.offsets[row + 1], x), r, row);

@@ -18,10 +18,9 @@ namespace fsi {
 
 void refuse_preconditioner(const FastOptions& fast, const std::string& where) {
   if (fast.preconditioner == flow_preconditioner_list[0]) return;
-  throw InputError(
-      case_of_petsc_options(), "linear.preconditioner",
-      "\"" + fast.preconditioner + "\" is a preconditioner of \"fast\", and there is none for " + where,
-      "leave it out, or take linear_solver = \"fast\" without [petsc] options");
+  throw InputError(case_of_petsc_options(), "linear.preconditioner",
+                   "\"" + fast.preconditioner + "\" is a preconditioner of \"fast\", and there is none for " + where,
+                   "leave it out, or take linear_solver = \"fast\" without [petsc] options");
 }
 
 namespace {
@@ -128,12 +127,11 @@ std::string other_solver_on_processes(const std::string& name, const FastOptions
     const SolverPolicy policy(SolvedSystem::jacobian, dimension, {fast.direct_below, false, processes.size()});
     const auto bound = policy.factorises_below();
     if (bound > 0)
-      return fmt::format("linear_solver = \"fast\": systems below {} unknowns are factorised at the first process{}",
-                         bound,
-                         policy.wall_decides(bound - 1)
-                             ? fmt::format(", but for coupled ones from {} on that the wall decides about",
-                                           SolverPolicy::wall_decides_from)
-                             : "");
+      return fmt::format(
+          "linear_solver = \"fast\": systems below {} unknowns are factorised at the first process{}", bound,
+          policy.wall_decides(bound - 1) ? fmt::format(", but for coupled ones from {} on that the wall decides about",
+                                                       SolverPolicy::wall_decides_from)
+                                         : "");
   }
   if (name == "direct") return "linear_solver = \"direct\" factorises by MUMPS, since UMFPACK works on one process";
   return "";

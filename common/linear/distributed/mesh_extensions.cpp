@@ -34,7 +34,8 @@ std::unique_ptr<MeshExtension<n>> make_harmonic_extension(const BlockMatrix<1, n
       return std::make_unique<PetscExtension<n>>(laplacian, inner, frames, part, central_below);
     };
     const std::int64_t central_below = factorised_at_first_below(n);
-    if (has_petsc_options() || part.processes().any(HarmonicExtension<n>::mixes(frames))) return by_petsc(central_below);
+    if (has_petsc_options() || part.processes().any(HarmonicExtension<n>::mixes(frames)))
+      return by_petsc(central_below);
     auto iteration = std::make_unique<HarmonicExtension<n>>(laplacian, inner, frames, *part.share,
                                                             [by_petsc] { return by_petsc(0); });
     if (iteration->unknowns() < central_below) return by_petsc(central_below);
@@ -64,9 +65,9 @@ std::unique_ptr<MeshExtension<n>> make_shared_extension(const JacobianBlocks<n>&
 template <int n>
 using OwnedExtension = std::unique_ptr<MeshExtension<n>>;
 
-#define FSI_INSTANTIATE(n)                                                                        \
-  template OwnedExtension<n> make_harmonic_extension(const BlockMatrix<1, n>&, std::vector<char>, \
-                                                     const NodalFrames<n>*, const PartNodes&);    \
+#define FSI_INSTANTIATE(n)                                                                                             \
+  template OwnedExtension<n> make_harmonic_extension(const BlockMatrix<1, n>&, std::vector<char>,                      \
+                                                     const NodalFrames<n>*, const PartNodes&);                         \
   template OwnedExtension<n> make_tangent_extension(const MeshMotionTangent<n>&, std::vector<char>, const PartNodes&); \
   template OwnedExtension<n> make_shared_extension(const JacobianBlocks<n>&, std::vector<char>);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)

@@ -42,8 +42,8 @@ class FlowSchurComplement {
     ScalarMultigrid::Options options;
     options.post_smoothing = options.post_smoothing || momentum.has_few_pressures();
     const Communicator& processes = matrix_.processes();
-    const SolverPolicy policy(processes.is_alone() ? SolvedSystem::schur_complement : SolvedSystem::shared_schur_complement,
-                              n);
+    const SolverPolicy policy(
+        processes.is_alone() ? SolvedSystem::schur_complement : SolvedSystem::shared_schur_complement, n);
     inverse_.set_up(values_, share_, options,
                     !policy.decide(processes.sum(std::int64_t{layout_.own_pressures})).iterates);
   }
@@ -116,8 +116,7 @@ class FlowSchurComplement {
     others.erase(std::unique(others.begin(), others.end()), others.end());
     const auto column_of = [&](std::int64_t number) {
       if (is_own(number)) return static_cast<int>(number - pressures.first);
-      return pressures.own +
-             static_cast<int>(std::lower_bound(others.begin(), others.end(), number) - others.begin());
+      return pressures.own + static_cast<int>(std::lower_bound(others.begin(), others.end(), number) - others.begin());
     };
     for (int p = pressures.own; p < layout_.pressures; ++p) column_[p] = column_of(pressures.number(p));
     for (int v = layout_.own_velocities; v < layout_.velocities; ++v) {
@@ -181,20 +180,22 @@ class FlowSchurComplement {
           values_.values[at] = 0;
         }
         const double scale = layout_.row_scale(p);
-        matrix_.for_blocks_of_node(
-            layout_.wall_pressure[p], layout_.node_of_pressure[p], [&](const double* block, int v, int q, double factor) {
-              if (q >= 0) values_.values[position[column_[q]]] += scale * block[MixedLayout<n>::in_block(n, n)];
-              if (v < 0) return;
-              double divergence[n];  // a row of B D^-1
-              for (int k = 0; k < n; ++k)
-                divergence[k] = scale * factor * block[MixedLayout<n>::in_block(n, k)] *
-                                inverse_diagonal[VectorLayout<n>::vector(v, k)];
-              for_gradient(v, [&](int column, const float* g) {
-                double sum = 0;
-                for (int k = 0; k < n; ++k) sum += divergence[k] * g[k];
-                values_.values[position[column]] -= sum;
-              });
-            });
+        matrix_.for_blocks_of_node(layout_.wall_pressure[p], layout_.node_of_pressure[p],
+                                   [&](const double* block, int v, int q, double factor) {
+                                     if (q >= 0)
+                                       values_.values[position[column_[q]]] +=
+                                           scale * block[MixedLayout<n>::in_block(n, n)];
+                                     if (v < 0) return;
+                                     double divergence[n];  // a row of B D^-1
+                                     for (int k = 0; k < n; ++k)
+                                       divergence[k] = scale * factor * block[MixedLayout<n>::in_block(n, k)] *
+                                                       inverse_diagonal[VectorLayout<n>::vector(v, k)];
+                                     for_gradient(v, [&](int column, const float* g) {
+                                       double sum = 0;
+                                       for (int k = 0; k < n; ++k) sum += divergence[k] * g[k];
+                                       values_.values[position[column]] -= sum;
+                                     });
+                                   });
       }
     }
   }
@@ -211,8 +212,8 @@ class FlowSchurComplement {
 
   const Matrix& matrix_;
   const VelocityPressureLayout<n>& layout_;
-  ShareOfNumbers share_;     ///< of S's rows and columns
-  std::vector<int> column_;  ///< of S, per pressure of the layout
+  ShareOfNumbers share_;                            ///< of S's rows and columns
+  std::vector<int> column_;                         ///< of S, per pressure of the layout
   std::vector<int> ghost_offsets_, ghost_columns_;  ///< G's rows of ghosts
   std::vector<float> ghost_gradient_;               ///< n numbers an entry
   CsrMatrix<double> values_;

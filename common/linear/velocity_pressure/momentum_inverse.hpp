@@ -24,7 +24,9 @@ class MomentumInverse {
 
   /// \param matrix  must outlive this
   explicit MomentumInverse(const Matrix& matrix)
-      : matrix_(matrix), layout_(matrix.layout()), gauss_seidel_(matrix.momentum(), layout_.own_velocities, matrix.processes().size()) {
+      : matrix_(matrix),
+        layout_(matrix.layout()),
+        gauss_seidel_(matrix.momentum(), layout_.own_velocities, matrix.processes().size()) {
     double counts[2] = {static_cast<double>(layout_.own_pressures), static_cast<double>(layout_.own_velocities)};
     matrix.processes().sum(counts, 2);
     few_pressures_ = BlockPreconditionerChoices::has_few_pressures(counts[0], counts[1]);
@@ -103,9 +105,9 @@ class MomentumInverse {
  private:
   /// A's block diagonal, inverted, and what is made of its diagonals.
   void fill_diagonals() {
-    diagonals_.fill(matrix_, has_few_pressures(),
-                    [&](int v, const auto& diagonal) { gauss_seidel_.set_diagonal(v, diagonal); },
-                    matrix_.processes());
+    diagonals_.fill(
+        matrix_, has_few_pressures(), [&](int v, const auto& diagonal) { gauss_seidel_.set_diagonal(v, diagonal); },
+        matrix_.processes());
     matrix_.ghosts().velocities.exchange.update(diagonals_.inverse(), n);
     for (int v = 0; v < layout_.own_velocities; ++v)
       for (int k = 0; k < n; ++k)

@@ -43,9 +43,8 @@ struct VelocityPressureGhosts {
       });
     }
     const auto share = [&](int kind) {
-      return ShareOfNumbers(
-          processes, own[kind],
-          std::vector<std::int64_t>(numbers[kind].begin() + own[kind], numbers[kind].end()));
+      return ShareOfNumbers(processes, own[kind],
+                            std::vector<std::int64_t>(numbers[kind].begin() + own[kind], numbers[kind].end()));
     };
     velocities = share(0);
     pressures = share(1);

@@ -24,7 +24,7 @@ class VelocityPressureLayout {
  public:
   int velocities = 0;  ///< nodes that can move
   int pressures = 0;
-  int own_velocities = 0, own_pressures = 0;  ///< of these, the first, without ghosts
+  int own_velocities = 0, own_pressures = 0;             ///< of these, the first, without ghosts
   std::vector<int> velocity_of_fluid, velocity_of_wall;  ///< per node of the part; -1 where it is prescribed
   std::vector<int> pressure_of_fluid, pressure_of_wall;  ///< per node of the part; -1 where it has none
   std::vector<int> fluid_of_velocity, wall_of_velocity;  ///< per velocity node, the first of its nodes; -1: none

@@ -88,8 +88,8 @@ class WallCoarseCorrection {
 
  private:
   const Matrix& matrix_;
-  std::vector<int> nodes_;                     ///< own velocity nodes of the wall
-  std::vector<int> number_;                    ///< per velocity node, among these and then ghosts; -1: not the wall's
+  std::vector<int> nodes_;   ///< own velocity nodes of the wall
+  std::vector<int> number_;  ///< per velocity node, among these and then ghosts; -1: not the wall's
   ShareOfNumbers share_;
   std::vector<std::array<double, 3>> points_;  ///< their places at rest
   std::vector<char> fixed_;                    ///< per node and component: no unknown; empty: none
