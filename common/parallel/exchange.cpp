@@ -109,7 +109,7 @@ void Exchange::communicate(const Real* values, int entries, Way way) const {
   to_receive.resize(neighbours_.size());
   if (neighbours_.empty()) return;
   assert(processes_ != nullptr);
-  const MPI_Datatype type = std::is_same_v<Real, double> ? MPI_DOUBLE : MPI_FLOAT;
+  MPI_Datatype type = std::is_same_v<Real, double> ? MPI_DOUBLE : MPI_FLOAT;
   constexpr int tag = 1;
   MPI_Comm communicator = mpi_of(*processes_);
   std::vector<MPI_Request> requests(2 * neighbours_.size(), MPI_REQUEST_NULL);

@@ -1,16 +1,18 @@
 """Every element and geometry, material, driver and linear solver on 2, 3, 4 and 8 processes against one: what CI takes in
 turn. Prints tables for docs/guide/clusters.md. By `cmake --build --preset release --target process_matrix`, in half an hour;
-FSI_MATRIX_PROCESSES="2 3" for other numbers of processes."""
+FSI_MATRIX_PROCESSES="2 3" for other numbers of processes, FSI_MATRIX_ITERATED=1 for iterated systems alone."""
 
 import os
 from pathlib import Path
 
 from programs import DRIVERS
 from scenes import KINDS
-from test_partitions import BOUND, ITERATION, MATERIALS, Processes, apart
+from test_partitions import BOUND, ITERATION, MATERIALS, PETSC, Processes, apart
 
 NUMBERS = [int(number) for number in os.environ.get("FSI_MATRIX_PROCESSES", "2 3 4 8").split()]
-METHODS = {"factorised at the first process": (), "by `petsc`": (ITERATION,)}
+METHODS = {"factorised at the first process": (), "iterated": (ITERATION,), "by `petsc`": (PETSC,)}
+if os.environ.get("FSI_MATRIX_ITERATED"):
+    METHODS = {"iterated": (ITERATION,)}
 
 
 class ProcessMatrix(Processes):
