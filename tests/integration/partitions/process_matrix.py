@@ -1,5 +1,5 @@
 """Every element and geometry, material, driver and linear solver on 2, 3, 4 and 8 processes against one: what CI takes in
-turn. Prints tables for docs/guide/clusters.md. By `cmake --build --preset release --target process_matrix`, in half an hour;
+turn. Prints tables for docs/guide/clusters.md. By `cmake --build --preset release --target process_matrix`, in six minutes;
 FSI_MATRIX_PROCESSES="2 3" for other numbers of processes, FSI_MATRIX_ITERATED=1 for iterated systems alone."""
 
 import os
