@@ -146,7 +146,8 @@ void renumber(BlockMatrix<R, C>& a, const ShareOfNumbers& from, const ShareOfNum
   a.graph = std::move(graph);
 }
 
-/// P = (I - omega / lambda D^-1 A_F) T; A_F is A with weak couplings added to the diagonal blocks, D its diagonal (its diagonal blocks in place of that cost a third more iterations).
+/// P = (I - omega / lambda D^-1 A_F) T; A_F is A with weak couplings added to the diagonal blocks, D its diagonal
+/// (its diagonal blocks in place of that cost a third more iterations).
 /// \param coarse  of the tentative's columns; gets copies of those that P names
 template <int modes, int size>
 void smooth(const BlockMatrix<size, size>& a, const ShareOfNumbers& share, const std::vector<char>& strong,

@@ -12,9 +12,9 @@
 
 namespace fsi {
 
-/// The solver of a harmonic or stiffened mesh motion, of the fluid's nodes `part`: HarmonicExtension on one process, and
-/// where the part is shared out, conjugate gradients by PETSc unless it is small (PetscExtension). There right sides count at own entries, fields hold ghosts:
-/// given values have to be in them, sought ones are brought to them.
+/// The solver of a harmonic or stiffened mesh motion, of the fluid's nodes `part`: HarmonicExtension. Where the part is shared
+/// out, small systems, frames that mix components and cases with options of PETSc take PetscExtension; right sides count at
+/// own entries, and fields hold ghosts: given values have to be in them, sought ones are brought to them.
 /// \param laplacian  conditions not imposed; must outlive this, and so must `frames` and `part`
 /// \param inner      per node and component, in the frames: its value is sought. What stands there for ghosts does not
 ///                   matter

@@ -27,7 +27,7 @@ struct Row {
 ///   of the memory. In space factors of 6700 nodes take 0.6 s, a solve by them 0.02 s, by iteration 0.014 s to 1e-3 and
 ///   0.05 s to 1e-12; on the artery's 1900 nodes the drivers lose a tenth to a quarter by it.
 /// - Schur complement: in the plane a solve takes half of a cycle's time; where -S is not positive definite a cycle serves.
-///   On several processes factors halve the iterations, and a solve takes no longer than a cycle.
+///   On several processes, and by `petsc`, factors halve the iterations of PETSc's cycle, and take no longer.
 constexpr std::array<Row, 6> rows{{
     {SolvedSystem::jacobian, 200000, 2000, "unknowns", 1},
     {SolvedSystem::harmonic_mesh_motion, 200000, 30000, "inner nodes", 0},

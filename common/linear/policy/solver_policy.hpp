@@ -12,8 +12,8 @@ enum class SolvedSystem {
   harmonic_mesh_motion,    ///< on one process; its size counts inner nodes without followers
   tangent_mesh_motion,     ///< the same of a nonlinear motion; inner nodes
   shared_mesh_motion,      ///< on several processes; unknowns
-  schur_complement,        ///< of the pressures, in the preconditioner of `fast`; pressures
-  shared_schur_complement  ///< the same in that of `petsc`
+  schur_complement,        ///< of the pressures, in the preconditioner of `fast` on one process; pressures
+  shared_schur_complement  ///< the same on several processes, and in that of `petsc`
 };
 
 struct SolverDecision {
