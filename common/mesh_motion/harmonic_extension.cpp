@@ -65,9 +65,11 @@ HarmonicExtension<n>::HarmonicExtension(const BlockMatrix<1, n>& laplacian, std:
 template <int n>
 HarmonicExtension<n>::HarmonicExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner,
                                         const NodalFrames<n>* frames, const NodeShare& share,
-                                        std::function<std::unique_ptr<MeshExtension<n>>()> rescue)
+                                        std::function<std::unique_ptr<MeshExtension<n>>()> rescue,
+                                        const HarmonicExtensionOptions& options)
     : laplacian_(laplacian),
       inner_(std::move(inner)),
+      options_(options),
       frames_(frames),
       nodes_(&share),
       make_rescue_(std::move(rescue)) {
@@ -86,13 +88,6 @@ bool HarmonicExtension<n>::mixes(const NodalFrames<n>* frames) {
   for (int k = 0; k < n && frames; ++k)
     if (is_mixed(*frames, k)) return true;
   return false;
-}
-
-template <int n>
-std::int64_t HarmonicExtension<n>::unknowns() const {
-  std::int64_t own = 0;
-  for (const Group& group : groups_) own += group.followers.own_kept() * static_cast<std::int64_t>(group.offset.size());
-  return processes().sum(own);
 }
 
 template <int n>
@@ -216,23 +211,27 @@ void HarmonicExtension<n>::set_up(Group& group) {
   ScalarMultigrid::Options options;
   options.post_smoothing = true;  // conjugate gradients want a symmetric cycle
   if (nodes_) {
-    group.followers = FollowerElimination(a, find_followers(group, a), group.own, group.matrix);
+    group.followers = FollowerElimination(a, find_followers(group, a), group.own, reduced);
     group.share = share_of_kept(group);
-    group.iterative = true;
-    group.multigrid.set_up(group.matrix, group.share, options);
-    return;
+  } else {
+    group.followers = FollowerElimination(a, reduced);
+    group.share = ShareOfNumbers(Communicator::alone(), reduced.rows(), {});
   }
-  group.followers = FollowerElimination(a, reduced);
-  const int rows = reduced.rows();
-  const int nodes = group.mixed ? rows / static_cast<int>(group.components.size()) : rows;
-  group.iterative =
-      SolverPolicy(SolvedSystem::harmonic_mesh_motion, n, {options_.iterative_from}).decide(nodes).iterates;
+  group.iterative = decide_to_iterate(group, reduced);
   if (!group.iterative) {
-    if (rows > 0) factorise(group, reduced);
+    if (group.anywhere) group.solver.factorise(reduced, group.share, options_.single_precision);
     return;
   }
   group.matrix = std::move(reduced);
-  group.multigrid.set_up(group.matrix, options);
+  group.multigrid.set_up(group.matrix, group.share, options);
+}
+
+template <int n>
+bool HarmonicExtension<n>::decide_to_iterate(const Group& group, const CsrMatrix<double>& a) const {
+  const int nodes = group.mixed ? a.rows() / static_cast<int>(group.components.size()) : a.rows();
+  const auto most = static_cast<std::int64_t>(processes().largest(nodes));
+  if (SolverPolicy(SolvedSystem::harmonic_mesh_motion, n, {options_.iterative_from}).decide(most).iterates) return true;
+  return nodes_ && SharedCholesky::separator(a, group.share) > SharedCholesky::largest_separator;
 }
 
 template <int n>
@@ -271,27 +270,12 @@ ShareOfNumbers HarmonicExtension<n>::share_of_kept(const Group& group) const {
 }
 
 template <int n>
-void HarmonicExtension<n>::factorise(Group& group, const CsrMatrix<double>& a) {
-  // The matrix is symmetric: its rows serve as columns.
-  SparseMatrix columns;
-  columns.offsets.assign(a.offsets.begin(), a.offsets.end());
-  columns.rows.assign(a.indices.begin(), a.indices.end());
-  columns.values = a.values;
-  group.solver.factorise(columns);
-  if (options_.single_precision) group.solver.reduce_precision(columns);
-}
-
-template <int n>
 void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<double>& field, double tolerance) {
   assert(right.size() == inner_.size() && field.size() == inner_.size());
   iterations_ = 0;
   parallel_for(inner_.size(), inner_.size() > 50000, [&](std::size_t i) { values_[i] = inner_[i] ? 0 : field[i]; });
   apply_operator_to_given();
-  if (nodes_) {
-    balance_.resize(rows_.size());
-    for (std::size_t i = 0; i < rows_.size(); ++i) balance_[i] = right[i] - rows_[i];
-    update_ghosts(balance_);
-  }
+  balance(right);
   bool reached = true;  // by factors in single precision
   for (Group& group : groups_) {
     if (!group.anywhere) continue;
@@ -308,10 +292,10 @@ void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<d
         }
         return rescue_->solve(right, field, tolerance);
       }
-      if (!group.solver.factorised()) factorise(group, group.matrix);
+      if (!group.solver.factorised()) group.solver.factorise(group.matrix, group.share, options_.single_precision);
     }
     for (std::size_t c = 0; c < group.offset.size(); ++c)
-      for (const std::size_t entry : group.entry) field[entry + group.offset[c]] = 0;
+      for (int row = 0; row < group.own; ++row) field[group.entry[row] + group.offset[c]] = 0;
     add_solution(group, right, field);
     reached = reached && group.solver.reaches(tolerance);
   }
@@ -341,6 +325,14 @@ void HarmonicExtension<n>::apply_operator_to_given() {
 }
 
 template <int n>
+void HarmonicExtension<n>::balance(const std::vector<double>& right) {
+  if (!nodes_) return;
+  balance_.resize(rows_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) balance_[i] = right[i] - rows_[i];
+  update_ghosts(balance_);
+}
+
+template <int n>
 void HarmonicExtension<n>::take(const Group& group, const std::vector<double>& right) {
   const std::size_t rows = group.entry.size(), count = group.offset.size();
   right_.resize(rows * count);
@@ -357,10 +349,23 @@ void HarmonicExtension<n>::add_solution(const Group& group, const std::vector<do
   const std::size_t rows = group.entry.size(), count = group.offset.size();
   take(group, right);
   group.followers.reduce(right_, static_cast<int>(count), right_of_kept_);
-  if (!right_of_kept_.empty()) group.solver.solve(right_of_kept_, static_cast<int>(count), kept_);
+  group.solver.solve(right_of_kept_, static_cast<int>(count), kept_);
+  if (nodes_) add_copies(group);
   group.followers.complete(right_, kept_, static_cast<int>(count), solution_);
   for (std::size_t c = 0; c < count; ++c)
-    for (std::size_t i = 0; i < rows; ++i) field[group.entry[i] + group.offset[c]] += solution_[c * rows + i];
+    for (int i = 0; i < group.own; ++i) field[group.entry[i] + group.offset[c]] += solution_[c * rows + i];
+}
+
+template <int n>
+void HarmonicExtension<n>::add_copies(const Group& group) {
+  const std::size_t count = group.offset.size(), own = group.share.own, items = group.share.items();
+  exchanged_.resize(items * count);
+  for (std::size_t c = 0; c < count; ++c)
+    for (std::size_t i = 0; i < own; ++i) exchanged_[i * count + c] = kept_[own * c + i];
+  group.share.exchange.update(exchanged_, static_cast<int>(count));
+  kept_.resize(items * count);
+  for (std::size_t c = 0; c < count; ++c)
+    for (std::size_t i = 0; i < items; ++i) kept_[items * c + i] = exchanged_[i * count + c];
 }
 
 template <int n>
@@ -373,8 +378,10 @@ void HarmonicExtension<n>::refine(const std::vector<double>& right, std::vector<
     const double left = residual(right);
     if (left <= tolerance * reference || !(left < 0.5 * last)) return;
     last = left;
+    balance(right);
     for (const Group& group : groups_)
       if (group.solver.residual() > 0) add_solution(group, right, field);
+    update_ghosts(field);
   }
 }
 
@@ -384,12 +391,13 @@ double HarmonicExtension<n>::residual(const std::vector<double>& right) const {
   for (const Group& group : groups_) {
     if (!(group.solver.residual() > 0)) continue;
     for (const std::size_t offset : group.offset)
-      for (const std::size_t entry : group.entry) {
-        const double residual = right[entry + offset] - rows_[entry + offset];
+      for (int row = 0; row < group.own; ++row) {
+        const std::size_t entry = group.entry[row] + offset;
+        const double residual = right[entry] - rows_[entry];
         sum += residual * residual;
       }
   }
-  return std::sqrt(sum);
+  return std::sqrt(processes().sum(sum));
 }
 
 /// Preconditioned conjugate gradients, one of their own for each component, in step. beta = z . (r - r_old) / rho_old

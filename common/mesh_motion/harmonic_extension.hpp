@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,7 +10,7 @@
 #include "fem/nodal_frames.hpp"
 #include "fem/nodal_layout.hpp"
 #include "linear/amg/scalar_multigrid.hpp"
-#include "linear/direct/cholesky_solver.hpp"
+#include "linear/direct/shared_cholesky.hpp"
 #include "mesh_motion/follower_elimination.hpp"
 #include "mesh_motion/mesh_extension.hpp"
 #include "parallel/node_share.hpp"
@@ -20,7 +19,7 @@ namespace fsi {
 
 /// How a harmonic extension is computed. Defaults by measurement (docs/archive.md).
 struct HarmonicExtensionOptions {
-  /// Inner nodes from which the iteration serves; without it SolverPolicy decides.
+  /// Inner nodes, of the process with the most of them, from which the iteration serves; without it SolverPolicy decides.
   std::optional<int> iterative_from;
   double tolerance = 1e-12;  ///< of the iteration: its residual over that of zero inner values
   int max_iterations = 100;  ///< of conjugate gradients; a solve that needs more is done by factorisation
@@ -32,8 +31,8 @@ struct HarmonicExtensionOptions {
 /// solved at once, by a factorisation or, where that is large, by conjugate gradients in double precision around a
 /// V-cycle of smoothed aggregation in single precision. Nodes that follow two others at most, as those in the middle of
 /// edges, are eliminated before. Components that frames of nodes mix have one matrix together.
-/// Results do not depend on the number of threads. Processes that share the nodes iterate together, each with the rows of its
-/// own nodes; frames must not mix components there.
+/// Results do not depend on the number of threads. Processes that share the nodes solve together, each with the rows of its
+/// own nodes (SharedCholesky, or the iteration); frames must not mix components there.
 /// \tparam n  components of a node
 template <int n>
 class HarmonicExtension : public MeshExtension<n> {
@@ -50,12 +49,10 @@ class HarmonicExtension : public MeshExtension<n> {
   /// \param share   must outlive this
   /// \param rescue  makes what solves where the iteration fails
   HarmonicExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner, const NodalFrames<n>* frames,
-                    const NodeShare& share, std::function<std::unique_ptr<MeshExtension<n>>()> rescue);
+                    const NodeShare& share, std::function<std::unique_ptr<MeshExtension<n>>()> rescue,
+                    const HarmonicExtensionOptions& options = {});
   /// A frame turns some component out of its axis. \param frames  null: none
   static bool mixes(const NodalFrames<n>* frames);
-  /// That are iterated for, of all processes: without followers.
-  std::int64_t unknowns() const;
-
   /// The operator has new values.
   /// \throws ConvergenceError when it is singular
   void update() override;
@@ -86,7 +83,7 @@ class HarmonicExtension : public MeshExtension<n> {
     CsrMatrix<double> matrix;         ///< of what is kept, for the iteration
     ShareOfNumbers share;             ///< of its rows and columns
     ScalarMultigrid multigrid;        ///< its preconditioner
-    CholeskySolver solver;
+    SharedCholesky solver;
     bool iterative = false;
   };
 
@@ -105,21 +102,25 @@ class HarmonicExtension : public MeshExtension<n> {
   /// Of a matrix with rows of ghosts: per row.
   std::vector<char> find_followers(const Group& group, const CsrMatrix<double>& a) const;
   ShareOfNumbers share_of_kept(const Group& group) const;
+  /// Whether a group is iterated for. \param a  of what is kept
+  bool decide_to_iterate(const Group& group, const CsrMatrix<double>& a) const;
   /// Calls visit(column, value) for the entries of a row of the group's matrix, columns ascending.
   template <class Visit>
   void for_row(const Group& group, std::size_t row, Visit visit) const;
-  /// \param a  of what is kept
-  void factorise(Group& group, const CsrMatrix<double>& a);
   /// Fills beside_given_ and what goes with it, but for numbers.
   void find_couplings_to_given();
   /// rows_ = A values_, in the frames.
   void apply_operator();
   /// The same where inner values are zero.
   void apply_operator_to_given();
+  /// Makes balance_, where processes share the nodes: right - rows_, of copies, too.
+  void balance(const std::vector<double>& right);
   /// right_ = right - rows_ in the group's rows, one component behind the other.
   void take(const Group& group, const std::vector<double>& right);
   /// Inner values of `field` in the group's rows += those that solve for right - rows_.
   void add_solution(const Group& group, const std::vector<double>& right, std::vector<double>& field);
+  /// kept_ of own unknowns becomes that of copies, too.
+  void add_copies(const Group& group);
   /// Corrects what factors in single precision have solved until the residual is as small as is demanded, or all that is
   /// left is rounding. \param reference  the residual of zero inner values
   void refine(const std::vector<double>& right, std::vector<double>& field, double tolerance, double reference);
@@ -147,7 +148,7 @@ class HarmonicExtension : public MeshExtension<n> {
   std::vector<Coupling> couplings_;
   std::vector<int> blocks_;  ///< of the matrix, that these are copies of
   int iterations_ = 0;
-  std::vector<double> values_, rows_, right_, right_of_kept_, kept_, solution_, balance_;
+  std::vector<double> values_, rows_, right_, right_of_kept_, kept_, solution_, balance_, exchanged_;
 };
 
 }  // namespace fsi

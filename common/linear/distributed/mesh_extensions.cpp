@@ -27,22 +27,20 @@ std::int64_t factorised_at_first_below(int dimension) {
 template <int n>
 std::unique_ptr<MeshExtension<n>> make_harmonic_extension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner,
                                                           const NodalFrames<n>* frames,
-                                                          [[maybe_unused]] const PartNodes& part) {
+                                                          [[maybe_unused]] const PartNodes& part,
+                                                          const HarmonicExtensionOptions& options) {
 #ifdef FSI_WITH_MPI
   if (part.share) {
     const auto by_petsc = [&laplacian, inner, frames, &part](std::int64_t central_below) {
       return std::make_unique<PetscExtension<n>>(laplacian, inner, frames, part, central_below);
     };
-    const std::int64_t central_below = factorised_at_first_below(n);
     if (has_petsc_options() || part.processes().any(HarmonicExtension<n>::mixes(frames)))
-      return by_petsc(central_below);
-    auto iteration = std::make_unique<HarmonicExtension<n>>(laplacian, inner, frames, *part.share,
-                                                            [by_petsc] { return by_petsc(0); });
-    if (iteration->unknowns() < central_below) return by_petsc(central_below);
-    return iteration;
+      return by_petsc(factorised_at_first_below(n));
+    return std::make_unique<HarmonicExtension<n>>(
+        laplacian, inner, frames, *part.share, [by_petsc] { return by_petsc(0); }, options);
   }
 #endif
-  return std::make_unique<HarmonicExtension<n>>(laplacian, std::move(inner), HarmonicExtensionOptions{}, frames);
+  return std::make_unique<HarmonicExtension<n>>(laplacian, std::move(inner), options, frames);
 }
 
 template <int n>
@@ -59,7 +57,10 @@ template <int n>
 std::unique_ptr<MeshExtension<n>> make_shared_extension(const JacobianBlocks<n>& blocks, std::vector<char> inner) {
   if (blocks.mesh_tangent)
     return make_tangent_extension<n>(*blocks.mesh_tangent, std::move(inner), *blocks.fluid_nodes);
-  return make_harmonic_extension<n>(*blocks.mesh_laplacian, std::move(inner), blocks.fluid_frames, *blocks.fluid_nodes);
+  HarmonicExtensionOptions options;
+  options.single_precision = true;  // few digits are asked for: CondensedIteration::extension_share
+  return make_harmonic_extension<n>(*blocks.mesh_laplacian, std::move(inner), blocks.fluid_frames, *blocks.fluid_nodes,
+                                    options);
 }
 
 template <int n>
@@ -67,7 +68,8 @@ using OwnedExtension = std::unique_ptr<MeshExtension<n>>;
 
 #define FSI_INSTANTIATE(n)                                                                                             \
   template OwnedExtension<n> make_harmonic_extension(const BlockMatrix<1, n>&, std::vector<char>,                      \
-                                                     const NodalFrames<n>*, const PartNodes&);                         \
+                                                     const NodalFrames<n>*, const PartNodes&,                          \
+                                                     const HarmonicExtensionOptions&);                                 \
   template OwnedExtension<n> make_tangent_extension(const MeshMotionTangent<n>&, std::vector<char>, const PartNodes&); \
   template OwnedExtension<n> make_shared_extension(const JacobianBlocks<n>&, std::vector<char>);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
