@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "base/sort_unique.hpp"
 #include "mesh/facet_uses.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/for_each_mesh.hpp"
@@ -31,11 +32,6 @@ std::vector<char> nodes_of(const Mesh& mesh, const std::vector<char>& in_set) {
     if (in_set[mesh.cell_region[c]])
       for (const int node : mesh.cells[c]) flags[node] = 1;
   return flags;
-}
-
-void sort_unique(std::vector<int>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 }  // namespace

@@ -1,41 +1,46 @@
 #include "mesh/mesh_share.hpp"
 
+#include <cstdint>
+
+#include "base/sort_unique.hpp"
 #include "mesh/for_each_mesh.hpp"
+#include "parallel/even_stretch.hpp"
 #include "parallel/graph_partition.hpp"
 
 namespace fsi {
 
 namespace {
 
-/// Which nodes share a cell, row by row, each node among its own neighbours; columns ascend.
+/// Which nodes share a cell with those of a stretch, row by row, each node among its own neighbours; columns ascend.
 template <class Mesh>
-void nodes_around(const Mesh& mesh, std::vector<int>& offsets, std::vector<int>& columns) {
-  const std::size_t nodes = mesh.nodes.size();
+void nodes_around(const Mesh& mesh, const EvenStretch& stretch, std::vector<int>& offsets, std::vector<int>& columns) {
+  const auto is_here = [&](int node) { return node >= stretch.first && node < stretch.last; };
+  const auto nodes = static_cast<std::size_t>(stretch.count());
   std::vector<int> starts(nodes + 1, 0), cells_at;
   for (const auto& cell : mesh.cells)
-    for (const int node : cell) ++starts[node + 1];
+    for (const int node : cell)
+      if (is_here(node)) ++starts[node - stretch.first + 1];
   for (std::size_t a = 0; a < nodes; ++a) starts[a + 1] += starts[a];
   cells_at.resize(static_cast<std::size_t>(starts.back()));
   std::vector<int> next(starts.begin(), starts.end() - 1);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    for (const int node : mesh.cells[c]) cells_at[next[node]++] = static_cast<int>(c);
+    for (const int node : mesh.cells[c])
+      if (is_here(node)) cells_at[next[node - stretch.first]++] = static_cast<int>(c);
   offsets = {0};
   std::vector<int> row;
-  for (std::size_t a = 0; a < nodes; ++a) {
-    row.clear();
-    for (int at = starts[a]; at < starts[a + 1]; ++at)
-      row.insert(row.end(), mesh.cells[cells_at[at]].begin(), mesh.cells[cells_at[at]].end());
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-    columns.insert(columns.end(), row.begin(), row.end());
-    offsets.push_back(static_cast<int>(columns.size()));
-  }
-}
-
-/// Adds those that are not there yet.
-void insert_sorted(std::vector<int>& all) {
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  const auto for_rows = [&](auto visit) {
+    for (std::size_t a = 0; a < nodes; ++a) {
+      row.clear();
+      for (int at = starts[a]; at < starts[a + 1]; ++at)
+        row.insert(row.end(), mesh.cells[cells_at[at]].begin(), mesh.cells[cells_at[at]].end());
+      sort_unique(row);
+      visit();
+    }
+  };
+  for_rows([&] { offsets.push_back(offsets.back() + static_cast<int>(row.size())); });
+  columns.reserve(
+      static_cast<std::size_t>(offsets.back()));  // rows are found twice, so that they take no more than that
+  for_rows([&] { columns.insert(columns.end(), row.begin(), row.end()); });
 }
 
 }  // namespace
@@ -46,9 +51,9 @@ MeshShare share_mesh(const SimplexMesh<Dim, Order>& mesh, const Communicator& pr
   share.processes = &processes;
   {
     std::vector<int> offsets, columns, weights;
-    nodes_around(mesh, offsets, columns);
+    nodes_around(mesh, EvenStretch(static_cast<std::int64_t>(mesh.nodes.size()), processes), offsets, columns);
     // What a node costs grows with its row: with the elements around it, and the products with it.
-    for (std::size_t a = 0; a < mesh.nodes.size(); ++a) weights.push_back(std::max(1, offsets[a + 1] - offsets[a]));
+    for (std::size_t a = 0; a + 1 < offsets.size(); ++a) weights.push_back(std::max(1, offsets[a + 1] - offsets[a]));
     share.owner = partition_of_graph(offsets, columns, weights, processes);
   }
   std::vector<std::vector<int>> sent(processes.size()), received(processes.size());
@@ -58,7 +63,7 @@ MeshShare share_mesh(const SimplexMesh<Dim, Order>& mesh, const Communicator& pr
     share.held.insert(share.held.end(), cell.begin(), cell.end());
     owners.clear();
     for (const int node : cell) owners.push_back(share.owner[node]);
-    insert_sorted(owners);
+    sort_unique(owners);
     for (const int rank : owners) {
       if (rank == processes.rank()) continue;
       for (const int node : cell) {
@@ -67,10 +72,10 @@ MeshShare share_mesh(const SimplexMesh<Dim, Order>& mesh, const Communicator& pr
       }
     }
   }
-  insert_sorted(share.held);
+  sort_unique(share.held);
   for (int rank = 0; rank < processes.size(); ++rank) {
-    insert_sorted(sent[rank]);
-    insert_sorted(received[rank]);
+    sort_unique(sent[rank]);
+    sort_unique(received[rank]);
     if (!sent[rank].empty() || !received[rank].empty())
       share.neighbours.push_back({rank, std::move(sent[rank]), std::move(received[rank])});
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/point_math.hpp"
+#include "parallel/even_stretch.hpp"
 
 namespace fsi {
 
@@ -98,18 +100,31 @@ FacetsOfWall<Dim, Order> facets_of_wall(const SimplexMesh<Dim, Order>& mesh) {
   return found;
 }
 
+/// Distances of some nodes from a surface. Processes that all have them measure a stretch each.
+std::vector<double> distances(const std::vector<int>& from, const std::vector<Point>& nodes,
+                              const SurfaceDistance& surface, const Communicator& processes) {
+  const EvenStretch mine(static_cast<std::int64_t>(from.size()), processes);
+  std::vector<double> found;
+  int guess = -1;  // the last one's facet: nodes come in an order of neighbours
+  for (auto i = mine.first; i < mine.last; ++i) {
+    const auto nearest = surface.nearest(nodes[from[static_cast<std::size_t>(i)]], guess);
+    guess = nearest.facet;
+    found.push_back(nearest.distance);
+  }
+  return processes.gather(found);
+}
+
 ThicknessRange range_between(const std::string& name, const std::vector<Point>& nodes, const WallFace& inner,
-                             const WallFace& outer) {
+                             const WallFace& outer, const Communicator& processes) {
   ThicknessRange range;
   range.name = name;
   const auto extremes = [&](const std::vector<int>& on_face, const SurfaceDistance& surface, auto& least, auto* most) {
-    bool first = true;
-    for (const int node : on_face) {
-      const double distance = surface.nearest(nodes[node]).distance;
-      if (first || distance < least.distance) least = {distance, nodes[node]};
-      if (most && (first || distance > most->distance)) *most = {distance, nodes[node]};
-      first = false;
-    }
+    const auto away = distances(on_face, nodes, surface, processes);
+    const auto extreme = [&](auto at) {
+      return ThicknessRange::Extreme{*at, nodes[on_face[static_cast<std::size_t>(at - away.begin())]]};
+    };
+    least = extreme(std::min_element(away.begin(), away.end()));
+    if (most) *most = extreme(std::max_element(away.begin(), away.end()));
   };
   extremes(outer.nodes, inner.surface, range.least, &range.most);
   extremes(inner.nodes, outer.surface, range.least_seen_from_inside, static_cast<ThicknessRange::Extreme*>(nullptr));
@@ -169,7 +184,7 @@ std::vector<double> nodal_thickness(const SimplexMesh<Dim, Order>& mesh) {
 }
 
 template <int Dim, int Order>
-std::vector<ThicknessRange> thickness_ranges(const SimplexMesh<Dim, Order>& mesh) {
+std::vector<ThicknessRange> thickness_ranges(const SimplexMesh<Dim, Order>& mesh, const Communicator& processes) {
   std::vector<ThicknessRange> ranges;
   const auto wall = facets_of_wall(mesh);
   if (wall.inner.empty() || wall.outer.empty()) return ranges;
@@ -183,11 +198,12 @@ std::vector<ThicknessRange> thickness_ranges(const SimplexMesh<Dim, Order>& mesh
       far = chosen<Dim, Order>(layers[k].boundary, of_next, true);
     }
     auto next = face_of<Dim, Order>(mesh, far);
-    ranges.push_back(range_between(mesh.regions[layers[k].region], mesh.nodes, near, next));
+    ranges.push_back(range_between(mesh.regions[layers[k].region], mesh.nodes, near, next, processes));
     near = std::move(next);
   }
   ranges.push_back(range_between(layers.size() == 1 ? mesh.regions[layers[0].region] : "wall", mesh.nodes,
-                                 face_of<Dim, Order>(mesh, wall.inner), face_of<Dim, Order>(mesh, wall.outer)));
+                                 face_of<Dim, Order>(mesh, wall.inner), face_of<Dim, Order>(mesh, wall.outer),
+                                 processes));
   return ranges;
 }
 
@@ -204,7 +220,7 @@ std::string to_text(const std::vector<ThicknessRange>& ranges) {
 #define INSTANTIATE(Dim, Order)                                                    \
   template std::optional<WallFaces> faces_of_wall(const SimplexMesh<Dim, Order>&); \
   template std::vector<double> nodal_thickness(const SimplexMesh<Dim, Order>&);    \
-  template std::vector<ThicknessRange> thickness_ranges(const SimplexMesh<Dim, Order>&);
+  template std::vector<ThicknessRange> thickness_ranges(const SimplexMesh<Dim, Order>&, const Communicator&);
 FSI_FOR_EACH_MESH(INSTANTIATE)
 #undef INSTANTIATE
 

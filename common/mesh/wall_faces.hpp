@@ -6,6 +6,7 @@
 
 #include "mesh/simplex_mesh.hpp"
 #include "mesh/surface_distance.hpp"
+#include "parallel/communicator.hpp"
 
 namespace fsi {
 
@@ -45,8 +46,10 @@ struct ThicknessRange {
 
 /// The wall's thickness; where it has several layers that lie one around the other, theirs before it, from inside
 /// outwards. Empty where the mesh has no such faces.
+/// \param processes  that have the whole mesh, and share the work
 template <int Dim, int Order>
-std::vector<ThicknessRange> thickness_ranges(const SimplexMesh<Dim, Order>& mesh);
+std::vector<ThicknessRange> thickness_ranges(const SimplexMesh<Dim, Order>& mesh,
+                                             const Communicator& processes = Communicator::alone());
 
 /// A line for each, ended by a newline.
 std::string to_text(const std::vector<ThicknessRange>& ranges);

@@ -8,6 +8,7 @@
 
 #include "fem/dimensions.hpp"
 #include "mesh/mid_edge_nodes.hpp"
+#include "parallel/even_stretch.hpp"
 
 namespace fsi {
 
@@ -69,18 +70,17 @@ GridShare share_out(FieldGrid& whole, const PartNodes& here) {
 
   const auto corners = static_cast<std::ptrdiff_t>(whole.nodes_per_cell);
   const auto cells = static_cast<std::int64_t>(cells_here(whole));
-  const auto first_cell = cells * processes.rank() / processes.size(),
-             end_cell = cells * (processes.rank() + 1) / processes.size();
+  const EvenStretch mine_of_cells(cells, processes);
   whole.stretch = FieldGrid::Stretch{static_cast<std::uint64_t>(mine.order.first()), whole.points.size(),
-                                     static_cast<std::uint64_t>(first_cell), static_cast<std::uint64_t>(cells),
+                                     static_cast<std::uint64_t>(mine_of_cells.first), static_cast<std::uint64_t>(cells),
                                      !whole.layer.empty()};
   const auto keep = [](auto& list, std::ptrdiff_t from, std::ptrdiff_t to) {
     list =
         std::decay_t<decltype(list)>(list.begin() + from, list.begin() + to);  // the memory of the rest is given back
   };
   keep(whole.points, mine.order.first(), mine.order.first() + mine.order.count());
-  keep(whole.cells, first_cell * corners, end_cell * corners);
-  if (!whole.layer.empty()) keep(whole.layer, first_cell, end_cell);
+  keep(whole.cells, mine_of_cells.first * corners, mine_of_cells.last * corners);
+  if (!whole.layer.empty()) keep(whole.layer, mine_of_cells.first, mine_of_cells.last);
   return mine;
 }
 

@@ -1,6 +1,7 @@
 #include "parallel/graph_partition.hpp"
 
 #include <cassert>
+#include <cstdint>
 #include <stdexcept>
 
 #ifdef FSI_WITH_MPI
@@ -57,25 +58,24 @@ class Reproducible {
 
 std::vector<int> partition_of_graph(const std::vector<int>& offsets, const std::vector<int>& columns,
                                     const std::vector<int>& weights, const Communicator& processes) {
-  const int nodes = static_cast<int>(weights.size());
   if (processes.is_alone()) return std::vector<int>(weights.size(), 0);
-  const auto bound = [&](int rank) { return static_cast<int>(static_cast<long>(nodes) * rank / processes.size()); };
-  const int first = bound(processes.rank()), last = bound(processes.rank() + 1);
-  std::vector<SCOTCH_Num> rows{0}, edges, loads;
-  for (int a = first; a < last; ++a) {
-    for (int at = offsets[a]; at < offsets[a + 1]; ++at)
-      if (columns[at] != a) edges.push_back(columns[at]);
+  const int count = static_cast<int>(weights.size());
+  const auto first = static_cast<int>(processes.sum_before(std::int64_t{count}));
+  std::vector<SCOTCH_Num> rows{0}, edges, loads(weights.begin(), weights.end());
+  edges.reserve(columns.size());
+  for (int row = 0; row < count; ++row) {
+    for (int at = offsets[row]; at < offsets[row + 1]; ++at)
+      if (columns[at] != first + row) edges.push_back(columns[at]);
     rows.push_back(static_cast<SCOTCH_Num>(edges.size()));
-    loads.push_back(weights[a]);
   }
   edges.reserve(1);
   loads.reserve(1);
-  std::vector<SCOTCH_Num> owners(static_cast<std::size_t>(last - first) + 1, 0);
+  std::vector<SCOTCH_Num> owners(static_cast<std::size_t>(count) + 1, 0);
   {
     DistributedGraph graph(processes);
-    const auto count = static_cast<SCOTCH_Num>(edges.size());
-    require(SCOTCH_dgraphBuild(graph.get(), 0, last - first, last - first, rows.data(), rows.data() + 1, loads.data(),
-                               nullptr, count, count, edges.data(), nullptr, nullptr),
+    const auto size = static_cast<SCOTCH_Num>(edges.size());
+    require(SCOTCH_dgraphBuild(graph.get(), 0, count, count, rows.data(), rows.data() + 1, loads.data(), nullptr, size,
+                               size, edges.data(), nullptr, nullptr),
             "the graph is refused");
     const Reproducible context;
     DistributedGraph reproducible(processes);
@@ -86,7 +86,7 @@ std::vector<int> partition_of_graph(const std::vector<int>& offsets, const std::
     SCOTCH_stratExit(&strategy);
     require(error, "no partition");
   }
-  owners.resize(static_cast<std::size_t>(last - first));
+  owners.resize(weights.size());
   return processes.gather(owners);
 }
 

@@ -203,10 +203,11 @@ void add_grid(const std::string& name, const Case& setup, const Part* here, cons
 }
 
 /// Processes solve one scene: all must have read the same, and none of them can be of use without nodes.
+/// \param hash  of the mesh
 template <class Mesh>
-void require_alike(const Case& setup, const Mesh& mesh, const Communicator& processes) {
+void require_alike(const Case& setup, const Mesh& mesh, const std::string& hash, const Communicator& processes) {
   if (processes.is_alone()) return;
-  const std::string mine = hash_of_case(setup) + hash_of_mesh(mesh);
+  const std::string mine = hash_of_case(setup) + hash;
   std::string of_first = mine;
   processes.broadcast(of_first);
   if (processes.any(mine != of_first))
@@ -266,18 +267,19 @@ LoadedScene<Element::components> load(const Case& setup, const LoadingScene& loa
   std::vector<std::string> remarks = setup.remarks, notices;
   const auto mesh = load_mesh<Element>(setup, remarks, notices);
   const Communicator& processes = Communicator::world();
-  require_alike(setup, mesh, processes);
+  const std::string hash = hash_of_mesh(mesh);
+  require_alike(setup, mesh, hash, processes);
   if (loading.mesh_known) loading.mesh_known(mesh.cells.size());
   if (const auto slip = unit_slip_of_mesh(setup, size_of_mesh<Element>(setup, mesh)); slip && loading.mesh_strange)
     loading.mesh_strange(mesh_source(setup) + ": " + *slip);
   LoadedScene<Element::components> loaded;
   loaded.mesh = {mesh_name(setup),
-                 hash_of_mesh(mesh),
+                 hash,
                  mesh.nodes.size(),
                  mesh.cells.size(),
                  Element::dim == 3 ? "tetrahedra" : "triangles",
                  surfaces_of(mesh),
-                 setup.structure ? thickness_ranges(mesh) : std::vector<ThicknessRange>()};
+                 setup.structure ? thickness_ranges(mesh, processes) : std::vector<ThicknessRange>()};
   if (!loaded.mesh.wall.empty()) remarks.push_back(said_of(loaded.mesh.wall.back()));
   // Processes find on the whole mesh what each then keeps of its share: that is all that is left after this routine.
   MeshShare share;

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/error.hpp"
 #include "mesh/cell_grid.hpp"
@@ -24,6 +25,42 @@ PointSample sample_of(const Mesh<Dim, Order>& mesh, int cell, const std::array<d
   const auto& nodes = mesh.cells[cell];
   const auto weights = CellMap<Dim, Order>::shape(l);
   return {{nodes.begin(), nodes.end()}, {weights.begin(), weights.end()}, {l.begin(), l.end()}};
+}
+
+/// The cells, of those listed, in whose box a point lies: a grid of them alone is small where points are few.
+template <int Dim, int Order, template <int, int> class Mesh>
+std::vector<int> cells_near(const Mesh<Dim, Order>& mesh, const std::vector<int>& cells, std::vector<Point> points) {
+  constexpr double margin = 1e-2;  // of a box: more than a point outside a cell that counts as in it lies from it
+  Point low = points.front(), high = low;
+  for (const Point& x : points)
+    for (int d = 0; d < 3; ++d) {
+      low[d] = std::min(low[d], x[d]);
+      high[d] = std::max(high[d], x[d]);
+    }
+  const Point spread = high - low;
+  const auto along = std::max_element(spread.begin(), spread.end()) - spread.begin();
+  std::sort(points.begin(), points.end(), [&](const Point& a, const Point& b) { return a[along] < b[along]; });
+  std::vector<int> near;
+  for (const int c : cells) {
+    const auto x = control_points(mesh, c);
+    Point from = x[0], to = x[0];
+    for (const Point& at : x)
+      for (int d = 0; d < 3; ++d) {
+        from[d] = std::min(from[d], at[d]);
+        to[d] = std::max(to[d], at[d]);
+      }
+    const double more = margin * distance(from, to);
+    const auto is_in = [&](const Point& at) {
+      for (int d = 0; d < 3; ++d)
+        if (at[d] < from[d] - more || at[d] > to[d] + more) return false;
+      return true;
+    };
+    auto point = std::lower_bound(points.begin(), points.end(), from[along] - more,
+                                  [&](const Point& at, double bound) { return at[along] < bound; });
+    while (point != points.end() && (*point)[along] <= to[along] + more && !is_in(*point)) ++point;
+    if (point != points.end() && is_in(*point)) near.push_back(c);
+  }
+  return near;
 }
 
 /// The cell that holds a point deepest, the first of them among several.
@@ -94,10 +131,12 @@ std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>& mesh, in
   if (points.empty()) return samples;
   if (cells.empty()) throw InputError(from.file, from.key, "has no cells", "give it some");
 
-  const CellGrid grid(mesh, cells);
+  const auto near = cells_near(mesh, cells, points);
+  std::optional<CellGrid> grid;
+  if (!near.empty()) grid.emplace(mesh, near);
   samples.reserve(points.size());
   for (const Point& x : points) {
-    const Holder<Dim> holder = holder_of(mesh, grid, x, barycentric_inside);
+    const Holder<Dim> holder = grid ? holder_of(mesh, *grid, x, barycentric_inside) : Holder<Dim>();
     samples.push_back(holder.cell >= 0 ? sample_of(mesh, holder.cell, holder.place)
                                        : nearest_sample(mesh, cells, x, from));
   }
@@ -109,7 +148,9 @@ std::vector<std::optional<PointSample>> locate_in_cells(const Submesh<Dim, Order
                                                         const std::vector<Point>& points) {
   std::vector<std::optional<PointSample>> samples(points.size());
   if (points.empty() || part.cells.empty()) return samples;
-  const CellGrid grid(part, all_cells(part));
+  const auto near = cells_near(part, all_cells(part), points);
+  if (near.empty()) return samples;
+  const CellGrid grid(part, near);
   const auto off_plane = [&](const Point& x) {
     if constexpr (Dim == 3) return false;
     // The plane of the part is that of its first cell.

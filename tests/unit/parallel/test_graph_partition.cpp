@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "parallel/communicator.hpp"
+#include "parallel/even_stretch.hpp"
 #include "parallel/graph_partition.hpp"
 
 namespace fsi {
@@ -33,8 +34,16 @@ Graph square(int side) {
                [side](int a, int b) { return std::abs(a / side - b / side) + std::abs(a % side - b % side) == 1; });
 }
 
+/// Of a graph that all processes have: each hands over its stretch.
 std::vector<int> partition(const Graph& g, const std::vector<int>& weights) {
-  return partition_of_graph(g.offsets, g.columns, weights, Communicator::world());
+  const EvenStretch mine(static_cast<std::int64_t>(weights.size()), Communicator::world());
+  Graph here;
+  for (auto a = static_cast<std::size_t>(mine.first); a < static_cast<std::size_t>(mine.last); ++a) {
+    here.columns.insert(here.columns.end(), g.columns.begin() + g.offsets[a], g.columns.begin() + g.offsets[a + 1]);
+    here.offsets.push_back(static_cast<int>(here.columns.size()));
+  }
+  return partition_of_graph(here.offsets, here.columns, {weights.begin() + mine.first, weights.begin() + mine.last},
+                            Communicator::world());
 }
 
 /// Weight of each process's part.
