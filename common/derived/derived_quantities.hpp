@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,7 +38,32 @@ struct DerivedQuantities {
   bool means_errors() const { return fluid_errors.mean || wall_errors.mean; }
 };
 
-/// \param mesh   that the scene was built on
+namespace detail {
+
+/// Names of fields that are found on the whole mesh.
+inline constexpr std::array<const char*, 1> shear_fields{"wall_shear_stress"}, thickness_fields{"thickness"};
+inline constexpr std::array<const char*, 4> stress_fields{"cauchy_stress", "principal_stress", "von_mises_stress",
+                                                          "fibre_stress"};
+
+/// The case writes one of these fields.
+template <class Names>
+bool wants(const Case& setup, const Names& names) {
+  const auto& fields = setup.output.fields;
+  return setup.output.every > 0 &&
+         std::find_first_of(fields.begin(), fields.end(), names.begin(), names.end()) != fields.end();
+}
+
+}  // namespace detail
+
+/// Whether any of it is found on the whole mesh of a scene that processes share out.
+inline bool derived_from_mesh(const Case& setup) {
+  const auto& output = setup.output;
+  return output.derived.statistics || output.derived.error_indicator || !output.derived.surfaces.empty() ||
+         !output.derived.forces.empty() || detail::wants(setup, detail::shear_fields) ||
+         detail::wants(setup, detail::stress_fields) || detail::wants(setup, detail::thickness_fields);
+}
+
+/// \param mesh   that the scene was built on; it is not looked at unless derived_from_mesh()
 /// \param scene  must outlive what is made
 /// \param whole  parts of a mesh that is shared out; empty: the scene has them
 /// \throws InputError for surfaces that the fluid does not have
@@ -46,22 +72,20 @@ DerivedQuantities<Element::components> make_derived_quantities(const Case& setup
                                                                const Scene<Element::components>& scene,
                                                                const WholeParts<Element>& whole = {}) {
   const auto& output = setup.output;
-  const auto wants = [&](std::initializer_list<const char*> names) {
-    return output.every > 0 && std::find_first_of(output.fields.begin(), output.fields.end(), names.begin(),
-                                                  names.end()) != output.fields.end();
-  };
+  const auto wants = [&](const auto& names) { return detail::wants(setup, names); };
   DerivedQuantities<Element::components> derived;
-  if (scene.fluid && (output.derived.statistics || wants({"wall_shear_stress"}))) {
+  if (scene.fluid && (output.derived.statistics || wants(detail::shear_fields))) {
     const auto phase = scene.profile.phase("wall shear stress: setup");
     derived.shear = make_wall_shear_stress<Element>(setup, mesh, scene, whole);
     const auto nodes = static_cast<std::int64_t>(derived.shear->nodes().size());
     scene.profile.count("nodes with wall shear stress", scene.processes().sum(nodes));
   }
-  if (scene.wall && wants({"cauchy_stress", "principal_stress", "von_mises_stress", "fibre_stress"})) {
+  if (scene.wall && wants(detail::stress_fields)) {
     const auto phase = scene.profile.phase("wall stress: setup");
     derived.stress = make_wall_stress<Element>(setup, mesh, scene, whole);
   }
-  if (scene.wall && wants({"thickness"})) derived.thickness = nodal_wall_thickness<Element>(mesh, scene, whole);
+  if (scene.wall && wants(detail::thickness_fields))
+    derived.thickness = nodal_wall_thickness<Element>(mesh, scene, whole);
   derived.forces = make_surface_forces<Element>(setup, mesh, scene, whole);
   if (derived.forces)
     scene.profile.count("surfaces with forces", static_cast<std::int64_t>(derived.forces->names().size()));

@@ -12,8 +12,7 @@ NodalSample restricted(const NodalSample& sample, const PartRestriction& here) {
   return mine;
 }
 
-void restrict_samples(const PartRestriction* fluid, const PartRestriction* wall, const PartNodes* fluid_nodes,
-                      ObservationPoints& points) {
+void restrict_samples(const PartRestriction* fluid, const PartRestriction* wall, ObservationPoints& points) {
   for (NodalSample& sample : points.centre_line) sample = restricted(sample, *fluid);
   for (InnerWallSample& sample : points.wall_line) sample.at = restricted(sample.at, *wall);
   for (auto* samples : {&points.requested.points, &points.requested.lines})
@@ -22,7 +21,10 @@ void restrict_samples(const PartRestriction* fluid, const PartRestriction* wall,
       sample.vectors = restricted(sample.vectors, here);
       sample.scalars = restricted(sample.scalars, here);
     }
-  for (SampledPlane& plane : points.requested.planes) plane.cut = plane.cut->through(*fluid_nodes);
+}
+
+void cut_through(const PartNodes& fluid, ObservationPoints& points) {
+  for (SampledPlane& plane : points.requested.planes) plane.cut = plane.cut->through(fluid);
 }
 
 }  // namespace fsi

@@ -11,10 +11,12 @@ namespace fsi {
 /// \returns the entries of own nodes, in numbers here
 NodalSample restricted(const NodalSample& sample, const PartRestriction& here);
 
-/// Makes samples on whole parts those of this process.
+/// Makes samples on whole parts those of this process, but for planes.
 /// \param fluid, wall  of the media; null where there is none
-/// \param fluid_nodes  the fluid's part here, which must outlive the points; null without fluid
-void restrict_samples(const PartRestriction* fluid, const PartRestriction* wall, const PartNodes* fluid_nodes,
-                      ObservationPoints& points);
+void restrict_samples(const PartRestriction* fluid, const PartRestriction* wall, ObservationPoints& points);
+
+/// Has planes cut this part of the fluid, its share or all of it, in place of the one that they were made of, which they no
+/// longer look at. \param fluid  must outlive the points
+void cut_through(const PartNodes& fluid, ObservationPoints& points);
 
 }  // namespace fsi

@@ -262,10 +262,29 @@ std::string said_of(const ThicknessRange& wall) {
                      place_of(wall.least.at), wall.most.distance, place_of(wall.most.at));
 }
 
+/// What a run reads off its fields, and the grids that they are written on.
+/// \param parts  of the scene, here \param whole  parts of a mesh that is shared out; empty: `parts` are whole
+template <class Element>
+void find_samples(const Case& setup, const MeshOf<Element>& mesh, const SceneParts<Element>& parts,
+                  const WholeParts<Element>& whole, LoadedScene<Element::components>& loaded) {
+  VesselParts<Element> here;
+  if (parts.fluid) here.fluid = &parts.fluid->part;
+  if (parts.wall) here.wall = &parts.wall->part;
+  VesselParts<Element> vessel = here;
+  if (whole.fluid) vessel.fluid = whole.fluid.get();
+  if (whole.wall) vessel.wall = whole.wall.get();
+  loaded.points = observation_points<Element>(setup, mesh, vessel, mesh_source(setup));
+  loaded.points.requested = requested_samples<Element>(setup, mesh, vessel, loaded.points);
+  const bool shared = whole.fluid || whole.wall;
+  if (shared) restrict_samples(whole.fluid_here.get(), whole.wall_here.get(), loaded.points);
+  add_grid("fluid", setup, here.fluid, whole.fluid.get(), loaded);
+  add_grid("wall", setup, here.wall, whole.wall.get(), loaded);
+}
+
 template <class Element>
 LoadedScene<Element::components> load(const Case& setup, const LoadingScene& loading) {
   std::vector<std::string> remarks = setup.remarks, notices;
-  const auto mesh = load_mesh<Element>(setup, remarks, notices);
+  auto mesh = load_mesh<Element>(setup, remarks, notices);
   const Communicator& processes = Communicator::world();
   const std::string hash = hash_of_mesh(mesh);
   require_alike(setup, mesh, hash, processes);
@@ -281,12 +300,22 @@ LoadedScene<Element::components> load(const Case& setup, const LoadingScene& loa
                  surfaces_of(mesh),
                  setup.structure ? thickness_ranges(mesh, processes) : std::vector<ThicknessRange>()};
   if (!loaded.mesh.wall.empty()) remarks.push_back(said_of(loaded.mesh.wall.back()));
-  // Processes find on the whole mesh what each then keeps of its share: that is all that is left after this routine.
+  // All that takes the whole mesh is found first, and of several processes each keeps its share of it. Unless derived
+  // quantities take the mesh, too, it is given up before matrices are made.
+  auto parts = find_parts<Element>(setup, mesh);
   MeshShare share;
   WholeParts<Element> whole;
-  if (!processes.is_alone()) share = share_mesh(mesh, processes);
-  loaded.scene =
-      processes.is_alone() ? build_scene<Element>(setup, mesh) : build_scene<Element>(setup, mesh, &share, &whole);
+  if (!processes.is_alone()) {
+    share = share_mesh(mesh, processes);
+    whole = restrict_to(share, parts);
+  }
+  find_samples<Element>(setup, mesh, parts, whole, loaded);
+  if (!derived_from_mesh(setup)) {
+    whole = {};
+    share = {};
+    mesh = {};
+  }
+  loaded.scene = build_scene<Element>(setup, std::move(parts));
   auto& said = *loaded.scene;
   said.remarks.insert(said.remarks.begin(), remarks.begin(), remarks.end());
   said.notices.insert(said.notices.begin(), notices.begin(), notices.end());
@@ -295,18 +324,7 @@ LoadedScene<Element::components> load(const Case& setup, const LoadingScene& loa
   if (setup.prestress && (loading.find_prestress || !setup.prestress->file.empty()))
     loaded.prestress = apply_prestress(setup, loaded.mesh.hash, *loaded.scene, loading.prestress_goes_on);
   loaded.derived = make_derived_quantities<Element>(setup, mesh, *loaded.scene, whole);
-  const auto& scene = *loaded.scene;
-  VesselParts<Element> here;
-  if (scene.fluid) here.fluid = &static_cast<FluidProblem<Element>&>(*scene.fluid).part();
-  if (scene.wall) here.wall = &static_cast<WallProblem<Element>&>(*scene.wall).part();
-  VesselParts<Element> parts = here;
-  if (whole.fluid) parts.fluid = whole.fluid.get();
-  if (whole.wall) parts.wall = whole.wall.get();
-  loaded.points = observation_points<Element>(setup, mesh, parts, mesh_source(setup));
-  loaded.points.requested = requested_samples<Element>(setup, mesh, parts, loaded.points);
-  if (!processes.is_alone()) restrict_samples(whole.fluid_here.get(), whole.wall_here.get(), here.fluid, loaded.points);
-  add_grid("fluid", setup, here.fluid, whole.fluid.get(), loaded);
-  add_grid("wall", setup, here.wall, whole.wall.get(), loaded);
+  if (loaded.scene->fluid) cut_through(loaded.scene->fluid->nodes(), loaded.points);
   return loaded;
 }
 

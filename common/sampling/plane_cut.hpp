@@ -33,7 +33,8 @@ class PlaneCut {
   /// \param fluid  (u, p)
   virtual PlaneRow look(const std::vector<double>& mesh, const std::vector<double>& fluid) const = 0;
 
-  /// The same plane through the share of the part that a process holds. \param here  must outlive what is returned
+  /// The same plane through another copy of its part, or the share of it that a process holds: its own part need not be there
+  /// any more. \param here  must outlive what is returned
   virtual std::shared_ptr<const PlaneCut> through(const PartNodes& here) const = 0;
   /// Of such a share: adds to `said` what its process sees of the plane.
   virtual void say(const std::vector<double>& mesh, const std::vector<double>& fluid,

@@ -7,17 +7,12 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.hpp"
 #include "case/network_data.hpp"
 #include "fem/elements.hpp"
 #include "fluid/backflow.hpp"
 #include "fluid/fluid_problem.hpp"
 #include "materials/viscosity_law.hpp"
-#include "mesh/cell_words.hpp"
-#include "mesh/flat_parts.hpp"
-#include "mesh/group_names.hpp"
 #include "mesh_motion/motion_of_vertices.hpp"
-#include "scene/pressure_equations.hpp"
 #include "scene/rigid_motion.hpp"
 #include "scene/time_scheme.hpp"
 #include "scene/varying_materials.hpp"
@@ -56,26 +51,6 @@ void build_mesh_motion(const MeshMotionOptions& options, const FluidProblem<Elem
   else
     scene.mesh_motion_problem =
         harmonic_mesh_motion<Element>(fluid.part(), fluid.packs(), fluid.space().graph(), std::move(stiffness));
-}
-
-template <class Element>
-std::string problem_of(const LostPressures& lost) {
-  using Words = CellWords<Element::dim>;
-  if (lost.corner())
-    return fmt::format("has no equation: the velocity is given at every node of the {} around it, in a corner",
-                       lost.cells == 1 ? std::string(Words::cell) : fmt::format("{} {}", lost.cells, Words::cells));
-  return fmt::format(
-      "is one of {} in {} {} that have {} free components of the velocity beside them: too few equations",
-      lost.pressures, lost.cells, Words::cells, lost.velocities);
-}
-
-template <class Element>
-std::string remedy_of(const Case& setup, const LostPressures& lost) {
-  const std::string cells = CellWords<Element::dim>::cells;
-  std::string others = "mesh finer there, or take element = \"p1\"";
-  if (!lost.corner()) return others;
-  const std::string mesh = setup.mesh.file.empty() ? "MESH.msh" : setup.mesh.file.string();
-  return fmt::format("fsi-mesh refine {} --times 0 -o NEW.msh divides {} in corners; or {}", mesh, cells, others);
 }
 
 /// How many cells of these regions the part has, of all processes.
@@ -123,16 +98,15 @@ void build_wall(const Case& setup, WallParts<Element> parts, Scene<Element::comp
   scene.wall = std::move(wall);
 }
 
-/// \param region  the fluid's
 template <class Element>
-void build_fluid(const Case& setup, int region, FluidParts<Element> parts, Scene<Element::components>& scene) {
+void build_fluid(const Case& setup, FluidParts<Element> parts, Scene<Element::components>& scene) {
   constexpr int n = Element::components;
   auto& boundary = parts.boundary;
   AleFluid form{setup.fluid->density, setup.fluid->viscosity, setup.fluid->grad_div};
   if (const auto& model = setup.fluid->viscosity_model) form.law = viscosity_laws().at(model->name).make(model->values);
   auto fluid = std::make_unique<FluidProblem<Element>>(std::move(parts.part), form, std::move(boundary.open),
                                                        std::move(boundary.mirrored));
-  scene.profile.count("fluid elements", elements_of(fluid->part(), {region}));
+  scene.profile.count("fluid elements", elements_of(fluid->part(), {parts.region}));
   const auto openings = openings_of(setup);
   const auto& open = fluid->open_boundaries();
   std::vector<typename Openings<n>::Behind> behind;
@@ -171,40 +145,16 @@ constexpr const char* about_enclosed_fluid =
     "share theta - 1/2, and by +0.14 % with tr-bdf2); time.scheme = \"midpoint\" with time.damping = 0 keeps it, "
     "exactly so in the plane (docs/theory.md, section 8.12)";
 
-/// A remark of where the velocity that a sub-problem has on the interface leaves a pressure without an equation, with what
-/// helps; empty: nowhere. \throws InputError where the conditions of the case alone do
-template <class Element>
-std::string require_pressure_equations(const Case& setup, const FluidParts<Element>& fluid) {
-  const auto& boundary = fluid.boundary;
-  if (const auto lost = lost_pressures<Element>(fluid.part, boundary.velocity)) {
-    const auto& file = setup.mesh.file.empty() ? setup.path : setup.mesh.file;
-    throw InputError(file.string(), "pressure at " + place_of(lost->at), problem_of<Element>(*lost),
-                     remedy_of<Element>(setup, *lost));
-  }
-  std::vector<int> given;
-  for (const auto& node : boundary.interface) given.push_back(node.fluid);
-  const auto lost = lost_pressures<Element>(fluid.part, boundary.velocity, given);
-  if (!lost || given.empty()) return "";
-  return fmt::format("{} the pressure at {} {}; {}", interface_takes_equations, place_of(lost->at),
-                     problem_of<Element>(*lost), remedy_of<Element>(setup, *lost));
-}
-
 }  // namespace
 
 template <class Element>
-std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const MeshOf<Element>& mesh,
-                                                        const MeshShare* share, WholeParts<Element>* whole) {
+std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, SceneParts<Element>&& parts) {
   constexpr int n = Element::components;
-  assert((share == nullptr) == (whole == nullptr));
-  SceneParts<Element> parts = find_parts<Element>(setup, mesh);
-  const std::string stuck_by_interface = parts.fluid ? require_pressure_equations<Element>(setup, *parts.fluid) : "";
-  if (share) *whole = restrict_to(*share, parts);
-
   auto scene = std::make_unique<Scene<n>>();
-  if (!stuck_by_interface.empty()) scene->remarks.push_back(stuck_by_interface);
+  scene->remarks = std::move(parts.remarks);
   for (int k = 0; k < n; ++k) scene->axes[k] = Element::axis[k];
   if (parts.wall) build_wall(setup, std::move(*parts.wall), *scene);
-  if (parts.fluid) build_fluid(setup, mesh.region_index(group::fluid), std::move(*parts.fluid), *scene);
+  if (parts.fluid) build_fluid(setup, std::move(*parts.fluid), *scene);
   if (!setup.supports.empty()) require_common_frames(setup, *scene);
 
   if (setup.time) {
@@ -219,7 +169,17 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
   return scene;
 }
 
+template <class Element>
+std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const MeshOf<Element>& mesh,
+                                                        const MeshShare* share, WholeParts<Element>* whole) {
+  assert((share == nullptr) == (whole == nullptr));
+  SceneParts<Element> parts = find_parts<Element>(setup, mesh);
+  if (share) *whole = restrict_to(*share, parts);
+  return build_scene<Element>(setup, std::move(parts));
+}
+
 #define FSI_INSTANTIATE(Element)                                                                                 \
+  template std::unique_ptr<Scene<Element::components>> build_scene<Element>(const Case&, SceneParts<Element>&&); \
   template std::unique_ptr<Scene<Element::components>> build_scene<Element>(const Case&, const MeshOf<Element>&, \
                                                                             const MeshShare*, WholeParts<Element>*);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)

@@ -9,8 +9,14 @@
 
 namespace fsi {
 
-/// Builds the sub-problems that the case has, discretised by an element, on a checked mesh (check_scene_mesh): boundary
-/// conditions of docs/theory.md, section 2.4, the interface found from the cells.
+/// Builds the sub-problems that the case has, discretised by an element, of their parts (find_parts): boundary conditions of
+/// docs/theory.md, section 2.4, the interface found from the cells. Where the parts are restricted to what a process holds,
+/// the scene is its share.
+/// \throws InputError where the case and its mesh do not go together
+template <class Element>
+std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, SceneParts<Element>&& parts);
+
+/// The same on a checked mesh (check_scene_mesh).
 /// \param mesh   as read, regions and surface groups by name; the whole of it at each process
 /// \param share  how its nodes are shared out: the scene has this process's share; null: the scene is whole. Must live
 ///               as long as what is left in `whole`

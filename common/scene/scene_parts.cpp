@@ -1,14 +1,20 @@
 #include "scene/scene_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <tuple>
 
+#include "base/error.hpp"
 #include "fem/elements.hpp"
 #include "mesh/boundary.hpp"
+#include "mesh/cell_words.hpp"
+#include "mesh/flat_parts.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh_motion/stiffening.hpp"
 #include "scene/moving_openings.hpp"
+#include "scene/pressure_equations.hpp"
 #include "scene/restricted_conditions.hpp"
 
 namespace fsi {
@@ -58,6 +64,7 @@ FluidParts<Element> find_fluid(const Case& setup, const MeshOf<Element>& mesh, c
                                const WallParts<Element>* wall) {
   const int region = mesh.region_index(group::fluid);
   FluidParts<Element> fluid;
+  fluid.region = region;
   fluid.part = submesh(mesh, {region});
   const auto interface = wall ? interface_facets(mesh, region, wall_regions) : FacetsOf<Element>{};
   std::optional<WallSide<Element>> side;
@@ -70,6 +77,44 @@ FluidParts<Element> find_fluid(const Case& setup, const MeshOf<Element>& mesh, c
   for (InflowNodes& nodes : fluid.boundary.inflows)
     fluid.inflows.push_back(make_inflow<Element>(setup, mesh, fluid.part, std::move(nodes)));
   return fluid;
+}
+
+template <class Element>
+std::string problem_of(const LostPressures& lost) {
+  using Words = CellWords<Element::dim>;
+  if (lost.corner())
+    return fmt::format("has no equation: the velocity is given at every node of the {} around it, in a corner",
+                       lost.cells == 1 ? std::string(Words::cell) : fmt::format("{} {}", lost.cells, Words::cells));
+  return fmt::format(
+      "is one of {} in {} {} that have {} free components of the velocity beside them: too few equations",
+      lost.pressures, lost.cells, Words::cells, lost.velocities);
+}
+
+template <class Element>
+std::string remedy_of(const Case& setup, const LostPressures& lost) {
+  const std::string cells = CellWords<Element::dim>::cells;
+  std::string others = "mesh finer there, or take element = \"p1\"";
+  if (!lost.corner()) return others;
+  const std::string mesh = setup.mesh.file.empty() ? "MESH.msh" : setup.mesh.file.string();
+  return fmt::format("fsi-mesh refine {} --times 0 -o NEW.msh divides {} in corners; or {}", mesh, cells, others);
+}
+
+/// A remark of where the velocity that a sub-problem has on the interface leaves a pressure without an equation, with what
+/// helps; empty: nowhere. \throws InputError where the conditions of the case alone do
+template <class Element>
+std::string require_pressure_equations(const Case& setup, const FluidParts<Element>& fluid) {
+  const auto& boundary = fluid.boundary;
+  if (const auto lost = lost_pressures<Element>(fluid.part, boundary.velocity)) {
+    const auto& file = setup.mesh.file.empty() ? setup.path : setup.mesh.file;
+    throw InputError(file.string(), "pressure at " + place_of(lost->at), problem_of<Element>(*lost),
+                     remedy_of<Element>(setup, *lost));
+  }
+  std::vector<int> given;
+  for (const auto& node : boundary.interface) given.push_back(node.fluid);
+  const auto lost = lost_pressures<Element>(fluid.part, boundary.velocity, given);
+  if (!lost || given.empty()) return "";
+  return fmt::format("{} the pressure at {} {}; {}", interface_takes_equations, place_of(lost->at),
+                     problem_of<Element>(*lost), remedy_of<Element>(setup, *lost));
 }
 
 /// An array with a number for each cell of the whole part, as far as they are here.
@@ -155,7 +200,10 @@ SceneParts<Element> find_parts(const Case& setup, const MeshOf<Element>& mesh) {
     for (const auto& [name, data] : setup.structure->layers) wall_regions.push_back(mesh.region_index(name));
   SceneParts<Element> scene;
   if (setup.structure) scene.wall = find_wall<Element>(setup, mesh, wall_regions);
-  if (setup.fluid) scene.fluid = find_fluid<Element>(setup, mesh, wall_regions, scene.wall ? &*scene.wall : nullptr);
+  if (!setup.fluid) return scene;
+  scene.fluid = find_fluid<Element>(setup, mesh, wall_regions, scene.wall ? &*scene.wall : nullptr);
+  if (auto stuck = require_pressure_equations(setup, *scene.fluid); !stuck.empty())
+    scene.remarks.push_back(std::move(stuck));
   return scene;
 }
 

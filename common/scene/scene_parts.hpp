@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct WallParts {
 /// What a scene's fluid is made of.
 template <class Element>
 struct FluidParts {
+  int region = -1;  ///< of the mesh
   PartOf<Element> part;
   FluidBoundary<Element> boundary;
   std::size_t interface_ghosts = 0;  ///< how many of its pairs at the end are other processes'
@@ -42,6 +44,7 @@ template <class Element>
 struct SceneParts {
   std::optional<WallParts<Element>> wall;
   std::optional<FluidParts<Element>> fluid;
+  std::vector<std::string> remarks{};  ///< for the log
 };
 
 /// \throws InputError where the case and its mesh do not go together

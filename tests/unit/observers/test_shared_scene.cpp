@@ -186,7 +186,8 @@ TYPED_TEST(SharedScene, SamplesAreThoseOfTheWhole) {
     points.centre_line.push_back({{at->nodes.begin(), at->nodes.begin() + 4}, at->scalar_weights});
   }
   ObservationPoints mine = points;
-  restrict_samples(twins.parts.fluid_here.get(), twins.parts.wall_here.get(), &twins.here->fluid->nodes(), mine);
+  restrict_samples(twins.parts.fluid_here.get(), twins.parts.wall_here.get(), mine);
+  cut_through(twins.here->fluid->nodes(), mine);
   const SampleTables<3> known_tables(points.requested, *twins.whole), tables(mine.requested, *twins.here);
   State state, state_here;
   state.now = twins.level(3);
