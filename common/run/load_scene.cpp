@@ -302,13 +302,11 @@ LoadedScene<Element::components> load(const Case& setup, const LoadingScene& loa
   if (!loaded.mesh.wall.empty()) remarks.push_back(said_of(loaded.mesh.wall.back()));
   // All that takes the whole mesh is found first, and of several processes each keeps its share of it. Unless derived
   // quantities take the mesh, too, it is given up before matrices are made.
-  auto parts = find_parts<Element>(setup, mesh);
   MeshShare share;
   WholeParts<Element> whole;
-  if (!processes.is_alone()) {
-    share = share_mesh(mesh, processes);
-    whole = restrict_to(share, parts);
-  }
+  if (!processes.is_alone()) share = share_mesh(mesh, processes);
+  auto parts = find_parts<Element>(setup, mesh);
+  if (!processes.is_alone()) whole = restrict_to(share, parts);
   find_samples<Element>(setup, mesh, parts, whole, loaded);
   if (!derived_from_mesh(setup)) {
     whole = {};
