@@ -25,6 +25,10 @@ std::uint64_t machine_room(const char* meminfo) noexcept;
 /// \param root    where they are mounted, /sys/fs/cgroup
 std::uint64_t group_room(const char* groups, const char* root) noexcept;
 
+/// Has the system take back what was freed, which the heap keeps else, so that it does not add to later peaks. For the end of
+/// a stage that has taken much.
+void give_back_memory() noexcept;
+
 /// "3.1 GiB", "80 bytes".
 std::string memory_text(double bytes);
 /// The same into `text`; allocates nothing.

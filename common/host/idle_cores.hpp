@@ -46,6 +46,7 @@ class CoreWatch {
 struct ThreadChoice {
   int count = 1;
   std::string reason;
+  std::string warning{};  ///< of threads that hold each other up; empty: none
 };
 
 /// As asked with --threads; else one per idle core, but none with fewer than `tetrahedra_per_thread`.

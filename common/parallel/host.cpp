@@ -52,6 +52,11 @@ int processes_on_host(const Communicator& processes) {
   return count;
 }
 
+int own_core_count() {
+  const std::vector<int> cores = own_cores();
+  return std::max<int>(1, static_cast<int>(std::count(cores.begin(), cores.end(), 1)));
+}
+
 int cores_on_host(const Communicator& processes) {
   std::vector<int> cores = own_cores();
 #ifdef FSI_WITH_MPI

@@ -73,6 +73,10 @@ void announce(RunParts<n>& parts, const RunCheckpoints<n>& checkpoints, Console&
   }
   if (const std::string numbers = text_of_numbers(parts.loaded.numbers); !numbers.empty()) log.info(numbers);
   log.info(fmt::format("threads: {}, {}", parts.threads.count, parts.threads.reason));
+  if (!parts.threads.warning.empty()) {
+    log.warning(parts.threads.warning);
+    warn(parts.program, parts.threads.warning);
+  }
   announce_steps(parts, log);
   const auto& monolithic = parts.setup.monolithic;
   const auto& partitioned = parts.setup.partitioned;

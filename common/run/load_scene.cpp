@@ -14,6 +14,7 @@
 #include "case/case_hash.hpp"
 #include "fem/elements.hpp"
 #include "fluid/fluid_problem.hpp"
+#include "host/available_memory.hpp"
 #include "mesh/flat_parts.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/mesh_checks.hpp"
@@ -312,6 +313,7 @@ LoadedScene<Element::components> load(const Case& setup, const LoadingScene& loa
     whole = {};
     share = {};
     mesh = {};
+    give_back_memory();
   }
   loaded.scene = build_scene<Element>(setup, std::move(parts));
   auto& said = *loaded.scene;

@@ -1,11 +1,22 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "host/idle_cores.hpp"
 #include "parallel/communicator.hpp"
 
 namespace fsi {
+
+/// Cores of a host that one of the processes on it may use, and all of them together.
+struct HostCores {
+  int own = 1, all = 1, processes = 1;
+
+  /// The launcher gives each process a part of the cores.
+  bool bound() const { return own < all; }
+  /// Cores for the threads of a process.
+  int of_process() const { return bound() ? own : all / processes > 1 ? all / processes : 1; }
+};
 
 /// How many threads one of several processes takes: as asked; else its part of the cores that the processes of its host may
 /// use, but none with fewer cells of its own than are of use. Others' jobs are not looked at, since these processes cannot
@@ -13,7 +24,7 @@ namespace fsi {
 /// \param cells  of the whole mesh
 ThreadChoice threads_of_process(int asked, std::size_t cells, const CoreWatch& watch, const Communicator& processes);
 
-/// The rule: `cores` of a host for `processes` there, `cells` of each.
-ThreadChoice part_of_cores(int cores, int processes, std::size_t cells);
+/// The rule for several processes. \param cells  of each
+ThreadChoice threads_of_process(int asked, std::size_t cells, const HostCores& host);
 
 }  // namespace fsi

@@ -9,9 +9,9 @@ namespace fsi {
 /// What is iterated or factorised. Its row in solver_policy.cpp says where factors are quicker.
 enum class SolvedSystem {
   jacobian,                ///< of a scene or a medium; its size counts unknowns of all processes
-  harmonic_mesh_motion,    ///< on one process; its size counts inner nodes without followers
+  harmonic_mesh_motion,    ///< its size counts inner nodes without followers, of the process with the most of them
   tangent_mesh_motion,     ///< the same of a nonlinear motion; inner nodes
-  shared_mesh_motion,      ///< on several processes; unknowns
+  shared_mesh_motion,      ///< by PETSc, or at the first process; unknowns
   schur_complement,        ///< of the pressures, in the preconditioner of `fast` on one process; pressures
   shared_schur_complement  ///< the same on several processes, and in that of `petsc`
 };
