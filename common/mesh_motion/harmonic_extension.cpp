@@ -17,6 +17,10 @@ namespace fsi {
 
 namespace {
 
+// Of factors in shares: beyond either they take longer than the iteration (docs/archive.md, "Several processes").
+constexpr std::int64_t largest_separator = 1000;
+constexpr double most_couplings = 8e6;
+
 constexpr int chunk_rows = 2048;  // of a partial sum: fixed, so that sums do not depend on the number of threads
 
 /// m scalar products of vectors that hold m numbers a row, over the first rows.
@@ -231,7 +235,9 @@ bool HarmonicExtension<n>::decide_to_iterate(const Group& group, const CsrMatrix
   const int nodes = group.mixed ? a.rows() / static_cast<int>(group.components.size()) : a.rows();
   const auto most = static_cast<std::int64_t>(processes().largest(nodes));
   if (SolverPolicy(SolvedSystem::harmonic_mesh_motion, n, {options_.iterative_from}).decide(most).iterates) return true;
-  return nodes_ && SharedCholesky::separator(a, group.share) > SharedCholesky::largest_separator;
+  if (!nodes_) return false;
+  const auto size = SharedCholesky::size_of(a, group.share);
+  return size.separator > largest_separator || size.couplings > most_couplings;
 }
 
 template <int n>

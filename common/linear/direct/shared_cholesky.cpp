@@ -84,10 +84,12 @@ std::vector<char> SharedCholesky::find_separator(const CsrMatrix<double>& a, con
   return {separated.begin(), separated.end()};
 }
 
-std::int64_t SharedCholesky::separator(const CsrMatrix<double>& a, const ShareOfNumbers& share) {
+SharedCholesky::Size SharedCholesky::size_of(const CsrMatrix<double>& a, const ShareOfNumbers& share) {
   const auto separated = find_separator(a, share);
-  return share.processes->sum(
-      static_cast<std::int64_t>(std::count(separated.begin(), separated.begin() + share.own, char{1})));
+  const auto count = [&](int items) { return std::count(separated.begin(), separated.begin() + items, char{1}); };
+  const auto own = count(share.own), here = count(share.items());
+  return {share.processes->sum(std::int64_t{own}),
+          share.processes->largest(static_cast<double>((share.own - own) * here))};
 }
 
 void SharedCholesky::factorise(const CsrMatrix<double>& a, const ShareOfNumbers& share, bool single_precision) {
@@ -161,14 +163,21 @@ void SharedCholesky::factorise_inner(const SparseMatrix& rows) {
 }
 
 void SharedCholesky::find_couplings(const CsrMatrix<double>& a) {
-  couplings_.assign(inner_.size() * separated_.size(), 0.0);
-  for (std::size_t i = 0; i < inner_.size(); ++i)
+  constexpr std::size_t batch = 32;  // of columns: solves keep a few copies of them
+  const std::size_t rows = inner_.size();
+  couplings_.assign(rows * separated_.size(), 0.0);
+  for (std::size_t i = 0; i < rows; ++i)
     for (int at = a.offsets[inner_[i]]; at < a.offsets[inner_[i] + 1]; ++at)
       if (const int column = a.indices[at]; is_separated_[column])
-        couplings_[inner_.size() * of_item_[column] + i] = a.values[at];
-  if (couplings_.empty()) return;
-  const std::vector<double> right = std::move(couplings_);
-  solver_.solve(right, static_cast<int>(separated_.size()), couplings_);
+        couplings_[rows * of_item_[column] + i] = a.values[at];
+  std::vector<double> right, solution;
+  for (std::size_t first = 0; rows > 0 && first < separated_.size(); first += batch) {
+    const std::size_t count = std::min(batch, separated_.size() - first);
+    const auto begin = couplings_.begin() + static_cast<std::ptrdiff_t>(rows * first);
+    right.assign(begin, begin + static_cast<std::ptrdiff_t>(rows * count));
+    solver_.solve(right, static_cast<int>(count), solution);
+    std::copy(solution.begin(), solution.end(), begin);
+  }
 }
 
 void SharedCholesky::invert_schur_complement(const CsrMatrix<double>& a) {

@@ -20,12 +20,13 @@ class SharedCholesky {
  public:
   SharedCholesky() = default;
 
-  /// Unknowns of the separator, of all processes.
+  struct Size {
+    std::int64_t separator = 0;  ///< unknowns of it, of all processes
+    double couplings = 0;        ///< numbers of W, of the process with the most of them
+  };
   /// \param a      own rows; columns of copies behind the own ones
   /// \param share  of its columns
-  static std::int64_t separator(const CsrMatrix<double>& a, const ShareOfNumbers& share);
-  /// S is dense: with more, an iteration serves better.
-  static constexpr std::int64_t largest_separator = 1000;
+  static Size size_of(const CsrMatrix<double>& a, const ShareOfNumbers& share);
 
   /// A matrix with the same numbers of own unknowns and entries as the one before takes over its ordering.
   /// \param a, share  as above; share must outlive this

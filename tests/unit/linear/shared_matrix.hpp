@@ -11,6 +11,11 @@
 
 namespace fsi::test {
 
+/// All processes of the test. A function: before main() there are none.
+inline const Communicator& everyone() {
+  return Communicator::world();
+}
+
 /// A process's stretch of the rows of a matrix that all processes have; columns of copies behind those of own rows.
 struct SharedGraph {
   ShareOfNumbers share;

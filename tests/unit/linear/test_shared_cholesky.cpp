@@ -12,8 +12,6 @@ namespace fsi::test {
 
 namespace {
 
-const Communicator& world = Communicator::world();
-
 double known(std::int64_t number, int right_side) {
   return std::sin(0.7 * static_cast<double>(number) + right_side);
 }
@@ -34,14 +32,17 @@ double largest_error(const SharedMatrix& shared, const SharedCholesky& solver) {
     for (std::size_t i = 0; i < own; ++i)
       largest =
           std::max(largest, std::abs(x[own * c + i] - known(share.number(static_cast<int>(i)), static_cast<int>(c))));
-  return world.largest(largest);
+  return everyone().largest(largest);
 }
 
 TEST(SharedCholesky, SolvesToRoundingAndAgainWithOtherValues) {
   SharedCholesky solver;
   for (const double mass : {0.1, 3.0}) {
-    const SharedMatrix shared(world, csr_laplacian(12, mass));
-    EXPECT_EQ(SharedCholesky::separator(shared.matrix, shared.graph.share), 144 * (world.size() - 1));
+    const SharedMatrix shared(everyone(), csr_laplacian(12, mass));
+    const auto size = SharedCholesky::size_of(shared.matrix, shared.graph.share);
+    EXPECT_EQ(size.separator, 144 * (everyone().size() - 1));
+    EXPECT_GE(size.couplings, 144.0 * (1728 / everyone().size() - 144));
+    EXPECT_LE(size.couplings, 2 * 144.0 * (1728 / everyone().size() + 1));
     solver.factorise(shared.matrix, shared.graph.share, false);
     EXPECT_EQ(solver.residual(), 0);
     EXPECT_LT(largest_error(shared, solver), 1e-13);
@@ -49,7 +50,7 @@ TEST(SharedCholesky, SolvesToRoundingAndAgainWithOtherValues) {
 }
 
 TEST(SharedCholesky, KeepsSinglePrecisionOnDemand) {
-  const SharedMatrix shared(world, csr_laplacian(16, 0.1));
+  const SharedMatrix shared(everyone(), csr_laplacian(16, 0.1));
   SharedCholesky twice, half;
   twice.factorise(shared.matrix, shared.graph.share, false);
   half.factorise(shared.matrix, shared.graph.share, true);
@@ -65,7 +66,7 @@ TEST(SharedCholesky, KeepsSinglePrecisionOnDemand) {
 /// A chain of a row for each process, and one of fewer rows than processes: some have nothing but unknowns of the separator,
 /// or nothing at all.
 TEST(SharedCholesky, ProcessesMayHaveNoInnerUnknowns) {
-  for (const int rows : {world.size(), world.size() - 1}) {
+  for (const int rows : {everyone().size(), everyone().size() - 1}) {
     CsrMatrix<double> chain;
     chain.columns = rows;
     for (int row = 0; row < rows; ++row) {
@@ -75,7 +76,7 @@ TEST(SharedCholesky, ProcessesMayHaveNoInnerUnknowns) {
       }
       chain.offsets.push_back(static_cast<int>(chain.indices.size()));
     }
-    const SharedMatrix shared(world, chain);
+    const SharedMatrix shared(everyone(), chain);
     SharedCholesky solver;
     solver.factorise(shared.matrix, shared.graph.share, false);
     EXPECT_LT(largest_error(shared, solver), 1e-14);
@@ -84,8 +85,8 @@ TEST(SharedCholesky, ProcessesMayHaveNoInnerUnknowns) {
 
 /// What one process finds, all throw.
 TEST(SharedCholesky, RefusesAMatrixThatIsNotPositiveDefinite) {
-  SharedMatrix shared(world, csr_laplacian(6, 0.1));
-  if (world.rank() + 1 == world.size())
+  SharedMatrix shared(everyone(), csr_laplacian(6, 0.1));
+  if (everyone().rank() + 1 == everyone().size())
     for (double& value : shared.matrix.values) value = -value;
   SharedCholesky solver;
   EXPECT_THROW(solver.factorise(shared.matrix, shared.graph.share, false), ConvergenceError);

@@ -11,7 +11,10 @@ namespace fsi::test {
 
 namespace {
 
-const Communicator& everyone = Communicator::world();
+/// A function: before main() there are none.
+const Communicator& everyone() {
+  return Communicator::world();
+}
 
 /// A process's stretch of the nodes of a problem, and copies of the nodes beside them.
 struct SharedProblem {
@@ -24,36 +27,36 @@ struct SharedProblem {
   explicit SharedProblem(ExtensionProblem of) : whole(std::move(of)) {
     const NodeGraph& graph = *whole.laplacian.graph;
     const auto owner = [&](int node) {
-      return static_cast<int>(((node + std::int64_t{1}) * everyone.size() - 1) / graph.rows());
+      return static_cast<int>(((node + std::int64_t{1}) * everyone().size() - 1) / graph.rows());
     };
     std::vector<char> held(graph.rows(), 0);
     for (int a = 0; a < graph.rows(); ++a)
       for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at)
-        if (owner(graph.columns[at]) == everyone.rank()) held[a] = 1;
+        if (owner(graph.columns[at]) == everyone().rank()) held[a] = 1;
     std::vector<int> local(graph.rows(), -1);
-    share.processes = &everyone;
+    share.processes = &everyone();
     share.whole_nodes = graph.rows();
     for (int a = 0; a < graph.rows(); ++a)
       if (held[a]) {
         local[a] = static_cast<int>(share.whole_node.size());
         share.whole_node.push_back(a);
-        share.owned.push_back(owner(a) == everyone.rank() ? 1 : 0);
+        share.owned.push_back(owner(a) == everyone().rank() ? 1 : 0);
       }
     std::vector<Exchange::Neighbour> neighbours;
-    for (int rank = 0; rank < everyone.size(); ++rank) {
+    for (int rank = 0; rank < everyone().size(); ++rank) {
       Exchange::Neighbour n{rank, {}, {}};
       for (const int a : share.whole_node) {
         if (owner(a) == rank) n.received.push_back(local[a]);
-        if (owner(a) != everyone.rank()) continue;
+        if (owner(a) != everyone().rank()) continue;
         for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at)
           if (owner(graph.columns[at]) == rank) {
             n.sent.push_back(local[a]);
             break;
           }
       }
-      if (rank != everyone.rank() && (!n.sent.empty() || !n.received.empty())) neighbours.push_back(std::move(n));
+      if (rank != everyone().rank() && (!n.sent.empty() || !n.received.empty())) neighbours.push_back(std::move(n));
     }
-    share.exchange = Exchange(everyone, std::move(neighbours));
+    share.exchange = Exchange(everyone(), std::move(neighbours));
     auto here = std::make_shared<NodeGraph>();
     here->offsets = {0};
     std::vector<int> blocks;
@@ -91,7 +94,7 @@ struct SharedProblem {
       for (int k = 0; k < 3; ++k)
         largest = std::max(largest, std::abs(found[VectorLayout<3>::vector(static_cast<int>(i), k)] -
                                              expected[VectorLayout<3>::vector(share.whole_node[i], k)]));
-    return everyone.largest(largest);
+    return everyone().largest(largest);
   }
 };
 
