@@ -120,8 +120,8 @@ def _method(report: Report, plan: Plan, cases: Sequence[str], timing: str) -> No
         own = ", ".join(f"{percent(reference.own_error[q.column])} in {q.name}" for q in QUANTITIES)
         report.text(
             f"Reference, {MATERIALS.get(case, case)}: {reference.description}. Its own error is estimated as "
-            f"{own}; smaller differences between runs mean nothing. It shares the weak forms with the drivers, but "
-            "neither the mesh nor the three dimensions."
+            f"{own}; smaller differences between runs mean nothing. It is made by the same program, partly on the grids of "
+            "the axisymmetric runs: of mesh and dimension it is independent for tetrahedra alone."
         )
     report.text(
         "**Total error**: against the reference; from mesh, time step and solver together. **Solver's error**: "

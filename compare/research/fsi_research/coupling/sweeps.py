@@ -148,7 +148,7 @@ def sweep_table(group: str, label: str, found: Sequence[Cell], settings: Setting
             "Difference: of the pressure of runs that came to their end, the largest of all time levels, "
             "relative to the largest pressure of the level"
             + (
-                f"; of {', '.join(settings.one_pass)}, which do not iterate, of all levels, or that of the displacement if larger."
+                f"; of {', '.join(settings.one_pass)}, which do not iterate, or not on all of the coupling, of all levels, or that of the displacement if larger."
                 if settings.one_pass
                 else "."
             )
