@@ -24,7 +24,7 @@ def write_page(folder: Path, outcomes: Sequence[Outcome], quick: bool, at_once: 
     report.text(
         "Each scene is a folder of `gallery/` with a case file, what its mesh is made from, and a number that is known. "
         "Scenes with fluid and wall are run by both drivers from the same case file, others by one; one thread each. "
-        "\"Differs by\" is relative to the known value, or to the scale that the scene gives: phases to 1 rad, leads to "
+        '"Differs by" is relative to the known value, or to the scale that the scene gives: phases to 1 rad, leads to '
         "90 degrees, the lift of FSI1 to its drag."
     )
     measured: List[Number] = []
