@@ -105,7 +105,7 @@ void fluid_of(benchmark::State& run, FluidDerivatives derivatives) {
   in.fluid_reference = s.zero.data();
   in.fluid_factor = in.mesh_factor = 8;
   in.step = 0.125;
-  FluidJacobian<n> jacobian(fluid.graph(), derivatives);
+  FluidJacobian<Element::components> jacobian(fluid.graph(), derivatives);
   for (auto _ : run) fluid.assemble(in, {}, s.residual, &jacobian);
   rate(run, s.part.cells.size());
 }
@@ -115,7 +115,7 @@ void wall_of(benchmark::State& run, const Material& material) {
   Medium<Element> s(1);
   WallProblem<Element> wall(s.part, {1.2, 1e5, 0.5}, {{1, material}}, {});
   const WallInput in{s.mixed.data(), s.zero.data(), 64.0};
-  WallMatrix<n> jacobian(wall.graph());
+  WallMatrix<Element::components> jacobian(wall.graph());
   for (auto _ : run) wall.assemble(in, 0.0, s.mixed, s.residual, &jacobian);
   rate(run, s.part.cells.size());
 }

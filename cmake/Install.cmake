@@ -55,6 +55,7 @@ install(FILES LICENSE DESTINATION ${_documents} RENAME copyright COMPONENT progr
 install(DIRECTORY common/ DESTINATION ${_headers} COMPONENT development FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY monolithic partitioned DESTINATION ${_headers} COMPONENT development FILES_MATCHING PATTERN "*.hpp")
 install(FILES ${PROJECT_BINARY_DIR}/common/base/base/version.hpp DESTINATION ${_headers}/base COMPONENT development)
+install(FILES ${PROJECT_BINARY_DIR}/common/fem/fem/compiled_elements.hpp DESTINATION ${_headers}/fem COMPONENT development)
 
 function(fsi_libraries_below folder result)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)

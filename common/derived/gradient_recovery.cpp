@@ -36,12 +36,13 @@ std::optional<std::vector<Point>> positions(const std::vector<PatchPoint>& patch
 /// Makes weights exact for linear fields again, which straightened coordinates do not know: the gradient of X is one.
 void keep_linear_fields(const std::vector<PatchPoint>& patch, const std::vector<int>& axes, PointWeights& weights) {
   const auto dim = static_cast<Eigen::Index>(axes.size());
-  Eigen::MatrixXd of_position = Eigen::MatrixXd::Zero(dim, dim);
+  Eigen::Matrix3d of_position = Eigen::Matrix3d::Identity();
+  of_position.topLeftCorner(dim, dim).setZero();
   for (std::size_t i = 0; i < weights.size(); ++i)
     for (Eigen::Index r = 0; r < dim; ++r)
       for (Eigen::Index c = 0; c < dim; ++c)
         of_position(r, c) += (patch[i].position[axes[r]] - patch[0].position[axes[r]]) * weights[i][c];
-  const Eigen::MatrixXd inverse = of_position.inverse();
+  const Eigen::Matrix3d inverse = of_position.inverse();
   for (auto& weight : weights) {
     std::array<double, 3> corrected{0, 0, 0};
     for (Eigen::Index r = 0; r < dim; ++r)

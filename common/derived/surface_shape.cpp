@@ -66,14 +66,15 @@ SurfaceShape shape_of(const Point& normal, const std::vector<int>& axes, Curvatu
     shape.curvatures[0] = curvature(t[0], t[0]);
     return shape;
   }
-  Eigen::Matrix2d k;
-  k << curvature(t[0], t[0]), curvature(t[0], t[1]), curvature(t[0], t[1]), curvature(t[1], t[1]);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(k);
-  const int first = std::abs(principal.eigenvalues()[0]) <= std::abs(principal.eigenvalues()[1]) ? 0 : 1;
+  const double first = curvature(t[0], t[0]), both = curvature(t[0], t[1]), second = curvature(t[1], t[1]);
+  Eigen::JacobiRotation<double> turn;  // (c, -s) and (s, c) are the principal directions
+  turn.makeJacobi(first, both, second);
+  const double change = both == 0 ? 0 : turn.s() / turn.c() * both, principal[2] = {first - change, second + change};
+  const Point along[2] = {turn.c() * t[0] - turn.s() * t[1], turn.s() * t[0] + turn.c() * t[1]};
+  const int flatter = std::abs(principal[0]) <= std::abs(principal[1]) ? 0 : 1;
   for (int i = 0; i < 2; ++i) {
-    const auto v = principal.eigenvectors().col(i == 0 ? first : 1 - first);
-    shape.directions[i] = v[0] * t[0] + v[1] * t[1];
-    shape.curvatures[i] = principal.eigenvalues()[i == 0 ? first : 1 - first];
+    shape.directions[i] = along[i == 0 ? flatter : 1 - flatter];
+    shape.curvatures[i] = principal[i == 0 ? flatter : 1 - flatter];
   }
   return shape;
 }
