@@ -10,7 +10,6 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=build/release # where README's next commands look
 results=results/quickstart
 case_file=meshes/artery/neo-hookean.toml
-mesh=meshes/artery/artery-coarse.msh # for what README prints next
 
 mpi=() # as the build folder has it, otherwise with MPI
 for argument in "$@"; do
@@ -59,7 +58,6 @@ echo
 echo "The first report: $PWD/$results/report/report.html. All elements, the other driver and the paper's study follow."
 echo
 stage "build, all elements" build_programs fsi-mesh fsi-monolithic fsi-partitioned fsi-linear-study
-stage "mesh" "$build/bin/fsi-mesh" artery --level coarse -o "$mesh"
 stage "partitioned run" "$build/bin/fsi-partitioned" "$case_file" -o "$results/partitioned"
 stage "comparison" "$build/bin/fsi-compare" pressure "$results/monolithic" "$results/partitioned" -o "$results/compare"
 stage "study of the paper" "$build/bin/fsi-compare" study paper --quick -o "$results/paper"

@@ -8,13 +8,14 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import List
 
-FIRST_ELEMENT = ("common/run/load_scene.cpp", "common/wall/wall_problem.cpp", "common/mesh_motion/mesh_motion.cpp")
+FIRST_ELEMENT = ["common/run/load_scene.cpp", "common/wall/wall_problem.cpp", "common/mesh_motion/mesh_motion.cpp"]
 NAMES = re.compile(r"\b(P1|P2P1)(Tetrahedron|AxisymmetricTriangle|PlaneTriangle)\b")
 NAME_ELEMENTS = ("common/fem/", "common/run/load_scene.cpp")
 
 
-def naming_sources(root):
+def naming_sources(root: Path) -> List[str]:
     """Sources of the libraries and programs that name an element and may not, relative to root."""
     found = []
     for folder in ("common", "monolithic", "partitioned", "meshes"):
@@ -25,13 +26,14 @@ def naming_sources(root):
     return found
 
 
-def main(root, compiler, options):
+def main(root: Path, compiler: str, options: List[str]) -> int:
     benchmarks = [str(path.relative_to(root)) for path in sorted((root / "benchmarks").glob("*.cpp"))]
     failures = 0
-    for sources, more in ((benchmarks, []), (FIRST_ELEMENT, ["-DFSI_FIRST_ELEMENT"])):
-        for source in sources:
-            command = [compiler, "-std=c++17", "-fsyntax-only", *more, *options, str(root / source)]
-            failures += subprocess.run(command, check=False).returncode != 0
+    jobs = [(name, options) for name in benchmarks]
+    jobs += [(name, ["-DFSI_FIRST_ELEMENT", *options]) for name in FIRST_ELEMENT]
+    for name, words in jobs:
+        command = [compiler, "-std=c++17", "-fsyntax-only", *words, str(root / name)]
+        failures += subprocess.run(command, check=False).returncode != 0
     for name in naming_sources(root):
         print(f"{name}: names an element; only {' and '.join(NAME_ELEMENTS)} do: see fem/elements.hpp")
         failures += 1

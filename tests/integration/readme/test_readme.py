@@ -128,7 +128,7 @@ class Readme(FolderTest):
     def stage(self, name):
         """A command of the quickstart, its variables filled in."""
         line = re.search(rf'^stage "{name}" (.*)$', self.script, re.MULTILINE).group(1)
-        settings = "\n".join(f"{v}={self.variable(v)}" for v in ("build", "results", "case_file", "mesh"))
+        settings = "\n".join(f"{v}={self.variable(v)}" for v in ("build", "results", "case_file"))
         return f"{settings}\n{line}"
 
     def test_commands_in_their_order(self):
@@ -143,7 +143,6 @@ class Readme(FolderTest):
             self.assertEqual(count, 1, case)
             (folder / "meshes" / "artery" / case.name).write_text(text)
         commands = [
-            self.stage("mesh"),
             self.stage("monolithic run"),
             self.stage("report"),
             self.stage("partitioned run"),
