@@ -13,7 +13,8 @@ namespace fsi {
 namespace option {
 inline constexpr unsigned relaxation = 1, columns = 2, filter = 4, gap_demands = 8, force_tolerance = 16,
                           velocity_gap = 32, robin_coefficient = 64;
-/// Of passes that go on until fluid and wall agree, and of quasi-Newton methods that are made of their differences.
+/// Options of schemes that iterate until fluid and wall agree; options of quasi-Newton methods, whose columns are
+/// differences of passes.
 inline constexpr unsigned of_passes = relaxation | gap_demands | force_tolerance, of_differences = columns | filter;
 }  // namespace option
 
@@ -23,7 +24,7 @@ struct CouplingScheme {
   /// How passes are accelerated. Null: the scheme is no CouplingStepper.
   std::unique_ptr<Accelerator> (*make_accelerator)(const PartitionedData& options, const InterfaceSpace& space);
   const char* advice;  ///< what helps when it does not converge
-  unsigned options;    ///< that it takes
+  unsigned options;    ///< bits of `option` that have an effect
 };
 
 }  // namespace fsi

@@ -250,14 +250,15 @@ template <int n>
 void CouplingStepper<n>::measure(const Pass& pass) {
   coupling_.displacement_gap = space_.norm(pass.residual);
   double size = size_of(pass);
-  if (scene_.initial_load)  // displacements count from a loaded shape, also where none move
+  if (scene_.initial_load)  // displacements count from a loaded shape, and may all be next to zero
     if (const auto numbers = space_.size(pass.displacement); numbers > 0)
       size = std::max(size, smallest_motion * problem_->pressure_of_thickness() / problem_->pressure_per_gap() *
                                 std::sqrt(static_cast<double>(numbers)));
   coupling_.displacement_residual = size > 0
                                         ? coupling_.displacement_gap / size
                                         : (coupling_.displacement_gap > 0 ? std::numeric_limits<double>::max() : 0.0);
-  // It takes a residual of the fluid: where nobody demands it, and passes are cheap, it is left to the accepted one.
+  // The force residual costs an assembly of the fluid. Where nothing is demanded of it and passes are cheap, it is
+  // measured in accept() alone.
   if (refines() || options_.force_tolerance > 0) coupling_.force_residual = problem_->force_residual();
   coupling_.pressure_residual = problem_->pressure_residual(pass.residual);
   coupling_.gap_pressure = problem_->gap_pressure(pass.residual);
@@ -313,7 +314,7 @@ void CouplingStepper<n>::retreat(const PassFailure& failure, State& state, StepD
         advice_without_answer() + (valve.empty() ? std::string() : std::string(", or ") + JoinedOpenings<n>::remedy));
   }
   if (extrapolated || stiffened) {
-    order_ = 0;  // the extrapolated start can be the culprit, after a jump of the load for example
+    order_ = 0;  // the extrapolation may be to blame, for example after a jump of the load
     problem_->start_from_prediction(state, data, order_);
     x = problem_->first_guess(order_);
     return;

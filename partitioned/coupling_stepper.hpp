@@ -23,8 +23,9 @@ struct Pass;
 struct PassAccuracy;
 class PassFailure;
 
-/// Advances fluid and wall in turn: passes through the sub-problems from an extrapolated guess, accelerated, until they agree
-/// on the interface. What a scheme does otherwise is a class of its own (schemes/), which overrides the steps below.
+/// Advances fluid and wall by an interface iteration: accelerated passes through the sub-problems, from an extrapolated
+/// guess, until both agree on the interface. A scheme that differs is a derived class (schemes/), which overrides the
+/// virtual functions below. All processes call each function together.
 template <int n>
 class CouplingStepper : public Stepper {
  public:
@@ -40,9 +41,10 @@ class CouplingStepper : public Stepper {
   MatrixValues matrix_values() const override;
 
   StepReport advance(State& state) override;
-  /// advance() in two: the step is solved, unless the judge rejects it (report().rejected),
+  /// First part of advance(): solves all stages. Where the judge rejects the solution, report().rejected is set.
+  /// \throws ConvergenceError; what the step changed in the accelerator and the scheme is undone
   void solve_step(State& state);
-  /// and is the one that the next begins with.
+  /// Second part of advance(), not after a rejected step: makes the solved step the one that the next begins with.
   virtual void finish_step(const State& state);
 
   void keep(RestartArchive& archive) override;
@@ -58,11 +60,13 @@ class CouplingStepper : public Stepper {
 
   /// Whether passes go on until fluid and wall agree; else the first ends the step.
   virtual bool iterates() const { return true; }
-  /// Order of the extrapolated start of steps where the case names none. Iterations are the fewer the closer they start.
+  /// Order of the extrapolated start of steps where the case names none. Iterations are the fewer the closer they
+  /// start.
   virtual int standard_order() const { return 2; }
-  /// Before the stages of a step. What it and those below change of the scheme's own is taken back by take_back(), where the
-  /// step has no end: the run may try again with a shorter one.
+  /// Called before the stages of a step.
   virtual void begin_step(const State& /*state*/) {}
+  /// Called where the step fails or is rejected. Undoes what begin_step() and the functions below changed in the
+  /// scheme's own data, as the run may repeat the step with another length.
   virtual void take_back() {}
   /// Before the first guess of a stage. \throws ConvergenceError where the scheme sees that it would fail
   virtual void begin_stage(const State& /*state*/, const StepData& /*data*/) {}
@@ -72,33 +76,37 @@ class CouplingStepper : public Stepper {
   virtual void finish_stage(State& /*state*/, const StepData& /*data*/) {}
   /// The interface's displacement that a gap is relative to, mm, Euclidean norm over it.
   virtual double size_of(const Pass& pass) const;
-  /// What helps where a pass has no answer.
+  /// Remedy in the message of a step that fails in a pass without a solution.
   virtual std::string advice_without_answer() const {
     return "a smaller partitioned.relaxation or a smaller time.step";
   }
 
-  /// How well the media are solved in the first pass of a stage,
+  /// How well the media are solved in the first pass of a stage. Called again where the stage begins anew.
   virtual PassAccuracy first_accuracy();
-  /// and in the one that follows the last.
+  /// How well they are solved in the next pass.
+  /// \param accuracy  of the last pass; overwritten
   virtual void next_accuracy(PassAccuracy& accuracy);
   /// Whether the last pass ends the stage.
   virtual bool agrees(const State& state, const StepData& data, const GoodPass& good);
-  /// Whether passes lead nowhere, so that the stage should begin anew in another way.
+  /// Whether the passes stagnate, so that the stage should begin anew with another method.
   virtual bool leads_nowhere() const { return false; }
-  /// That other way, for the rest of the run. \returns what it is, for the log; empty where there is none, or none any more
+  /// Switches to another method for the rest of the run, here to another Robin coefficient. Called where passes
+  /// stagnate, and after `most_failures` passes without a solution. \returns its name for the log; empty: there is none
+  /// left
   virtual std::string another_way();
   /// How far the last pass is from what is demanded, for the message of a failure.
   virtual std::string distance_from_demand() const;
   /// Whether a pass that agrees is taken as far as the final tolerance of the sub-problems.
   virtual bool refines() const { return true; }
-  /// The error of the accepted pass, relative to what the step changes: with rho the ratio of its residual and that of
-  /// the pass before, rho / (1 - rho) times what the fields have changed since, as NewtonReport::error has it. Of a pass
-  /// without one before, or with a larger residual, the interface's relative residuals, of displacement and pressures.
+  /// Estimated error of the accepted pass, relative to what the step changes: with rho the ratio of its residual to
+  /// that of the pass before, rho / (1 - rho) times the change of the fields since, as in NewtonReport::error. After a
+  /// quasi-Newton correction rho is at most 0.5. Without a pass before, or where its residual was smaller: the relative
+  /// residuals of the interface times the wall's displacement and both pressures.
   virtual double estimated_error(const State& state, const StepData& data, const GoodPass& good) const;
-  /// What fluid and wall differ by between the fields of that pass and now, relative to what the step changes.
+  /// Change of fluid and wall since `good`, relative to what the step changes (relative_to_step()).
   double change_since(const State& state, const StepData& data, const GoodPass& good) const;
 
-  /// From here on other passes, and another accelerator of them.
+  /// Replaces the passes and their accelerator; the cost of the step so far is kept.
   void go_on_by(std::unique_ptr<CouplingPass<n>> problem, std::unique_ptr<Accelerator> accelerator);
 
   Scene<n>& scene() const { return scene_; }
@@ -118,7 +126,7 @@ class CouplingStepper : public Stepper {
 
  private:
   static constexpr int most_retreats = 10;        ///< failed passes of one step
-  static constexpr int most_failures = 3;         ///< of them, before another coefficient is tried
+  static constexpr int most_failures = 3;         ///< of them in a stage, before another_way() is asked
   static constexpr double retreat_factor = 0.25;  ///< of the way from the last good iterate, after a failed pass
   /// Relative interface residual beyond which the wall is linearised: there d~ lies so far off, a hundred times the
   /// error of d, that its nonlinearity would only mislead the accelerator.
@@ -134,7 +142,8 @@ class CouplingStepper : public Stepper {
 
   /// The first guess x of a stage; the accelerator and the monitors begin anew.
   std::vector<double> start_stage(State& state, StepData& data);
-  /// Tells the accelerator when the interface's displacements weigh otherwise than they did.
+  /// Tells the accelerator where the period of the interface kinematics has changed by more than `likeness`, as r(x) is
+  /// then another function; logs what a gap means as a pressure.
   void note_period(double period);
 
   /// A pass, measured. One that agrees is taken as far as the sub-problems' final tolerance. \throws PassFailure
@@ -146,8 +155,9 @@ class CouplingStepper : public Stepper {
 
   [[noreturn]] void give_up(const State& state, const StepData& data, const char* what) const;
 
-  /// After a pass without an answer: back to the last good iterate and a part of the way again; without one, back to
-  /// the last time level. \throws ConvergenceError when that has been tried often enough
+  /// After a pass without a solution: goes back to the last good iterate and a part of the way again. Without a good
+  /// iterate the stage starts from the last time level, and where it did so already, with a stiffer fluid interface.
+  /// \throws ConvergenceError after `most_retreats`, or where none of this is possible
   void retreat(const PassFailure& failure, State& state, StepData& data, std::vector<double>& x, const GoodPass& good);
 
   void accept(State& state, const StepData& data, const std::vector<double>& x, const Pass& pass);
@@ -165,13 +175,13 @@ class CouplingStepper : public Stepper {
   std::unique_ptr<Accelerator> accelerator_;
   std::unique_ptr<CouplingPass<n>> problem_;
   CouplingReport coupling_;
-  DivergenceMonitor monitor_;  ///< of the step's passes
+  DivergenceMonitor monitor_;  ///< of the passes of the stage in progress
   bool after_jump_ = true;     ///< the load has jumped before the step, or nothing was before it
   bool ends_at_jump_ = false;  ///< of the step in progress
   int passes_ = 0;             ///< of the stage in progress
   int order_ = 0;              ///< of the extrapolated start
   double period_ = 0;          ///< ms, of the interface's kinematics that the accelerator knows; 0: none yet
-  bool starts_far_ = true;     ///< the last step's first guess was far from its end
+  bool starts_far_ = true;     ///< the first guess of the last stage was far from its end
 };
 
 }  // namespace fsi

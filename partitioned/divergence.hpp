@@ -6,8 +6,8 @@
 
 namespace fsi {
 
-/// Notices an iteration that runs away: its last `window` residuals are all more than `growth` times the smallest one
-/// before them. Methods that converge, but not monotonically, come back sooner.
+/// Detects a diverging iteration: its last `window` residuals are all more than `growth` times the smallest one before
+/// them. Methods that converge, but not monotonically, return below that bound sooner.
 class DivergenceMonitor {
  public:
   static constexpr std::ptrdiff_t window = 20;
@@ -26,13 +26,14 @@ class DivergenceMonitor {
   std::vector<double> residuals_;
 };
 
-/// Notices a march without iterations that its added mass has made unstable: each step then throws the wall to the
-/// other side and further than the last, so that it misses the extrapolated displacement by more than the displacement
-/// itself, three times at least. In a march that is stable the two differ by the order of the extrapolation.
+/// Detects the added-mass instability of a coupling with one pass a step: the wall then swings to the other side in
+/// each step, further than in the last. It is detected by |d~ - d| > |d~|, growing, in `most_steps` steps in a row. In
+/// a stable run d~ - d is as small as the error of the extrapolation.
 class AlternationMonitor {
  public:
   static constexpr int most_steps = 3;  ///< in a row: a jump of the load misses once
 
+  /// To be called once a step. \returns whether the run has become unstable
   /// \param gap       |d~ - d| of the step, mm
   /// \param relative  the same over |d~|
   bool alternates(double gap, double relative) {
@@ -53,9 +54,10 @@ class AlternationMonitor {
   double last_gap_ = 0;
 };
 
-/// Notices a march without iterations in which fluid and wall have come apart: over `most_steps` steps in a row their
-/// velocities on the interface differ by more than `bound` times the largest of the march. Displacements alone do not
-/// show it, their differences weigh in the pressure with 1/step^2. A jump of the load upsets a sound march for less.
+/// Detects fluid and wall coming apart in a coupling with one pass a step: over `most_steps` steps in a row their
+/// velocities on the interface differ by more than `bound` times the largest velocity of the run. Displacements alone
+/// do not show it, as their differences count in the pressure with 1/step^2. After a jump of the load a stable run
+/// recovers in fewer steps.
 class VelocityGapMonitor {
  public:
   static constexpr int most_steps = 8;
@@ -71,7 +73,7 @@ class VelocityGapMonitor {
   }
 
   double bound() const { return bound_; }
-  /// Of the last step, over the largest velocity so far.
+  /// Velocity difference of the last step over the largest velocity so far.
   double last() const { return last_; }
   int steps() const { return steps_; }
   double largest_movement() const { return largest_movement_; }

@@ -6,16 +6,18 @@
 
 namespace fsi {
 
-/// Of the linearised equations of fluid and wall where each is solved by itself.
+/// Linear solvers of the linearised equations of fluid and wall, each solved by itself.
 template <int n>
 struct MediumSolvers {
   LinearSolverFactory<n> fluid, wall;
-  /// The fluid's follows what the wall's Jacobian says, which is to be made before the fluid's.
+  /// The wall's Jacobian decides how both media are solved: linearise the wall before the fluid.
   bool wall_decides = false;
 };
 
-/// As partitioned.linear_solver and [linear] ask. Both media factorise, or both iterate, as a system of all their
-/// unknowns would: by its size, and in plane scenes by the wall's stiffness.
+/// As partitioned.linear_solver and [linear] ask. With "fast" on one process both media factorise or both iterate, as a
+/// system of all their unknowns would: by its size, and in plane scenes by the wall's stiffness. Otherwise each medium
+/// has the general solver of that name, independent of the other.
+/// \throws InputError for a name that is not one of general_solver_names()
 template <int n>
 MediumSolvers<n> medium_solvers(const Scene<n>& scene, const PartitionedData& options);
 

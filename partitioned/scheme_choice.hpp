@@ -15,34 +15,34 @@ struct SchemeChoice {
   bool named = false;  ///< by the case
 };
 
-/// Steps of a run over the time within which the wall's ring answers (Membrane::answer_time). What counts is the period of
-/// u = (d - r) / period (InterfaceKinematics): all of a step of backward Euler, half of one of the midpoint rule, 0.29 of one
-/// of tr-bdf2, whose stages are solved one by one.
+/// Length of a run's steps against the response time of the wall's ring (Membrane::answer_time()). What counts is the
+/// period of u = (d - r) / period (InterfaceKinematics): the whole step with backward Euler, half of it with the
+/// midpoint rule, 0.29 of it with tr-bdf2, whose stages are solved one by one.
 struct StepsOverAnswer {
   double length = 0;      ///< ms, of the longest step
   double period = 0;      ///< ms, of such a step
-  double answers = 0;     ///< the period in times of the wall's answer
+  double answers = 0;     ///< period over the wall's response time
   bool adaptive = false;  ///< most steps are shorter
 };
-/// Of a scene with fluid and wall, for all processes together; empty where the case says nothing of the length of steps: it
-/// has no time, or adaptive steps whose longest it does not name.
+/// For a scene with fluid and wall. Empty where the length of steps is not known: in a static case, and with adaptive
+/// steps without time.largest_step. Collective.
 template <int n>
 std::optional<StepsOverAnswer> steps_over_answer(const Case& setup, const Scene<n>& scene);
 
-/// How much stiffer the Robin condition of block Newton is than the membrane's inertia and hoop (Membrane::impedance).
+/// Factor of the Robin coefficient of block Newton over the wall's impedance as a membrane (Membrane::impedance()).
 struct RobinStiffness {
   double factor;
   std::string reason;  ///< a clause for the log
 };
-/// By trial (docs/coupling.md): 1 in steps that are short against the wall's answer. 10 where they are long, and all its
-/// stiffness answers. 1e4 where the wall stands in the fluid: it is no membrane then, and its added mass does no harm to
-/// a fluid that is all but given its velocity. What it goes by is the same in a run and its restart: case and mesh alone. For
-/// all processes together.
+/// By trial (docs/coupling.md): 1 in steps that are short against the wall's response time, or of unknown length. 10 in
+/// long steps, where the whole stiffness of the wall resists. 1e4 where the wall stands in the fluid: it is no membrane
+/// then, and with nearly prescribed velocities the added mass does no harm to the fluid. Depends on case and mesh
+/// alone, so that a restart has the same factor. Collective.
 template <int n>
 RobinStiffness robin_stiffness(const Case& setup, const Scene<n>& scene);
 
-/// The scheme that the case names; where it names none, an interface iteration: by inexact passes around a vessel, by passes
-/// that solve both media where the wall stands in the fluid. For all processes together.
+/// The scheme that the case names. Without a name an interface iteration: with inexact passes where the wall is a tube
+/// around the fluid, with passes that solve both media where it stands in the fluid. Collective.
 template <int n>
 SchemeChoice chosen_scheme(const Case& setup, const Scene<n>& scene);
 

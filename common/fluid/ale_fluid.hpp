@@ -39,9 +39,9 @@ struct ShearDependentViscosity {
 /// optionally + (rho J tau_C F^-T : grad u, F^-T : grad v), tau_C = 1 / (tau tr G).
 /// Everything is differentiated through, tau included. Elements without a metric (Taylor-Hood) get the first line alone.
 ///
-/// tau follows the step to zero, and with it goes the hold on the pressure. Where pressure travels at a finite speed c_w
-/// a further term keeps it, which does not see the step and, being of a projection's remainder, leaves smooth pressures
-/// alone:
+/// tau vanishes with the step, and the PSPG term no longer stabilises the pressure. Where pressure travels at a finite
+/// speed c_w a further term stabilises it at any step. It takes the part of the pressure gradient that its projection
+/// does not represent, so that it hardly acts on smooth pressures:
 ///   - sum over elements (J tau_p / rho (F^-T grad p - pi), F^-T grad q),
 ///   tau_p = ((2/T)^2 + 36 nu^2 G_0 : G_0)^(-1/2) - ((2/dt)^2 + 36 nu^2 G_0 : G_0)^(-1/2),   T = max(dt, h / c_w).
 /// pi is the pressure gradient of the step's reference level, projected on continuous functions

@@ -45,9 +45,10 @@ class BackflowFacets {
   static constexpr int n = Element::components;
   static constexpr int facet_nodes = Element::Facet::nodes;
 
-  /// \param part        the fluid's nodes
-  /// \param facets      their numbers, facet_nodes for each facet, normals outward
-  /// \param graph       of the fluid's matrix
+  /// \param coefficient  beta
+  /// \param part         the fluid's nodes
+  /// \param facets       node numbers of the part, facet_nodes for each facet, normals outward
+  /// \param graph        of the fluid's matrix
   BackflowFacets(double coefficient, const PartNodes& part, const std::vector<int>& facets, const NodeGraph& graph)
       : coefficient_(coefficient), packs_((facets.size() / facet_nodes + pack_width - 1) / pack_width) {
     for (std::size_t p = 0; p < packs_.size(); ++p)
@@ -59,8 +60,9 @@ class BackflowFacets {
 
   double coefficient() const { return coefficient_; }
 
-  /// Adds the term to the residual and, unless null, its derivatives to the matrix.
-  /// \param flow  array (u, p)
+  /// Adds the term to the residual and, unless null, its derivatives by the velocity to jacobian->fluid.
+  /// \param density  mg/mm^3
+  /// \param flow     (u, p), mixed layout; the residual likewise
   void add(double density, const double* flow, double* residual, FluidJacobian<n>* jacobian) const {
     if (jacobian)
       add_terms<Dual<n>>(density, flow, residual, jacobian);
@@ -68,7 +70,8 @@ class BackflowFacets {
       add_terms<Pack>(density, flow, residual, nullptr);
   }
 
-  /// What it takes from the flow, uJ/ms: beta rho <(u . n)_-, |u|^2>, over the facets that sums count here.
+  /// Power that the term takes from the flow, uJ/ms: beta rho <(u . n)_-, |u|^2>. Over the facets that this process
+  /// counts; the sum over the processes is the opening's.
   double power(double density, const double* flow) const {
     double sum = 0;
     for (const auto& pack : packs_) {

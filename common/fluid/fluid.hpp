@@ -54,9 +54,11 @@ class Fluid {
   /// uJ, of a level: mesh displacement (empty where the domain is rigid) and flow (u, p). Of the elements that sums count
   /// here, as work() is of these and of the openings' facets.
   virtual double kinetic_energy(const std::vector<double>& mesh, const std::vector<double>& flow) const = 0;
+  /// \param step  its balance as projected() returns it; else the projected term counts with a gradient of zero
   virtual FluidWork work(const FluidStep& step) const = 0;
   /// The input with the projected gradient of the stabilisation, where there is one: made once for several evaluations.
-  /// It stays until the next evaluation of another input.
+  /// The gradient is overwritten by the next evaluation with another reference level. To be called by all processes
+  /// that share the fluid, as assemble() and power_at(), which call it.
   virtual FluidInput projected(const FluidInput& in) = 0;
   /// The residual's momentum rows of some nodes, as assemble() makes them, tested with the velocity, uJ/ms: the power of
   /// the forces that give these nodes their velocity. Of the nodes that this process owns.

@@ -199,7 +199,8 @@ AssemblyResult assemble_form(Form form, const ElementPacks<Element>& packs, cons
 }  // namespace detail
 
 /// Adds the fluid's residual (momentum, continuity) in the mixed layout, without boundary conditions, and overwrites
-/// the derivatives asked for.
+/// the derivatives asked for. Those by the domain need in.mesh and in.mesh_reference.
+/// \param jacobian  with storage for these derivatives; may be null where none are asked for
 template <class Element>
 AssemblyResult assemble_fluid(const AleFluid& form, const ElementPacks<Element>& packs, const FluidInput& in,
                               std::vector<double>& residual, FluidDerivatives derivatives = FluidDerivatives::none,

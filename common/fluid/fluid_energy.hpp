@@ -92,7 +92,8 @@ FluidWork work_of_form(Form form, const ElementPacks<Element>& packs, const Flui
 
 }  // namespace detail
 
-/// Of one balance of a step, but for what the openings take.
+/// The work of one balance of a step, uJ, but for FluidWork::backflow. Over the elements that this process counts.
+/// \param step  its balance with the projected gradient, where the stabilisation has one (Fluid::projected())
 template <class Element>
 FluidWork fluid_work(const AleFluid& form, const ElementPacks<Element>& packs, const FluidStep& step) {
   return form.law ? ShearDependentLoops<Element>::work({form}, packs, step) : detail::work_of_form(form, packs, step);

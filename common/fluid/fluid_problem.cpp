@@ -61,7 +61,7 @@ void FluidProblem<Element>::stabilise_backflow(std::size_t open, double coeffici
 
 template <class Element>
 double FluidProblem<Element>::kinetic_energy(const std::vector<double>& mesh, const std::vector<double>& flow) const {
-  // By the loop that finds it in a step: to the last bit what a run has that was not interrupted.
+  // By the loop of work(): a restarted run gets the energy to the last bit as one that was not interrupted.
   FluidStep level;
   FluidInput& in = level.balance;
   in.step = 1;

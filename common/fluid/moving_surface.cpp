@@ -149,7 +149,7 @@ class MovingFacets : public MovingSurface<Element::components> {
     return sum;
   }
 
-  /// Its derivative by the mesh's displacement, v being what it is.
+  /// Derivative of flow_through() by the mesh's displacement at fixed v, mm^2 times the unit of v.
   template <class Velocity>
   std::vector<double> flow_slope(const double* mesh, Velocity velocity) const {
     std::vector<double> slope(Vector::size(static_cast<int>(nodes_.size())), 0.0);
@@ -179,7 +179,7 @@ class MovingFacets : public MovingSurface<Element::components> {
       for (int k = 0; k < n; ++k) x[a][Element::axis[k]] += Pack(mesh[Vector::vector(facet[a], k)]);
     }
   }
-  /// Ghosts are without the facets that touch no own node; their owners have them whole.
+  /// Values at ghosts lack the facets that touch no own node; their owners have the whole values.
   void drop_ghosts(std::vector<double>& field, int entries) const {
     for (const int node : ghosts_)
       std::fill_n(field.begin() + static_cast<std::ptrdiff_t>(node) * entries, entries, 0.0);

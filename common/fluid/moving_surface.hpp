@@ -25,20 +25,21 @@ class MovingSurface {
   /// Integrals of the scalar fields' shape functions per node, mm^2; zero at ghosts.
   virtual std::vector<double> areas(const double* mesh) const = 0;
 
-  /// Adds the traction -pressure n to the fluid's residual and, unless null, its derivative by the mesh's displacement.
+  /// Adds to the fluid's residual the term of the traction -pressure n (kPa), +pressure <n, v>, and, unless null, its
+  /// derivative by the mesh's displacement.
   virtual void add_pressure(double pressure, const double* mesh, double* residual,
                             ShapeDerivatives* derivatives) const = 0;
   /// Volume flow outward, integral of u . n, mm^3/ms.
   virtual double outflow(const double* mesh, const double* flow) const = 0;
-  /// The flow that the surface's own motion leaves, integral of (u - w) . n, w the mesh's velocity, and its derivative by
-  /// the mesh's displacement, vector layout, zero at ghosts.
+  /// Volume flow outward relative to the moving surface, integral of (u - w) . n, w the mesh's velocity, mm^3/ms; and
+  /// its derivative by the mesh's displacement, mm^2/ms, vector layout, zero at ghosts.
   virtual double relative_outflow(const FluidInput& in) const = 0;
   virtual std::vector<double> relative_outflow_slope(const FluidInput& in) const = 0;
   /// Integral of |u|^2/2 (u - w) . n, w the mesh's velocity, mm^5/ms^3.
   virtual double kinetic_outflow(const FluidInput& in) const = 0;
 
-  /// Adds the stabilisation of backflow (fluid/backflow.hpp), beta rho <((u - w) . n)_- u, v>, and, unless null, its
-  /// derivatives: those by the mesh's displacement where they have storage and are asked for.
+  /// Adds the stabilisation of backflow (fluid/backflow.hpp), beta rho <((u - w) . n)_- u, v>, and the derivatives
+  /// asked for. \param jacobian  with storage for these derivatives; may be null where none are asked for
   virtual void add_backflow(double density, double beta, const FluidInput& in, double* residual,
                             FluidJacobian<n>* jacobian, FluidDerivatives derivatives) const = 0;
   /// What that takes from the flow, uJ/ms.

@@ -27,10 +27,11 @@ class OpenBoundary {
   /// Integral of |u|^2/2 u . n for nodes (reference positions, mm) and a flow array, mm^5/ms^3.
   using KineticFlux = std::function<double(const std::vector<Point>& nodes, const std::vector<double>& flow)>;
 
-  /// \param normals  integrals of N_a n, as flow arrays, mm^2
-  /// \param areas    integrals of the scalar fields' shape functions per node, mm^2
-  /// \param facets   nodes of its facets, one after the other
-  /// \param processes  that have a share of it, all other parameters being theirs; they must outlive this
+  /// To be called by all of `processes`.
+  /// \param normals    integrals of N_a n, as flow arrays, mm^2; zero at ghosts
+  /// \param areas      integrals of the scalar fields' shape functions per node, mm^2; zero at ghosts
+  /// \param facets     nodes of its facets, one after the other
+  /// \param processes  that share the fluid; the other parameters are this process's share. Must outlive this
   OpenBoundary(std::string name, std::vector<double> normals, std::vector<double> areas, KineticFlux kinetic_flux,
                std::vector<int> facets, const Communicator& processes = Communicator::alone())
       : name_(std::move(name)),

@@ -73,7 +73,7 @@ std::vector<std::complex<double>> developed_flow(const InflowOpening<Element>& o
       }
     }
   }
-  const OneDenseThread one_thread;  // the bits of the profile shall not depend on them
+  const OneDenseThread one_thread;  // the bits of the profile must not depend on the number of threads
   const SparseMatrix matrix = by_columns(entries, size);
   DirectSolver solver;
   solver.factorise(matrix);

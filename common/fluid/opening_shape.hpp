@@ -11,8 +11,8 @@ namespace fsi {
 /// What an opening looks like.
 struct OpeningShape {
   enum class Kind {
-    circle,   ///< or a sector of one, or one about the axis: w depends on the distance from `centre`
-    segment,  ///< straight, of a plane body: w depends on the distance from `centre`
+    circle,   ///< or a sector of one, or one about the axis: the profile depends on the distance from `centre`
+    segment,  ///< straight, of a plane body: the profile depends on the distance from `centre`
     other
   };
   Kind kind = Kind::other;
@@ -21,13 +21,16 @@ struct OpeningShape {
   Point inward{};      ///< mean normal into the fluid, of unit length
   bool walled = true;  ///< whether the fluid sticks anywhere
 
-  static constexpr double tolerance = 0.01;  ///< of the radius, by which a node may miss the plane or the circle
+  /// Part of the radius (of a segment its length, of a rectangle its area) by which an opening may miss the shape.
+  static constexpr double tolerance = 0.01;
   static constexpr double largest_step = 61 * 3.14159265358979323846 / 180;  ///< between points of the rim, radians
 };
 
-/// Circle: flat, and the points of the rim at which the fluid sticks lie on one, no two neighbours more than 61
-/// degrees apart; of the rim what is left, on planes of symmetry, points at the centre. Middles of straight edges are no points:
-/// a polygon between points of a circle is one, from six corners on.
+/// A circle is flat, and the fluid sticks on its rim alone. Points of the rim are vertices and the mid-edge nodes of
+/// curved edges: those at which the fluid sticks lie on the circle, no two neighbours more than 61 degrees apart, so
+/// that a regular polygon counts from six corners on. The rest of the rim, on planes of symmetry, points at the centre.
+/// A segment is straight, and the fluid sticks at one or both of its ends alone. Of a body of revolution one that runs
+/// from the axis, at right angles to it, is a circle.
 /// \throws InputError when the fluid sticks at every node of the opening, or its mean normal is zero
 template <class Element>
 OpeningShape shape_of(const InflowOpening<Element>& opening);
@@ -45,7 +48,8 @@ struct OpeningRectangle {
   double parabolas(const Point& x) const { return sides[0].parabola(x) * sides[1].parabola(x); }
 };
 
-/// Nothing where the opening is none, or the fluid sticks elsewhere than along whole sides.
+/// Empty where the opening is no rectangle, or the fluid sticks elsewhere than along whole sides, or there are two
+/// dimensions. \param inward  OpeningShape::inward
 template <class Element>
 std::optional<OpeningRectangle> rectangle_of(const InflowOpening<Element>& opening, const Point& inward);
 

@@ -13,8 +13,8 @@ struct PeriodicFlow {
 
   /// mm^3/ms, at any time in ms.
   double at(double time) const;
-  /// Of the Fourier series Re sum over k >= 0 of q_k e^(2 pi i k t / period), mm^3/ms: exact for what is between the
-  /// points. q_0 is real.
+  /// q_k of the Fourier series Re sum over k >= 0 of q_k e^(2 pi i k t / period), mm^3/ms: integrated exactly, since
+  /// the flow is linear between its points. q_0 is real.
   std::complex<double> coefficient(int k) const;
   /// Mean of the square over a period, mm^6/ms^2.
   double mean_square() const;

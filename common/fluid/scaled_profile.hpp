@@ -10,7 +10,8 @@
 
 namespace fsi {
 
-/// Scales a profile, one real or complex number per entry of `nodes`, to a discrete flow of one along `inward`.
+/// Scales a profile w along `inward` to a discrete flow of one into the fluid. \param w  one real or complex number per
+/// entry of `nodes`; 1/mm^2 afterwards
 template <class Element, class Number>
 void scale_to_unit_flow(const InflowOpening<Element>& opening, const std::vector<int>& nodes, const Point& inward,
                         std::vector<Number>& w) {

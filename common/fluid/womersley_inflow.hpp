@@ -24,7 +24,7 @@ class WomersleyInflow {
  public:
   using Complex = std::complex<double>;
   struct Modes {
-    std::vector<std::size_t> entries;            ///< per node of the opening, of its vector in the vector layout
+    std::vector<std::size_t> entries;            ///< per node of the opening, first entry of its vector, vector layout
     std::vector<double> direction;               ///< components of the inward normal
     std::vector<std::vector<Complex>> profiles;  ///< per mode and node, of unit flow, 1/mm^2
     std::vector<Complex> coefficients;           ///< per mode, of the flow rate, mm^3/ms
@@ -39,7 +39,8 @@ class WomersleyInflow {
   /// The same with the periodic rate itself.
   void set(double time, std::vector<double>& velocity) const { set(time, flow_.at(time), velocity); }
 
-  /// Keeps the nodes whose entry has another, not negative, in the part of the fluid that is set from now on.
+  /// Restricts the inflow to a part of the fluid and renumbers it.
+  /// \param entry_there  maps the first entry of a node's vector to that in the part; negative: the node is not in it
   void keep(const std::function<std::ptrdiff_t(std::size_t entry)>& entry_there);
 
   const PeriodicFlow& flow() const { return flow_; }

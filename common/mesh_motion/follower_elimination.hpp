@@ -27,15 +27,16 @@ class FollowerElimination {
                       CsrMatrix<double>& reduced);
 
   static constexpr int most_leaders = 2;
-  /// Others that a row couples with.
+  /// Number of other unknowns that a row couples with.
   static int leaders(const CsrMatrix<double>& a, int row);
 
   /// Rows of A that are kept, ascending.
   const std::vector<int>& kept() const { return kept_; }
   int own_kept() const { return own_kept_; }
 
-  /// What `count` right-hand sides of A come to for own kept ones, one behind the other in both.
-  /// \param b  of all rows
+  /// Right-hand sides of the reduced matrix from `count` right-hand sides of A, one behind the other in both.
+  /// \param b        of all rows
+  /// \param of_kept  overwritten: count * own_kept() numbers
   void reduce(const std::vector<double>& b, int count, std::vector<double>& of_kept) const;
   /// The whole solution from that of all kept ones; what follows among copies is left.
   /// \param b  of the whole

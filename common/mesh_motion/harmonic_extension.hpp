@@ -19,11 +19,13 @@ namespace fsi {
 
 /// How a harmonic extension is computed. Defaults by measurement (docs/archive.md).
 struct HarmonicExtensionOptions {
-  /// Inner nodes, of the process with the most of them, from which the iteration serves; without it SolverPolicy decides.
+  /// Inner nodes without followers, of the process with the most of them, from which the iteration serves; without it
+  /// SolverPolicy decides. On several processes a large separator (SharedCholesky) also calls for the iteration.
   std::optional<int> iterative_from;
   double tolerance = 1e-12;  ///< of the iteration: its residual over that of zero inner values
-  int max_iterations = 100;  ///< of conjugate gradients; a solve that needs more is done by factorisation
-  /// Factors are kept in single precision, where they serve: for callers that ask for a few digits. More are reached by corrections.
+  int max_iterations = 100;  ///< of conjugate gradients; a solve that needs more falls back to a factorisation
+  /// Factors are kept in single precision where they serve: for callers that ask for a few digits. More digits are
+  /// reached by corrections.
   bool single_precision = false;
 };
 
@@ -47,11 +49,11 @@ class HarmonicExtension : public MeshExtension<n> {
   /// sought ones are brought to them.
   /// \param inner   at ghosts it does not matter
   /// \param share   must outlive this
-  /// \param rescue  makes what solves where the iteration fails
+  /// \param rescue  makes the solver to fall back to where the iteration fails; its update() is called before it solves
   HarmonicExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner, const NodalFrames<n>* frames,
                     const NodeShare& share, std::function<std::unique_ptr<MeshExtension<n>>()> rescue,
                     const HarmonicExtensionOptions& options = {});
-  /// A frame turns some component out of its axis. \param frames  null: none
+  /// Whether a frame turns some component out of its axis. \param frames  null: none
   static bool mixes(const NodalFrames<n>* frames);
   /// The operator has new values.
   /// \throws ConvergenceError when it is singular

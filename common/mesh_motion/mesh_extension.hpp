@@ -14,13 +14,13 @@ class MeshExtension {
   /// \throws ConvergenceError when it is singular
   virtual void update() = 0;
   /// Sets the inner values of `field` so that the rows of A field at inner entries equal `right` there; other values
-  /// are given.
+  /// are given. Both hold n numbers a node. By all processes together.
   /// \param tolerance  residual over that of zero inner values; a factorisation solves to rounding
   virtual void solve(const std::vector<double>& right, std::vector<double>& field, double tolerance) = 0;
   /// All of it is solved by iteration.
   virtual bool iterates() const = 0;
   virtual double memory_mib() const = 0;
-  /// Of the last solve.
+  /// Conjugate gradient iterations of the last solve.
   virtual int iterations() const = 0;
 };
 

@@ -12,11 +12,11 @@ namespace fsi {
 
 /// How a nonlinear mesh motion is solved by itself.
 struct MeshFollowerOptions {
-  double tolerance = 1e-11;       ///< of the last increment, relative to the displacement
-  double keep_contraction = 0.2;  ///< a tangent serves while an iteration contracts increments by this
-  int max_iterations = 20;        ///< of Newton's method on one stretch of the way
-  int max_halvings = 20;          ///< of the way
-  TangentExtensionOptions linear;
+  double tolerance = 1e-11;        ///< of the last increment, relative to the displacement
+  double keep_contraction = 0.2;   ///< a tangent serves while an iteration contracts increments by this
+  int max_iterations = 20;         ///< of Newton's method on one stretch of the way
+  int max_halvings = 20;           ///< of the way
+  TangentExtensionOptions linear;  ///< of each linear solve; on a shared mesh only the tolerance is used
 };
 
 /// Where the mesh is shared out among processes: how, and what solves the tangent's equations of all of them.
@@ -27,15 +27,15 @@ struct SharedMesh {
       make_extension = {};
 };
 
-/// Takes a mesh of a nonlinear motion along with its boundary. Newton's method starts from the tangent's response to the
-/// boundary's motion; where that folds an element, or the iteration fails, the way is gone in halves. So any motion
-/// whose way holds unfolded meshes is followed.
+/// Takes a mesh of a nonlinear motion along with its boundary. Newton's method starts from the tangent's response to
+/// the boundary's motion; where that folds an element, or the iteration fails, the way is gone in halves. So a motion
+/// is followed as long as the boundary can go straight to its target without a folded mesh and halvings are left.
 template <int n>
 class MeshFollower {
  public:
   /// \param motion  must outlive this, and so must `frames`
-  /// \param inner   per node and component: its value is sought; at nodes with a frame components are the frame's
-  ///                also at ghosts
+  /// \param inner   per node and component: its value is sought; at nodes with a frame components are the frame's.
+  ///                Where the mesh is shared out, right at ghosts too
   /// \param frames  null: none
   /// \param shared  its share must outlive this
   MeshFollower(const NonlinearMeshMotion<n>& motion, std::vector<char> inner, const NodalFrames<n>* frames = nullptr,
@@ -46,7 +46,7 @@ class MeshFollower {
   void follow(const std::vector<double>& target, std::vector<double>& mesh);
   /// The next call makes a tangent of its own, so that its result does not depend on those before.
   void forget() { linearised_ = false; }
-  /// No element of the mesh is inverted.
+  /// No element of the mesh is inverted, at any process. By all processes together.
   bool unfolded(const std::vector<double>& mesh);
 
   int tangents() const { return tangents_; }      ///< made in all calls

@@ -10,8 +10,8 @@ namespace fsi {
 
 namespace {
 
-/// Of w over the mean diagonal entry of a cell's vertices: couplings of neighbouring vertices stay negative, so that
-/// multigrid knows them for what they are.
+/// w over the mean diagonal entry of a cell's vertices. So small that couplings of neighbouring vertices stay negative,
+/// as multigrid expects of couplings along an edge.
 constexpr double weight_over_diagonal = 0.5;
 
 /// Calls visit(cell, node in the middle, end, other end), for edges of several cells once for each.

@@ -9,11 +9,12 @@
 
 namespace fsi {
 
-/// Harmonic mesh motion, plain or stiffened, on quadratic elements of the fluid (docs/theory.md, section 6): vertices move as
-/// those of linear elements on them would, and a node in the middle of an edge by the mean of its ends, so that it keeps its
-/// distance from the straight edge; on the boundary it is given like any other node. An eighth of the unknowns of a quadratic motion, which would be no better: the mesh needs no accuracy of
-/// its own. The edges' rows come from 1/2 w |d_e - (d_a + d_b)/2|^2, w > 0: the operator is symmetric, and what is sought
-/// does not depend on w.
+/// Harmonic mesh motion, plain or stiffened, on quadratic elements of the fluid (docs/theory.md, section 6): vertices
+/// move as those of linear elements on them would, and a node in the middle of an edge by the mean of its ends, so that
+/// it keeps its distance from the straight edge; on the boundary it is given like any other node. About an eighth of
+/// the unknowns of a quadratic motion in three dimensions, a quarter in two; a quadratic one would be no better, since
+/// the mesh needs no accuracy of its own. The edges' rows come from 1/2 w |d_e - (d_a + d_b)/2|^2, w > 0: the operator
+/// is symmetric, and what is sought does not depend on w.
 template <class Element>
 class MotionOfVertices : public MeshMotion<Element::components> {
  public:
@@ -35,7 +36,10 @@ class MotionOfVertices : public MeshMotion<Element::components> {
   std::vector<double> stiffness_;
 };
 
-/// What moves the mesh of an element of any order.
+/// MotionOfAllNodes for linear elements, MotionOfVertices for quadratic ones.
+/// \param part, packs  of the fluid, must outlive it
+/// \param graph        of nodes that share a cell; quadratic elements make their own
+/// \param stiffness    k of each cell (stiffening.hpp); empty: 1
 template <class Element>
 std::unique_ptr<MeshMotion<Element::components>> harmonic_mesh_motion(const Submesh<Element::dim, Element::order>& part,
                                                                       const ElementPacks<Element>& packs,

@@ -24,7 +24,7 @@ class NonlinearMeshMotion {
   /// The graph that its tangent is stored on.
   virtual std::shared_ptr<const NodeGraph> graph() const = 0;
   /// Overwrites the rows at the mesh displacement, both in the vector layout and without boundary conditions, and the
-  /// tangent where one is passed.
+  /// tangent where one is passed. \returns the smallest J and where it is; rows count only where it is positive
   virtual AssemblyResult assemble(const std::vector<double>& mesh, std::vector<double>& residual,
                                   MeshMotionTangent<n>* tangent = nullptr) const = 0;
   /// The smallest J of a mesh displacement and where it is.

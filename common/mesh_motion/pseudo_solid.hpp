@@ -12,11 +12,11 @@ namespace fsi {
 ///   P = dW/dF = k (F - cof F / J + lambda/2 (J - 1/J) cof F)
 /// and d_m given on the boundary moves the mesh.
 struct PseudoSolid {
-  double lambda;
+  double lambda;  ///< over k
 
   static PseudoSolid of_poisson(double poisson) { return {2 * poisson / (1 - 2 * poisson)}; }
 
-  /// What depends on gradients: all of it.
+  /// Stress and J at a quadrature point: the part of the integrand that depends on the gradient.
   template <class T>
   struct Stress {
     Mat3<T> first_piola;  ///< P

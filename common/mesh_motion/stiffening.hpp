@@ -15,8 +15,8 @@ namespace fsi {
 /// so that small elements and those at the interface, whose shape decides, are moved as they are, and large ones far
 /// away deform: [Stein2003] with p = 0, [Jasak2006] with chi = 0. Means are over cells. Straight cells are taken for
 /// curved ones.
-/// \param interface  nodes of the part, of which there is one at least where p is not 0
-/// \returns empty where all coefficients are one
+/// \param interface  nodes of the part; without any the factor of the distance is left out
+/// \returns one number a cell, without unit; empty where the options ask for no stiffening: all coefficients are one
 template <int Dim, int Order>
 std::vector<double> mesh_stiffness(const Submesh<Dim, Order>& part, const std::vector<int>& interface,
                                    const MeshMotionOptions& options);

@@ -18,7 +18,8 @@ struct TangentExtensionOptions {
   std::optional<int> iterative_from;
   double tolerance = 1e-12;  ///< of the iteration: its residual over that of zero inner values
   int max_iterations = 200;  ///< of conjugate gradients; a solve that needs more is done by factorisation
-  /// Factors are kept in single precision, where they serve: for callers that ask for a few digits. More are reached by corrections.
+  /// Factors are kept in single precision where they serve: for callers that ask for a few digits. More digits are
+  /// reached by corrections.
   bool single_precision = false;
 };
 

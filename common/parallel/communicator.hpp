@@ -8,16 +8,16 @@
 
 namespace fsi {
 
-/// What processes said to each other so far, of this one.
+/// Communication of this process so far. Barriers and the counts of send_and_receive() are not counted.
 struct Traffic {
   std::int64_t messages = 0;    ///< sent to neighbours
   std::int64_t bytes = 0;       ///< in them
-  std::int64_t reductions = 0;  ///< sums and the like over all processes
+  std::int64_t reductions = 0;  ///< sums, gathers and broadcasts over all processes
 };
 
-/// The processes that solve one scene together, as seen by one of them. What all are asked for must be called by all, in
-/// one order. Alone, everything returns what it was given. Sums are formed in the order of the processes, so that all
-/// get the same bits, and a run with the same number of processes gets them again.
+/// The processes that solve one scene together, as seen by one of them. What all are asked for must be called by all,
+/// in one order. Alone, all but sum_before() return what they were given. Sums are formed in the order of the
+/// processes, so that all get the same bits, and a run with the same number of processes gets them again.
 class Communicator {
  public:
   /// This process by itself.
@@ -42,7 +42,7 @@ class Communicator {
   double smallest(double mine) const;  ///< NaN if one is
   double largest(double mine) const;   ///< NaN if one is
   bool any(bool mine) const;
-  /// Of the processes before this one.
+  /// The sum over the processes before this one; 0 at the first.
   std::int64_t sum_before(std::int64_t mine) const;
 
   /// One entry a process, in their order, at all of them.
@@ -52,9 +52,9 @@ class Communicator {
   std::vector<double> gather(const std::vector<double>& mine) const;
   std::vector<std::int64_t> gather(const std::vector<std::int64_t>& mine) const;
   std::vector<int> gather(const std::vector<int>& mine) const;
-  /// The same of lengths that all know. \param counts  per process \param all  their sum
+  /// The same of lengths that all know. \param counts  per process \param all  has room for their sum
   void gather(const float* mine, const std::vector<int>& counts, float* all) const;
-  /// As above, at the first process alone; empty at the others.
+  /// gather() of lists of any lengths, at the first process alone; empty at the others.
   std::vector<double> gather_at_first(const std::vector<double>& mine) const;
 
   /// What the first process has, at all of them.
@@ -62,7 +62,7 @@ class Communicator {
   void broadcast(std::vector<double>& numbers) const;
   void broadcast(std::int64_t& number) const;
 
-  /// Until all have come here.
+  /// Returns when all processes have called it.
   void wait() const;
 
   /// Numbers for other processes, one list for each of them; returns what they have for this one.
@@ -101,7 +101,7 @@ class ProcessGroup {
   /// \throws std::logic_error in a build without MPI
   static void require_mpi();
 
-  /// Ends all processes at once, with this code: for what only some of them know.
+  /// Ends all processes at once, with this code: for errors that only some of them have met.
   [[noreturn]] static void abort(int exit_code);
 };
 

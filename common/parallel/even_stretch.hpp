@@ -6,7 +6,7 @@
 
 namespace fsi {
 
-/// A process's stretch of items that all processes have, or that all know the number of: from the first to before the last.
+/// A process's stretch of items that all processes have, or that all know the number of: items first to last - 1.
 /// Stretches follow each other in the order of the processes, and are as long as each other but for one item.
 struct EvenStretch {
   std::int64_t first = 0, last = 0;

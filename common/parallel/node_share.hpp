@@ -10,7 +10,7 @@ namespace fsi {
 
 /// How the nodes of one medium are shared out among processes, as one of them sees its part: the nodes that it owns, and
 /// copies of those around them that belong to others (halo). All elements that touch an owned node are here, so that
-/// rows of owned nodes are assembled whole and rows of copies are no one's.
+/// rows of owned nodes are assembled whole. Rows of copies may be incomplete; no equation is made of them.
 struct NodeShare {
   const Communicator* processes = nullptr;
   std::vector<char> owned;       ///< per node of the part here

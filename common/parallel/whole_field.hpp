@@ -8,8 +8,11 @@
 
 namespace fsi {
 
-/// A nodal array of a medium that is shared out as an array of all its nodes, at all processes, which ask for it
-/// together: for what is found on the whole mesh while that is there. \param entries  numbers of a node
+/// A nodal array of a medium that is shared out, as an array of all its nodes, at all processes. By all of them
+/// together.
+/// \param here     of the nodes of this process, copies too, which are not read
+/// \param entries  numbers of a node
+/// \returns entries * share.whole_nodes numbers, by whole_node
 inline std::vector<double> whole_field(const NodeShare& share, const std::vector<double>& here, std::size_t entries) {
   std::vector<double> message;  // node, its numbers
   for (std::size_t a = 0; a < share.owned.size(); ++a) {

@@ -17,7 +17,7 @@ class WholeOrder {
   /// \param processes  must outlive this
   /// \param places     per item here its place in the whole order; copies of other processes' items have theirs
   /// \param owned      per item; each place from 0 to whole - 1 is that of one owned item of one process
-  /// \throws std::logic_error when the owned places are not these
+  /// \throws std::logic_error at all processes when the owned places are not these
   WholeOrder(const Communicator& processes, std::vector<std::int64_t> places, const std::vector<char>& owned,
              std::int64_t whole);
   /// Of a medium's nodes. \param share  what it refers to must outlive this

@@ -7,8 +7,9 @@
 
 namespace fsi {
 
-/// What a run says when it begins, or goes on: what it is, what was decided where the case leaves a choice, and what the user
-/// should know. Choices go into the summary, too.
+/// Writes to console and log what a run is when it begins, or goes on: sizes, what was decided where the case leaves a
+/// choice, and warnings. Puts linear solver, coupling, choices, wall thickness and varying constants into the summary.
+/// To be called after RunAccount::begin(), whose summary it reads.
 template <int n>
 void announce(RunParts<n>& parts, const RunCheckpoints<n>& checkpoints, Console& console, RunLog& log);
 

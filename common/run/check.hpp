@@ -13,7 +13,7 @@ namespace fsi {
 /// openings, supports, samples, unknowns, steps, memory and seconds. Writes no file. A prestress that has to be found is
 /// found only for a small wall; without it no step is tried.
 /// \returns the exit code: 0, also where the step tried finds no solution, which is said
-/// \throws InputError where a run would refuse case or mesh
+/// \throws InputError where a run would refuse case or mesh; ConvergenceError where the prestress is not found
 template <int n>
 int check_case(const std::string& program, const CommandLine& line, const Case& setup, const StepperMaker& make_stepper,
                const CoreWatch& watch);

@@ -7,14 +7,13 @@
 
 namespace fsi {
 
-/// An option of a program that does something else with a case than a run. With a value, `text` receives it; without,
-/// `flag` is set.
+/// An option of a program that does something else with a case than a run.
 struct ExtraOption {
-  std::string name;         ///< "--systems"
-  std::string type;         ///< what the value is called in the help; empty: a flag
-  std::string description;  ///< one sentence
-  std::string* text = nullptr;
-  bool* flag = nullptr;
+  std::string name;             ///< "--systems"
+  std::string type;             ///< what the value is called in the help; not used for a flag
+  std::string description;      ///< one sentence
+  std::string* text = nullptr;  ///< receives the value; null: the option is a flag
+  bool* flag = nullptr;         ///< set where the flag is given; must not be null where `text` is
 };
 
 /// What a driver is asked to do: `CASE.toml -o DIR [--restart DIR] [--set key=value]... [--threads N] [--force] [-q]`, or

@@ -9,7 +9,7 @@
 namespace fsi {
 
 /// Progress of a run: one line that is rewritten on a terminal, a plain line per step when piped, nothing when quiet.
-/// Nobody needs it: where a line cannot be written, nothing more is, and the run goes on.
+/// After a write that fails it stays quiet, and the run goes on; error() has the cause.
 class Console {
  public:
   enum class Style { terminal, plain, quiet };
@@ -38,7 +38,7 @@ class Console {
   void line(const std::string& text);
   /// What goes on inside a step, e.g. (3, 0.375, "newton 2, residual 1e-5"). Shown on a terminal only.
   void working(std::int64_t step, double time, const std::string& what);
-  /// How far something has come that is done before the steps.
+  /// Rewrites the line on a terminal, else prints a line; nothing when quiet. For all but the iterations of a step.
   void progress(const std::string& text);
   /// A finished step: time, iterations, estimated time left.
   void step_done(const StepRecord& record);

@@ -6,8 +6,8 @@
 
 namespace fsi {
 
-/// The whole of a driver: parse the command line, read case and mesh, build the scene, march it in time, write the
-/// results. Returns the exit code.
+/// The body of a driver's main(): parses the command line, reads case and mesh, builds the scene, runs the steps,
+/// writes the results. Errors become a line on stderr and an exit code (run_program()). \returns the exit code
 int run_driver(const std::string& program, const std::string& description, int argc, const char* const* argv,
                const StepperMaker& make_stepper);
 

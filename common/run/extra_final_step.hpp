@@ -20,7 +20,7 @@ struct ExtraFinalStep {
 /// the bits that it has in the longer run. The stepper and the march do not come back to the end of the run.
 /// \param state  at the end of the run; stays as it is
 /// \param loads  as they were, afterwards
-/// \throws ConvergenceError when the step has no solution
+/// \throws ConvergenceError when the step has no solution; Stopped at a signal (host/stop_request.hpp)
 template <int n>
 ExtraFinalStep extra_final_step(const Case& setup, const State& state, Loads& loads, StepController<n>& march);
 

@@ -13,18 +13,19 @@ namespace fsi {
 /// there is nothing to finish.
 void end_at_signals(const std::string& program, const std::string& said);
 
-/// SIGTERM is without that line from now on: launchers of several processes send it to the others when one has failed and
-/// has said why.
+/// From now on SIGTERM ends the program without that line: launchers of several processes send it to the others when
+/// one has failed, and that one has printed the reason.
 void expect_launcher();
 
-/// From now on the first of them is only noted (host/stop_request.hpp), so that a run can end in order. A second one ends
-/// the program at once, as if nothing watched. To the end of the program: a run that is done says so.
+/// From now on the first of them is only noted (host/stop_request.hpp), so that a run can end in order. A second one
+/// ends the program at once by its default action. This holds to the end of the program.
 void note_signals();
 
-/// The first one that is noted is answered at once by a line on stderr: that the program ends within about so many seconds,
-/// and what a second one does. To be called again as the estimate changes; without it nothing is said.
-/// \param seconds   empty: nobody knows yet
-/// \param new_line  a line on the terminal is open
+/// Sets the line that the signal handler prints on stderr at the first noted signal: that the program ends within about
+/// so many seconds, and what a second signal does. To be called again as the estimate changes; without it the handler
+/// prints nothing.
+/// \param seconds   empty: there is no estimate yet
+/// \param new_line  begin with a line feed, since the cursor may stand behind a line of progress
 void answer_signals(const std::string& program, std::optional<double> seconds, bool new_line);
 
 /// The signal that has been noted, 0: none.

@@ -49,10 +49,10 @@ struct LoadingScene {
   bool find_prestress = true;  ///< false: where it would have to be found, the wall stays without
 };
 
-/// Reads or makes the mesh of a case, checks it and builds the scene on it. Of several processes each has its share of the
-/// scene; the whole mesh is there no longer.
-/// \tparam n          2 for plane and axisymmetric scenes, 3 otherwise: components_of(setup)
-/// \throws InputError
+/// Reads or makes the mesh of a case, checks it and builds the scene on it. To be called by all processes: each gets
+/// its share of the scene, and the whole mesh is freed.
+/// \tparam n  2 for plane and axisymmetric scenes, 3 otherwise: components_of(setup)
+/// \throws InputError where case, mesh and files do not go together; ConvergenceError where a prestress is not found
 template <int n>
 LoadedScene<n> load_scene(const Case& setup, const LoadingScene& loading = {});
 template <>

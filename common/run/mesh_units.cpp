@@ -6,7 +6,7 @@ namespace fsi {
 
 namespace {
 
-// Arterioles are wider than 0.03 mm; the aorta is 25 mm wide, 0.025 in metres. Giant aneurysms stay below 150 mm.
+// Above the aorta in metres, 0.025, and at the lower end of arterioles in mm. Giant aneurysms stay below 150 mm.
 constexpr double narrowest = 0.035, widest = 150;        // mm
 constexpr double shortest = 0.5, longest = 2000;         // mm: of a piece of vessel
 constexpr double spread_soon = 1e-3, spread_late = 1e6;  // d^2 rho / mu over the length of the run

@@ -52,14 +52,6 @@ double largest_load(const Case& setup) {
   return load;
 }
 
-/// Mean velocity that a difference of pressure p drives at most through a rigid vessel, mm/ms: whichever of viscosity,
-/// p D^2 / (32 mu L), inertia, p T / (rho L), and kinetic energy, sqrt(2 p / rho), allows least.
-double driven_velocity(const Case& setup, double pressure, double diameter, double length) {
-  const double rho = setup.fluid->density, mu = setup.fluid->viscosity;
-  return std::min({pressure * diameter * diameter / (32 * mu * length), pressure * setup.time->end / (rho * length),
-                   std::sqrt(2 * pressure / rho)});
-}
-
 /// Whether nothing but given pressures drives the flow through rigid walls.
 bool is_driven_by_pressures(const Case& setup) {
   if (setup.structure) return false;
@@ -106,9 +98,17 @@ constexpr Slip slips[] = {
 };
 
 OpeningFlow with_slip(OpeningFlow flow, const Slip& slip) {
+  const double given = flow.velocity;
   flow.diameter *= slip.length;
-  flow.velocity *= slip.flow / (slip.length * slip.length);
-  flow.reynolds *= slip.flow / slip.length;
+  if (auto& drive = flow.drive) {
+    drive->pressure *= slip.pressure;
+    drive->length *= slip.length;
+    drive->duration *= slip.time;
+    flow.velocity = driven_velocity(*drive, flow.diameter);
+  } else {
+    flow.velocity *= slip.flow / (slip.length * slip.length);
+  }
+  if (given > 0) flow.reynolds *= flow.velocity / given * slip.length;
   flow.womersley *= slip.length / std::sqrt(slip.time);
   return flow;
 }
@@ -136,7 +136,7 @@ std::string explanation(const DerivedNumbers& numbers, const IsUsual& is_usual_t
 
 std::string text_of(const OpeningFlow& flow) {
   std::string text = fmt::format("{} {:.3g} m/s in the mean, Reynolds number {:.3g}",
-                                 flow.by_pressure ? "at most about" : "up to", flow.velocity, flow.reynolds);
+                                 flow.drive ? "at most about" : "up to", flow.velocity, flow.reynolds);
   if (flow.womersley > 0) text += fmt::format(", Womersley number {:.3g}", flow.womersley);
   return text;
 }
@@ -148,11 +148,17 @@ std::string fault_of(const OpeningFlow& flow, double wave_speed) {
   if (wave_speed > 0 && flow.velocity > fastest_of_waves * wave_speed)
     return fmt::format("up to {:.3g} m/s in the mean, {:.3g} times as fast as pressure waves", flow.velocity,
                        flow.velocity / wave_speed);
-  if (flow.velocity > 0 && flow.velocity < slowest && !flow.by_pressure) return text_of(flow);
+  if (flow.velocity > 0 && flow.velocity < slowest && !flow.drive) return text_of(flow);
   return "";
 }
 
 }  // namespace
+
+double driven_velocity(const FlowDrive& drive, double diameter) {
+  const double p = drive.pressure;
+  return std::min({p * diameter * diameter / (32 * drive.viscosity * drive.length),
+                   p * drive.duration / (drive.density * drive.length), std::sqrt(2 * p / drive.density)});
+}
 
 template <int n>
 DerivedNumbers derived_numbers(const Case& setup, const Scene<n>& scene) {
@@ -172,8 +178,8 @@ DerivedNumbers derived_numbers(const Case& setup, const Scene<n>& scene) {
     OpeningFlow flow;
     flow.surface = boundary.name();
     flow.diameter = setup.geometry == Geometry::plane ? area : 2 * std::sqrt(area / pi);
-    flow.by_pressure = !table;
-    flow.velocity = table ? largest_magnitude(*table, end) / area : driven_velocity(setup, load, flow.diameter, length);
+    if (!table) flow.drive = {load, length, end, rho, mu};
+    flow.velocity = table ? largest_magnitude(*table, end) / area : driven_velocity(*flow.drive, flow.diameter);
     flow.reynolds = rho * flow.velocity * flow.diameter / mu;
     const double period = table ? table->period : opening->pressure->period;
     if (period > 0) flow.womersley = flow.diameter / 2 * std::sqrt(2 * pi * rho / (period * mu));

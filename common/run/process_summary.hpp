@@ -17,16 +17,17 @@ struct SceneSize {
 template <int n>
 SceneSize size_of(const Scene<n>& scene);
 
-/// What summary.json says of the processes of a run, each number as minimum, mean and maximum over them.
+/// What summary.json says of the processes of a run: each number as minimum, mean and maximum over them, but
+/// reductions, of which all have as many.
 template <int n>
 class ProcessSummary {
  public:
   /// By all processes together, once the whole mesh is freed. \param scene  must outlive this
   explicit ProcessSummary(const Scene<n>& scene);
 
-  /// From now on messages count.
+  /// Messages between processes count from now on.
   void steps_begin();
-  /// What was said since then is none of the steps'.
+  /// Leaves out the messages since an earlier moment, which belong to no step.
   /// \param before  the scene's traffic at that moment
   void leave_out_since(const Traffic& before);
 

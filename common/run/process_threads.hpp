@@ -8,7 +8,7 @@
 
 namespace fsi {
 
-/// Cores of a host that one of the processes on it may use, and all of them together.
+/// Cores of a host that this process may use, that all processes on it may use together, and how many these are.
 struct HostCores {
   int own = 1, all = 1, processes = 1;
 
@@ -18,9 +18,9 @@ struct HostCores {
   int of_process() const { return bound() ? own : all / processes > 1 ? all / processes : 1; }
 };
 
-/// How many threads one of several processes takes: as asked; else its part of the cores that the processes of its host may
-/// use, but none with fewer cells of its own than are of use. Others' jobs are not looked at, since these processes cannot
-/// be told from them. Alone as choose_threads(). For all processes together.
+/// How many threads one of several processes takes: as asked; else its part of the cores that the processes of its host
+/// may use, but no more than its cells keep busy. The load by other jobs is not measured, since it cannot be told from
+/// that of these processes. For one process alone as choose_threads(). To be called by all processes.
 /// \param cells  of the whole mesh
 ThreadChoice threads_of_process(int asked, std::size_t cells, const CoreWatch& watch, const Communicator& processes);
 

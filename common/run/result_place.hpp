@@ -9,10 +9,12 @@ namespace fsi {
 /// Whether a run goes on in the folder that it began in.
 bool in_place(const CommandLine& line);
 
-/// A run that is going on is no run to continue: its files are of different steps at different moments. \throws InputError
+/// Refuses to continue, in another folder, a run that is still going on: its files may be of different steps.
+/// \throws InputError
 void require_no_run_in_source(const CommandLine& line);
 
-/// Nothing is replaced that the user has not named, whether to be replaced or to be continued. \throws InputError
+/// Refuses a result folder with results, unless --force or a restart in place allows to replace them, and one with
+/// files that are no results. \throws InputError
 void require_folder(const CommandLine& line);
 
 /// What to do once a file can be written again.

@@ -33,7 +33,7 @@ namespace fsi {
 
 namespace {
 
-/// What a WriteError said that an action ended with; empty when it came to its end.
+/// Runs the action; returns the message of the WriteError it threw, or an empty string.
 template <class Action>
 std::string write_error_of(Action action) {
   try {

@@ -15,7 +15,8 @@ namespace fsi {
 /// \param watch  of the cores, from the program's start on
 /// \param lock   of the result folder; empty at all processes but the first
 /// \returns the exit code of the program
-/// \throws InputError before anything is written; ConvergenceError for a step without solution, WriteError
+/// \throws InputError before anything is written; ConvergenceError for a step or a prestress without solution;
+///         WriteError where a result cannot be written
 template <int n>
 int run_case(const std::string& program, const CommandLine& line, const Case& setup, const StepperMaker& make_stepper,
              const CoreWatch& watch, const std::optional<FolderLock>& lock);

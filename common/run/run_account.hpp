@@ -11,20 +11,22 @@ namespace fsi {
 template <int n>
 class RunAccount {
  public:
-  /// Both must outlive this.
+  /// \param parts  must outlive this
   explicit RunAccount(RunParts<n>& parts) : parts_(parts) {}
 
-  /// What the run is, once its state is known.
+  /// Starts the summary: program, case, mesh, unknowns. To be called once the state is known, by all processes.
   void begin();
-  /// A step of this program has been solved. \param length  ms
+  /// Counts a step that has been solved. \param length  of the step, ms
   void add(const StepRecord& record, double length);
   /// The seconds of a step, its output included.
   void add_seconds(double seconds) { step_seconds_ += seconds; }
   /// After a step: the matrices are there, and the run has taken long enough for a product to be nothing beside it.
   void measure_work_unit();
-  /// What the run has taken up to now, into the summary.
+  /// Puts the totals up to now into the summary; writes nothing. To be called by all processes.
   void take_stock();
+  /// take_stock(), then write_status().
   void write(const std::string& status);
+  /// Writes summary.json with this status, at the first process; to be called by all. \throws WriteError at all of them
   void write_status(const std::string& status);
   /// What the scheme made of steps of different length; empty: nothing to say.
   std::string about_steps() const;
@@ -33,7 +35,7 @@ class RunAccount {
   RunParts<n>& parts_;
   StepRecord total_;
   double shortest_step_ = 0, longest_step_ = 0;  ///< ms, of this program so far
-  int first_step_ = 0;                           ///< of this program: the one before
+  int first_step_ = 0;                           ///< number of the step before the first of this program
   double step_seconds_ = 0;                      ///< of all steps of this program, their output included
 };
 

@@ -32,15 +32,16 @@ class RunCheckpoints {
 
   /// The tables hold what a restart from this step goes on from.
   void vouch(ResultFolder& folder);
-  /// Before a step that may have to be given up. What it leaves behind would not go on to the same bits, so that the
-  /// checkpoint is of what there is now; where the folder has it, nothing needs to be kept.
+  /// To be called before each step: copies what a checkpoint needs, for save_finished(). An interrupted step changes
+  /// what steppers keep, so that a checkpoint made after it would not restart to the same bits. Copies nothing where
+  /// the folder holds the checkpoint of the last finished step.
   void keep_finished();
   /// After a step: the first process's clock decides. \param finished  it is the last one
   bool is_due(bool finished) const;
   bool writes_any() const { return pace_.writes_any(); }
-  /// Of now.
+  /// Writes a checkpoint of the state as it is. \throws WriteError
   void save();
-  /// Of the last finished step, when one is given up.
+  /// Writes the copy that keep_finished() has made, when a step is given up; nothing where there is none.
   void save_finished();
 
  private:

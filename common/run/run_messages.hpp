@@ -9,7 +9,7 @@
 
 namespace fsi {
 
-/// What is said while a run goes on, as far as it has ears already.
+/// Messages of a run to its log and console, once it has them; before that they are dropped, but for notes.
 class RunMessages : public Messages {
  public:
   void to(RunLog& log, Console& console) {
@@ -25,7 +25,7 @@ class RunMessages : public Messages {
     if (log_ != nullptr) log_->info(said);
   }
   void note(const std::string& key, const nlohmann::json& value) override { summary[key] = value; }
-  /// Into the log, of a step in progress.
+  /// A warning for the log alone, as of a step in progress.
   void log_only(const std::string& said) {
     if (log_ != nullptr) log_->warning(said);
   }

@@ -36,11 +36,12 @@ struct RunParts {
 
   /// Whether a level is looked at one step later, when its pressures are known.
   bool lagging() const { return scene.integrator->pressures_lag(); }
-  /// The last level but one as a state, for observers of it.
+  /// The level before the latest one of `at`, as a state for observers. The next call overwrites it.
   const State& level_before(const State& at);
-  /// The last level whose pressures are known.
+  /// The last level whose pressures are known; the next call of level_before() may overwrite it.
   const State& shown_level() { return lagging() ? level_before(state) : state; }
-  /// The run goes on with another scheme than the case would now be given.
+  /// Goes on with the scheme that an earlier run had, whatever the case would be given now. Resets the state to rest,
+  /// so that it must be called before a checkpoint's state is read.
   void keep_scheme(const std::string& kept);
 
   Clock::time_point start = Clock::now();

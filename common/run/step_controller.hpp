@@ -14,7 +14,7 @@
 
 namespace fsi {
 
-/// \throws InputError for steps so short that rounding is all that a run would see of them
+/// \throws InputError for equal steps so short that rounding hides what changes in one. To be called by all processes.
 template <int n>
 void require_resolvable(const Case& setup, const Scene<n>& scene);
 
@@ -26,10 +26,10 @@ struct Attempts {
   int checked = 0;   ///< load steps that were taken in two halves as well
 };
 
-/// Takes steps: as the case says or, if they are adaptive, as long as their estimated error allows. A step that finds
-/// no solution is taken again with a part of its length; equal steps return to their grid behind it. So are load steps of
-/// a wall at rest, and those that a second look finds to lead to another state than their halves (docs/theory.md, section
-/// 4.9).
+/// Takes steps: as the case says or, if they are adaptive, as long as their estimated error allows. A step without
+/// solution is repeated with a part of its length; equal steps return to their grid after it. Load steps of a static
+/// wall are repeated likewise, also where two half steps lead to another state than the whole one (docs/theory.md,
+/// section 4.9).
 template <int n>
 class StepController : private StepJudge {
  public:
@@ -50,7 +50,8 @@ class StepController : private StepJudge {
   /// Of the last step; nothing where steps are not adaptive.
   const std::optional<StepErrors>& errors() const { return errors_; }
 
-  /// The run goes on with the scheme that the scene has got since: the one that it began with.
+  /// Adapts controller and error estimate to the scene's integrator, after it has been replaced. Forgets earlier steps;
+  /// does nothing where steps are not adaptive.
   void keep_scheme();
   /// What adaptive steps know of those before, for a restart.
   void keep(RestartArchive& archive);
@@ -64,8 +65,8 @@ class StepController : private StepJudge {
   StepReport load_step(State& state);
   /// Why a load step is looked at again, a clause; empty: it is not.
   std::string doubt_about(const State& before, const State& after, const StepReport& report) const;
-  /// Whether two ends of a load step have the same elastic energy: then they differ by what costs none, as rigid motions of a
-  /// wall on soft springs do, and are not two branches.
+  /// Whether two ends of a load step have the same stored energy. Then they differ by a motion that stores none, as
+  /// rigid motions of a wall on soft springs, and are no two solution branches.
   bool have_same_energy(const State& before, const State& one, const State& other) const;
 
   const Case& setup_;

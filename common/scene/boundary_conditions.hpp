@@ -55,6 +55,7 @@ template <class Element>
 class HeldDirections {
  public:
   static constexpr int n = Element::components;
+  /// \param part  must outlive this
   HeldDirections(const MeshOf<Element>& mesh, const PartOf<Element>& part, std::vector<HeldSurface<n>> others = {});
   /// Those of symmetry first.
   std::vector<Direction<n>> at(int node) const;
@@ -70,13 +71,14 @@ class HeldDirections {
 template <class Element>
 std::vector<char> nodes_on(const PartOf<Element>& part, const FacetsOf<Element>& facets);
 
-/// The wall's displacement, as far as it is zero: on clamped ends, components on symmetry planes, on the axis and where
-/// supports hold it.
+/// Where the wall's displacement is held at zero: on clamped ends, and components on symmetry planes, on the axis and
+/// where supports hold it.
 template <int n>
 struct WallConditions {
   DirichletConditions<n> conditions;
   NodalFrames<n> frames;
 };
+/// \throws InputError as surfaces_held_by_supports() (scene/wall_supports.hpp)
 template <class Element>
 WallConditions<Element::components> wall_conditions(const Case& setup, const MeshOf<Element>& mesh,
                                                     const PartOf<Element>& wall);

@@ -8,9 +8,9 @@
 
 namespace fsi {
 
-/// Where fluid passes freely and where it does not, as far as the mesh names its surfaces. A name is there because
-/// something happens there: each must be an opening, a plane of symmetry, shared with the wall, called `wall` or `inner`,
-/// or listed in `fluid.closed`. A surface that is forgotten would else be a rigid lid.
+/// Checks that the case says of each named surface of the fluid whether it is open or closed: it must be an opening, a
+/// plane of symmetry, shared with the wall, called `wall` or `inner`, or listed in `fluid.closed`. Without this check a
+/// forgotten opening would be a rigid wall.
 /// \param mesh  checked already \param needs  what the scene asks of it \param name  of the mesh, for messages
 /// \return lines for the log: openings free of traction, and surfaces that are closed
 /// \throws InputError with places and areas of surfaces that the case does not mention, and for a name in `fluid.closed`

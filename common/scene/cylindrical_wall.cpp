@@ -11,7 +11,7 @@ namespace fsi {
 
 namespace {
 
-constexpr double roundness = 0.04;  // 1 - cos(pi/12) = 0.034
+constexpr double roundness = 0.04;  // 12 elements around, refined: new vertices at cos(pi/12) = 1 - 0.034 of the radius
 constexpr double half_turned =
     0.5;  // cosine of the angle to the radius from which a face looks along the axis or around
 

@@ -24,15 +24,17 @@ struct Inflow {
 
 /// Makes the profile that the case asks for at an opening with a flow rate (fluid/inflow_profile.hpp).
 /// \param part  the whole fluid
-/// \throws InputError when the fluid sticks at every node of the opening
+/// \param where  nodes of the opening, and where the fluid sticks
+/// \throws InputError when the fluid sticks at every node of the opening, its mean normal is zero, or it is no
+///         rectangle for a biparabolic profile
 template <class Element>
 Inflow make_inflow(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& part, InflowNodes where);
 
-/// Leaves of an inflow of the whole fluid what is here.
+/// Restricts an inflow of the whole fluid to the nodes that this process holds.
 template <int n>
 void restrict_to(const PartRestriction& here, Inflow& inflow);
 
-/// \param nodes  that the fluid has
+/// The boundary condition of an inflow. \param nodes  how many the fluid has here
 template <int n>
 PrescribedInflow<n> prescribed(Inflow inflow, int nodes);
 

@@ -6,7 +6,7 @@
 
 namespace fsi {
 
-/// Of the latest finished level.
+/// Energies of the latest finished level, uJ; over the elements and nodes that this process counts.
 /// \param of_fluid  false: the fluid's is left at zero, where others find it on their way (EnergyBalance::step_to)
 template <int n>
 LevelEnergy level_energy(const Scene<n>& scene, const State& state, bool of_fluid = true) {

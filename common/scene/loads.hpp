@@ -8,10 +8,12 @@
 
 namespace fsi {
 
-/// The pressures of a case, step by step. A step's load is the mean of the table over it, so that the impulse does not
-/// depend on the time step; a static load rises in equal steps to the table's last value.
+/// The loads of a case, step by step: pressures, tractions, and flows at openings. A load in time is taken as means of
+/// its table over the shares of a step that the time scheme names, so that the impulse does not depend on the time
+/// step. Flows are those at the end of a stage. A static load rises with the load's fraction to the table's last value.
 class Loads {
  public:
+  /// \param setup  must outlive this
   explicit Loads(const Case& setup)
       : setup_(setup), openings_(openings_of(setup)), supports_(support_loads_of(setup)), axis_(setup) {}
 

@@ -30,7 +30,8 @@ void hold_with_openings(const MeshOf<Element>& mesh, const PartOf<Element>& flui
                         const std::vector<std::optional<MovingOpening<Element::components>>>& moving,
                         const std::vector<char>& wet, const WallSide<Element>& wall, FluidBoundary<Element>& boundary);
 
-/// \throws InputError where the flow of a moving opening is given with a profile: its velocity is found, not given
+/// \throws InputError where the flow of a moving opening is given with another profile than the default: its velocity
+/// is an unknown, not given
 template <int n>
 void require_no_profile_where_openings_move(const Case& setup, const std::vector<OpenBoundary<n>>& open);
 

@@ -29,8 +29,8 @@ class PrescribedInflow {
   std::size_t opening() const { return opening_; }
   const std::vector<int>& nodes() const { return nodes_; }
 
-  /// Writes the velocity of a balance to a flow array (u, p): such that the stage's end, which the scheme carries it to,
-  /// has that of the flow in `data`.
+  /// Writes the velocity of a balance to a flow array (u, p): level + carry (end - level), `end` being the velocity of
+  /// the flow in `data` at the stage's end, which the scheme then reaches. Not thread-safe: uses storage of the object.
   /// \param level  flow array that the stage starts from
   /// \param data   without flows the fluid stands still there
   void impose(const std::vector<double>& level, const StepData& data, std::vector<double>& flow) const {

@@ -19,12 +19,14 @@ struct LostPressures {
   bool corner() const { return pressures == 1 && velocities == 0; }
 };
 
-/// A remark of a scene that begins so says where, and what helps: it does not concern drivers that solve both media at once.
+/// Beginning of the remark of a scene that tells where the velocity on the interface, if it is given, leaves a pressure
+/// without an equation. Drivers that solve both media at once may ignore it.
 inline constexpr const char* interface_takes_equations = "if the fluid is given its velocity on the wall,";
 
-/// Looks for them by a maximum matching of pressures with free components of the velocity of the same cells
-/// [Hall1935]: where one finds no partner, its alternating paths reach a set as above. What it
-/// finds is singular for certain; a singular system whose pattern does not show it is not found.
+/// Finds such pressures by a maximum matching of pressures with free components of the velocity of the same cells
+/// [Hall1935]: where a pressure finds no partner, its alternating paths reach a set as above. Each set found makes the
+/// system singular; a system that is singular by its values alone, not by its pattern, is not found. Empty for elements
+/// with stabilisation.
 /// \param velocity  conditions of the fluid's velocity
 /// \param given     nodes where the velocity is given besides, as that of an interface; may be empty
 template <class Element>

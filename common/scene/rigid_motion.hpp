@@ -5,8 +5,10 @@
 
 namespace fsi {
 
-/// Refuses a wall with supports that is static, or whose unloaded shape is asked for, and could move as a rigid body: held
-/// components, and in statics springs, must resist every translation and rotation that its geometry allows. \throws InputError that names one that nothing resists
+/// Refuses a wall with supports that could move as a rigid body, in statics and where a prestress is asked for: held
+/// components and, without a prestress, springs must resist every translation and rotation that the geometry allows. To
+/// be called by all processes.
+/// \throws InputError that names a motion that nothing resists
 template <int n>
 void require_no_rigid_motion(const Case& setup, const Scene<n>& scene);
 

@@ -45,9 +45,9 @@ class Scene {
   std::unique_ptr<Fluid<n>> fluid;
   std::unique_ptr<Wall<n>> wall;
   Openings<n> openings;                                           ///< behind the fluid's open boundaries
-  std::unique_ptr<MeshMotion<n>> mesh_motion_problem;             ///< null unless fluid and wall meet
-  MeshMotionMatrix<n> mesh_motion;                                ///< its operator; empty unless fluid and wall meet
-  std::unique_ptr<NonlinearMeshMotion<n>> nonlinear_mesh_motion;  ///< in place of both, where the case asks for one
+  std::unique_ptr<MeshMotion<n>> mesh_motion_problem;             ///< null unless fluid and wall meet; see below
+  MeshMotionMatrix<n> mesh_motion;                                ///< its operator; empty where that is null
+  std::unique_ptr<NonlinearMeshMotion<n>> nonlinear_mesh_motion;  ///< where the case asks for one: both above are empty
   int mesh_motion_assemblies = 0;        ///< what is made of the matrix is as old as the count it was made at
   bool keep_constant_operators = true;   ///< false: assembled at each use, to see what keeping them saves
   std::vector<InterfaceNode> interface;  ///< this process's first, then ghosts; each ascending in the fluid's numbers
@@ -58,7 +58,7 @@ class Scene {
   Conditions mesh_conditions;            ///< of the mesh displacement
   Conditions wall_conditions;            ///< of the wall's displacement
   std::vector<PrescribedInflow<n>> inflows;  ///< velocities at openings whose flow is given
-  NodalFrames<n> fluid_frames;               ///< of nodes whose conditions are along no axis of space; for both above
+  NodalFrames<n> fluid_frames;               ///< of nodes held along no axis of space: for velocity and mesh conditions
   NodalFrames<n> wall_frames;                ///< on the interface those of the fluid
   std::unique_ptr<const TimeIntegrator> integrator = std::make_unique<QuasiStatic>();
   /// The load under which the scene is at rest; none: no load.
@@ -84,7 +84,7 @@ class Scene {
   bool coupled() const { return fluid && wall; }
   /// Of its nodes, the first so many are this process's: what sums over the interface count.
   std::size_t owned_interface() const { return interface.size() - interface_ghosts; }
-  /// Of the whole interface, mm^2.
+  /// Of the whole interface, mm^2. To be called by all processes.
   double interface_area() const {
     const auto own = interface_areas.begin() + static_cast<std::ptrdiff_t>(owned_interface());
     return processes().sum(std::accumulate(interface_areas.begin(), own, 0.0));
@@ -204,8 +204,8 @@ class Scene {
     if (wall) wall_conditions.template impose<Mixed>(solution.wall);
   }
 
-  /// Whether the flow is given wherever fluid may pass, if it may at all: then nothing but a moving wall determines its
-  /// pressure.
+  /// Whether no opening leaves the flow free: it is given at each of them, or there is none. Then the level of the
+  /// pressure is determined by a moving wall alone. False without fluid.
   bool has_flow_only() const {
     if (!fluid) return false;
     std::size_t open = 0;

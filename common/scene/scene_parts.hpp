@@ -47,7 +47,8 @@ struct SceneParts {
   std::vector<std::string> remarks{};  ///< for the log
 };
 
-/// \throws InputError where the case and its mesh do not go together
+/// Of the whole mesh, alike at each process. \throws InputError where the case and its mesh do not go together, and
+/// where conditions leave a pressure without an equation (scene/pressure_equations.hpp)
 template <class Element>
 SceneParts<Element> find_parts(const Case& setup, const MeshOf<Element>& mesh);
 
@@ -60,7 +61,8 @@ struct WholeParts {
   std::unique_ptr<const PartRestriction> fluid_here, wall_here;
 };
 
-/// Leaves of a whole scene what this process holds. \returns the whole parts \param share  must live as long as these
+/// Restricts the parts of a whole scene to what this process holds. \returns the whole parts
+/// \param share  must live as long as these
 template <class Element>
 WholeParts<Element> restrict_to(const MeshShare& share, SceneParts<Element>& scene);
 

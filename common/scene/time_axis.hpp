@@ -22,11 +22,11 @@ struct Insertion {
 };
 
 /// Where the steps of a run begin and end. Steps end where a load jumps, and at the times of output.interval and
-/// output.times: up to there a stretch has equal steps, none longer than asked. An end of the run that steps as long as
-/// asked would miss is hit by a shorter last one, or by two that share what is left where that one would be less than half
-/// as long: the last planned step is then longer than asked, and an inserted one is its first half. A run that goes on from a checkpoint may have another step
-/// from there on; what lies before keeps its times. Adaptive steps are inserted one by one, before a plan that only
-/// estimates how many are left. Times are ms, in statics fractions of the load.
+/// output.times: up to there a stretch has equal steps, none longer than asked. Where steps as long as asked would miss
+/// the end of the run, the last one is shorter. Where it would be less than half as long, the last two share what is
+/// left: the last planned step is then longer than asked, and an inserted one is its first half. A run that goes on
+/// from a checkpoint may have another step from there on; what lies before keeps its times. Adaptive steps are inserted
+/// one by one, before a plan that only estimates how many are left. Times are ms, in statics fractions of the load.
 class TimeAxis {
  public:
   /// One stretch from the start to the end, as the case asks.

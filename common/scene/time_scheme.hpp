@@ -8,8 +8,8 @@
 
 namespace fsi {
 
-/// The frequency with which a scene swings across, 1/ms: what time schemes are chosen and damped by, so that a scene in
-/// other units has the same answer.
+/// Characteristic frequency of a scene's radial oscillation, 1/ms. Time schemes are chosen and damped by the step times
+/// this number, which does not depend on units. To be called by all processes.
 ///   fluid and wall:  c_w / R, the wave speed (wave_speed.hpp) over the radius 2 V_f / A,
 ///   wall alone:      sqrt(E / ((1 - nu^2) rho_s)) / R, R the largest distance from its axis,
 ///   fluid alone:     the larger of nu (2.405 / R)^2 over midpoint_share, so that the midpoint rule's damping is the decay
@@ -19,8 +19,8 @@ namespace fsi {
 template <int n>
 double scene_frequency(const Case& setup, const Scene<n>& scene);
 
-/// Its inverse, ms; the end of the run where nothing swings. Of fluid and wall the time in which a wave goes as far as the
-/// radius.
+/// The inverse of scene_frequency(), ms; the end of the run where that is zero. Of fluid and wall the time in which a
+/// wave travels the radius. To be called by all processes, as are the functions below that take a scene.
 template <int n>
 double scene_time(const Case& setup, const Scene<n>& scene);
 

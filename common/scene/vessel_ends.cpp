@@ -20,7 +20,7 @@ namespace fsi {
 namespace {
 
 constexpr double cos_smooth = 0.866;  // of 30 degrees between the normals of a face's facets
-constexpr double cos_edge = 0.766;    // of 40 degrees: less than that, and than 140, to the inner face's normal
+constexpr double cos_edge = 0.766;    // of 40 degrees: at an edge normals are between 40 and 140 degrees apart
 
 /// Vertices that a facet shares with a neighbour: of a triangle two, of an edge one.
 template <int Dim>

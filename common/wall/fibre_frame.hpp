@@ -25,7 +25,7 @@ struct FrameFields {
   bool empty() const { return radial.empty(); }
 };
 
-/// \throws ConvergenceError where the boundary leaves a potential undetermined
+/// On the whole wall, not a share of it. \throws ConvergenceError where the boundary leaves a potential undetermined
 template <class Element>
 FrameFields frame_fields(const Submesh<Element::dim, Element::order>& part, const FrameBoundary& boundary);
 
@@ -35,8 +35,8 @@ struct LocalFrame {
 };
 
 /// e_r along the radial slope, e_z along what the axial slope has across e_r, e_theta = e_z x e_r. Where that is
-/// nothing, as at the saddle of a branching, e_z is along what an axis of space has across e_r, the one that is the
-/// most.
+/// nothing, as at the saddle of a branching, e_z is along the projection across e_r of the axis of space most nearly
+/// at right angles to it. e_r is along x where the radial slope is zero.
 LocalFrame frame_of(const Vec3<double>& radial_slope, const Vec3<double>& axial_slope);
 
 }  // namespace fsi

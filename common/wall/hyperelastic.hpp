@@ -15,10 +15,10 @@ namespace fsi {
 ///   - (g, q) - (p / kappa, q) - sum over elements (tau J F^-T grad p, F^-T grad q),
 ///   tau = alpha h^2 / (2 (mu + rho c_w^2)),
 /// P' = F S', g = J - 1 and G = dg/dF = J F^-T for the nearly incompressible laws; CompressibleLaw has its own.
-/// c_w, the speed of pressure waves in the scene, is zero where it is not known. With it tau rho / t^2, t = h / c_w, the
-/// share of the wall's inertia that leaks away, is below alpha / 2 however soft the layer. No inertia in the
-/// stabilisation's residual: it would destabilise small steps. Elements without a size (Taylor-Hood) get no
-/// stabilisation. Fibre directions vary from point to point, also where gradients are constant.
+/// c_w, the speed of pressure waves in the scene, is zero where it is not known. With c_w the share of the wall's
+/// inertia that the stabilisation takes, tau rho / t^2 with t = h / c_w, is below alpha / 2 however soft the layer. The
+/// stabilisation's residual is without inertia, which would destabilise small steps. Elements without a size
+/// (Taylor-Hood) get no stabilisation. Fibre directions vary from point to point, also where gradients are constant.
 template <class Material>
 struct Hyperelastic {
   double density;        ///< mg/mm^3; 0 in statics

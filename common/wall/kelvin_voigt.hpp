@@ -5,8 +5,8 @@
 
 namespace fsi {
 
-/// What a layer of Kelvin and Voigt's adds to an elastic one: a second Piola-Kirchhoff stress along the rate of Green and
-/// Lagrange's strain, and so (docs/theory.md, section 5.10)
+/// What a Kelvin-Voigt layer adds to an elastic one: a second Piola-Kirchhoff stress proportional to the rate of the
+/// Green-Lagrange strain, and so (docs/theory.md, section 5.10)
 ///   (eta F dE/dt, grad w),   dE/dt = (F^T grad v + (F^T grad v)^T) / 2,   F = I + grad d - s grad v,
 /// to the wall's residual, for test functions w. It takes the power eta dE/dt : dE/dt, never negative. v is the difference
 /// of two displacements over a time; with the lag s F is the mean of theirs, and dE/dt the difference of their strains over

@@ -16,7 +16,7 @@ template <class Element>
 LayerDeformation layer_deformation(const WallLayer<Element>& layer, const Submesh<Element::dim, Element::order>& part,
                                    const DeformationInput& in);
 
-/// The layers as all processes have them, which call it together: of alike extremes that of the first process.
+/// The extremes over all processes, which call it together; of equal ones that of the lowest rank.
 std::vector<LayerDeformation> worst_of_all(const std::vector<LayerDeformation>& layers, const Communicator& processes);
 
 }  // namespace fsi

@@ -8,7 +8,7 @@
 
 namespace fsi {
 
-/// Green and Lagrange's strain E = (H + H^T + H^T H)/2 of H = grad d.
+/// Green-Lagrange strain E = (H + H^T + H^T H)/2 of H = grad d.
 template <class T>
 Sym3<T> green_lagrange(const Mat3<T>& h) {
   Sym3<T> e;

@@ -10,8 +10,7 @@ namespace fsi {
 /// What the branches of a step's balance do besides changing the energy; uJ.
 struct MaxwellWork {
   double dissipated = 0;  ///< sum of W (2 G_i / tau_i (E - A_i), E - A_i), in the dashpots
-  double beyond =
-      0;  ///< W (F Q, grad v) - omega (stored_1 - stored_0) - dissipated: stress of the balance, not along the step
+  double beyond = 0;      ///< W (F Q, grad v) - omega (stored_1 - stored_0) - dissipated: error of the rule in time
 };
 
 /// The element loops of layers with Maxwell branches (wall/maxwell_form.hpp), beside those of their elastic laws: a wall

@@ -13,7 +13,8 @@
 
 namespace fsi {
 
-/// Stiffnesses of a bedding per area of a surface at rest, isotropic and along the normal at rest alone.
+/// Constants of springs (kPa/mm) or dampers (kPa ms/mm) per area of a surface at rest: the same in all directions, and
+/// along the normal at rest alone.
 struct Bedding {
   double full = 0, normal = 0;
   bool is_none() const { return full == 0 && normal == 0; }
@@ -38,15 +39,18 @@ class WallSupports {
  public:
   using Mixed = MixedLayout<n>;
   using Matrix = WallMatrix<n>;
-  /// A load of strength p kPa: adds to the residual and, if there is one, to the Jacobian. \param solution  (d, .)
+  /// A load: adds to the residual and, if there is one, to the Jacobian.
+  /// \param p         its strength, kPa; of forces per volume kPa/mm
+  /// \param solution  (d, .), mixed layout, mm
   using Load = std::function<void(double p, const double* solution, std::vector<double>& residual, Matrix* jacobian)>;
 
-  /// \param graph  that of the wall's matrices
+  /// \param graph  that of the wall's matrices; must outlive this
   /// \param share  of the wall's nodes among processes; null: they are all here
   explicit WallSupports(const NodeGraph& graph, std::shared_ptr<const NodeShare> share = nullptr)
       : graph_(graph), share_(std::move(share)) {}
 
-  /// Facets in the wall's node numbers, normals out of it. \param x  the nodes at rest, mm
+  /// Springs, and dampers, on facets in the wall's node numbers, normals out of it. To be called by all processes.
+  /// \param x  the nodes at rest, mm
   template <class Element, class Facet>
   void add_springs(const std::vector<Point>& x, const std::vector<Facet>& facets, const Bedding& stiffness) {
     springs_.template add<Element>(graph_, x, facets, stiffness, share_.get());
@@ -148,7 +152,7 @@ void WallSupports<n>::SurfaceMatrix::add(const NodeGraph& graph, const std::vect
     Vec3<Pack> corner[F::nodes];
     facet_corners<F>(x, facet, corner);
     for (int a = 0; a < F::nodes; ++a) {
-      if (share && share->owned[facet[a]] == 0) continue;  // no one's row
+      if (share && share->owned[facet[a]] == 0) continue;  // a row of another process
       for (int b = 0; b < F::nodes; ++b) {
         double block[n][n] = {};
         for (int q = 0; q < F::points; ++q) {

@@ -16,7 +16,7 @@ struct ViscousLayers {
   /// Adds to the residual and, if there is one, to the Jacobian. Without velocity, in statics, nothing.
   static void add(const std::vector<WallLayer<Element>>& layers, const WallInput& in, std::vector<double>& residual,
                   WallMatrix<n>* jacobian);
-  /// What they take in a balance of a step, tested with its velocity for its duration, uJ.
+  /// Energy that they dissipate in a balance of a step, W (eta dE/dt, dE/dt), uJ; over the elements counted here.
   static double work(const std::vector<WallLayer<Element>>& layers, const WallStep& step);
 };
 

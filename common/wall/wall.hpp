@@ -42,17 +42,18 @@ class Wall {
   virtual void set_wave_speed(double speed) = 0;
   virtual const std::vector<LayerData>& layer_data() const = 0;
   virtual bool is_viscous() const = 0;  ///< whether a layer resists the rate of its strain, or has Maxwell branches
-  /// Where what Maxwell branches keep stands in an array.
+  /// Layout of the arrays with the strains that Maxwell branches keep.
   virtual const BranchPlaces& branch_places() const = 0;
-  /// Such an array of a wall, (d, .), at which all branches are at rest; empty without branches.
+  /// Such an array for branches that are fully relaxed at a displacement; empty without branches. \param wall  (d, .)
   virtual std::vector<double> relaxed_branches(const std::vector<double>& wall) const = 0;
-  /// Writes the one of a balance.
+  /// Writes such an array for a balance. \param branches  of branch_places().size() numbers
   virtual void settle_branches(const WallInput& in, std::vector<double>& branches) const = 0;
   const std::shared_ptr<const NodeGraph>& graph() const { return space().graph(); }
   int node_count() const { return nodes().node_count(); }
 
   /// Overwrites the residual, in the mixed layout, and the Jacobian if there is one.
   /// \param pressure  kPa on the pressurised facets
+  /// \param solution  (d, .), mixed layout, mm: where these facets are; not read while find_unloaded_shape()
   /// \param jacobian  on the graph(), owned by the caller; null: no derivatives
   virtual AssemblyResult assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
                                   std::vector<double>& residual, WallMatrix<n>* jacobian = nullptr) = 0;

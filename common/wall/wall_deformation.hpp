@@ -12,16 +12,20 @@ struct ValueAt {
   Point where{0, 0, 0};
 };
 
-/// How far a layer of the wall is deformed from its unloaded shape (docs/theory.md, section 4.9). Of all processes.
+/// How far a layer of the wall is deformed from its unloaded shape (docs/theory.md, section 4.9). Wall::deformation()
+/// has it of all processes, layer_deformation() of one.
 struct LayerDeformation {
-  ValueAt least{1};     ///< det F, of the quadrature points
-  ValueAt greatest{1};  ///< likewise
-  /// A place where det F is not positive though it is at the quadrature points of its quadratic element; 1: none.
+  ValueAt least{1};     ///< least det F at the quadrature points; 1, at no place, where all are larger
+  ValueAt greatest{1};  ///< greatest likewise; 1, at no place, where all are less
+  /// The worst place in quadratic elements where the deformed element's Jacobian is not shown to be positive, and its
+  /// value there over the mean of the element, at most 0; `where` is in the deformed element, not on the mesh. 1: none.
   ValueAt folded{1};
-  ValueAt strain;    ///< largest principal strain, of the small strain tensor; of layers of `linear-elastic` alone
-  ValueAt rotation;  ///< radians, of the antisymmetric part of grad d; likewise
+  /// Largest absolute principal value of the small strain tensor. Of layers of `linear-elastic` alone, and not while
+  /// the unloaded shape is searched; else 0.
+  ValueAt strain;
+  ValueAt rotation;  ///< largest rotation by the antisymmetric part of grad d, radians; likewise
 
-  /// The least det F that was found; NaN where one is.
+  /// The lesser of `least` and `folded`; `least` where that is NaN.
   const ValueAt& worst() const { return folded.value < least.value ? folded : least; }
 };
 

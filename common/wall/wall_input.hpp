@@ -30,7 +30,8 @@ struct WallInput {
   // What supports ask besides (wall/supports.hpp).
   const double* velocity_reference = nullptr;  ///< r of v = velocity_rate (d - r), mixed layout, mm; null: not known
   double velocity_rate = 0;                    ///< 1/ms; 0 in statics
-  const double* support_loads = nullptr;       ///< kPa, in the order of the supports' loads; null: none
+  /// In the order of the supports' loads, kPa, of forces per volume kPa/mm; null: none.
+  const double* support_loads = nullptr;
   const double* branch_reference = nullptr;  ///< r of what Maxwell branches keep (BranchPlaces); null: none, or statics
 };
 

@@ -18,6 +18,7 @@ class WallProblem : public Wall<Element::components> {
   using Part = Submesh<Element::dim, Element::order>;
   using Facets = std::vector<typename Part::Facet>;
 
+  /// To be called by all processes that share the wall.
   /// \param layers       region of the mesh and material of each layer
   /// \param axis         of the fibres' cylindrical frame
   /// \param pressurised  facets in the part's node numbers, normals outward from the wall; may be empty

@@ -15,9 +15,9 @@ struct NamedSystem {
   int step = 0, iteration = 0;
 };
 
-/// `--systems 1:1,12:2 --solvers lower,fast`: the time steps of a case up to the last named Newton system; each of these
-/// is solved with every named solver, and DIR/linear_solvers.json tells iterations, times, residuals and memory. Systems
-/// come from Newton's method with a new Jacobian in each iteration.
+/// `--systems 1:1,12:2 --solvers lower,fast`: runs a three-dimensional case with fluid and wall up to the last named
+/// Newton system. Each named system is solved with every named solver, and DIR/linear_solvers.json has iterations,
+/// times, residuals and memory. Systems come from Newton's method with a new Jacobian in each iteration.
 class LinearStudyRequest {
  public:
   std::vector<ExtraOption> options();
@@ -31,7 +31,7 @@ class LinearStudyRequest {
 };
 
 /// "1:1,12:2" as systems in the order of the run.
-/// \throws InputError
+/// \throws InputError where an entry is not STEP:ITERATION with numbers from 1 on
 std::vector<NamedSystem> parse_systems(const std::string& text);
 
 }  // namespace fsi

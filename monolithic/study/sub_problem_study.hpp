@@ -29,7 +29,8 @@ struct MultigridStudy {
 
 /// Runs a built hierarchy (EllipticAmg or SaddleAmg) on A x = A y for a fixed pseudo-random y, which excites all
 /// frequencies.
-/// \param entries  unknowns per node
+/// \param entries    unknowns per node
+/// \param tolerance  on |b - A x| / |b|
 template <class Hierarchy>
 MultigridStudy study_multigrid(Hierarchy& amg, std::size_t entries, double tolerance = 1e-9, int max_iterations = 100) {
   MultigridStudy study;

@@ -13,8 +13,9 @@ struct AcceleratorStatus {
   int columns = 0;        ///< differences or directions that the last correction used
 };
 
-/// How an iteration for r(x) = 0 on the interface goes on, r(x) = x~ - x being what one pass through the sub-problems
-/// changes. One loop (coupling_stepper.hpp) drives every accelerator:
+/// Accelerates the fixed-point iteration for r(x) = 0 on the interface, r(x) = x~ - x with the result x~ of one pass
+/// through the sub-problems. Vectors are interface vectors (interface_space.hpp). One loop (coupling_stepper.hpp)
+/// drives every accelerator:
 ///   start(); repeat { r = r(x); correct(x, r); } until r is small; accept(x, r).
 /// The x of a call need not be the one the last call proposed: a pass that fails is repeated closer to the last good x.
 class Accelerator {
@@ -26,15 +27,15 @@ class Accelerator {
   virtual void correct(std::vector<double>& x, const std::vector<double>& r) = 0;
   /// The step, or stage, ended with this x and its residual.
   virtual void accept(const std::vector<double>& /*x*/, const std::vector<double>& /*r*/) {}
-  /// It ended without an answer: what it taught is forgotten, the run may try again with a shorter step.
+  /// The step, or stage, ended without a solution: forgets what was learned in it. start() follows.
   virtual void abandon() {}
-  /// From here on r is another function, much alike: of a shorter step, or a longer one.
+  /// From here on r is another, similar function: that of a shorter step, or of a longer one. Called before start().
   virtual void change(bool /*longer*/) {}
-  /// Where |r| will be small enough. Told before each correction, for passes that work no further than that.
+  /// The |r| that will be small enough. Called before each correction, so that inner iterations stop there.
   virtual void aim(double /*residual*/) {}
   virtual AcceleratorStatus status() const = 0;
-  /// The next residual may come from sub-problems solved in another way than the last: it is not compared with it
-  /// alone.
+  /// Whether the next pass may solve the sub-problems in another way than the last: linearised or not. False while
+  /// their residuals are subtracted to form a product with the Jacobian.
   virtual bool allows_change() const { return true; }
   /// What is kept from one step to the next, for a restart that goes on bit for bit.
   virtual void keep(RestartArchive& /*archive*/) {}

@@ -77,10 +77,10 @@ void AffineMap::mend_pairs(const std::vector<double>& r) {
 }
 
 void AffineMap::learn(const std::vector<double>& r, double accuracy) {
-  // S (1 + L) u: the rest of the last change of x had the change V V^T r of the residual, to rounding.
+  // v = S (1 + L) u: the other part of the last change of x, -W V^T r, changed the residual by -V V^T r, to rounding.
   std::vector<double> v = r, w = step_;
   axpy(-1, unexplained_, v);
-  // Where the guess of what was not explained has helped little, any pair is welcome, and L is no guide.
+  // Where (1 + L) u has reduced the unexplained part little, L is dropped, and pairs are taken whatever the filter.
   const bool misled = space_.norm(r) > little * space_.norm(unexplained_);
   if (misled) before_.clear();
   const double least = std::max(misled ? pair_rounding : filter_, accuracy) * space_.norm(corrected_);

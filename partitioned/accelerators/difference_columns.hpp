@@ -10,13 +10,14 @@
 
 namespace fsi {
 
-/// What earlier passes tell of a Jacobian: pairs of columns, newest first, those of earlier time steps behind.
+/// Differences of passes as secant information on a Jacobian: pairs of columns, newest first, those of earlier time
+/// steps behind.
 class DifferenceColumns {
  public:
   struct Column {
     std::vector<double> v;  ///< difference of residuals
     std::vector<double> w;  ///< what it belongs to: the owner's choice
-    int age;                ///< in time steps, or stages
+    int age;                ///< calls of start() since: time steps or stages, repeated attempts included
   };
 
   /// \param most          columns kept
@@ -27,14 +28,16 @@ class DifferenceColumns {
 
   /// A time step, or a stage of it, begins.
   void start();
-  /// It has ended. What comes before the next one does not depend on the order of its passes, as a restart needs.
+  /// The step, or stage, has ended. Drops the factorisation, so that the next one is made from the beginning, with the
+  /// same bits as after a restart.
   void finish() { qr_.reset(); }
   /// Forgets the columns of the step, or stage, in progress.
   void abandon();
+  /// Adds a pair as the newest; beyond `most` the oldest is dropped.
   void add(std::vector<double> v, std::vector<double> w);
   void clear();
-  /// Factorises V; columns that the filter drops are forgotten, so that its places are those of the columns left. From
-  /// the beginning in each step, or stage, so that a restart has the same bits; then column by column.
+  /// Factorises V and forgets the columns that the filter drops, so that places in the factorisation are places here.
+  /// In each step, or stage, from the beginning at first, then by inserting the new column. Collective.
   const FilteredQr& factorise();
 
   bool empty() const { return columns_.empty(); }

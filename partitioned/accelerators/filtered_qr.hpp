@@ -10,7 +10,8 @@ namespace fsi {
 /// QR factorisation V = Q R of difference columns that drops those which add nothing new: by Gram-Schmidt, repeated
 /// once, column by column in the order given, a column whose part orthogonal to the earlier ones is not longer than
 /// `filter` times the column itself is left out ([Haelterman2016], filter QR2, which preCICE's QR3 applies).
-/// Zero, repeated and not finite columns never get in.
+/// Zero, repeated and not finite columns are always left out. Constructor, insert_first() and least_squares() are
+/// collective.
 class FilteredQr {
  public:
   FilteredQr(const std::vector<const std::vector<double>*>& columns, double filter, const InterfaceSpace& space = {});

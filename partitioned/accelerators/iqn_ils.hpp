@@ -15,12 +15,12 @@ namespace fsi {
 ///   c = argmin |V c + r|,   x <- x~ + W c.
 /// This takes the part of r that V does not explain, r + V c, as it is. It may be relaxed by a factor m instead,
 ///   x <- x~ + W c - (1 - m) (r + V c),
-/// as in Anderson mixing: good where unexplained parts are overshot too, though less than the others.
-/// Columns of another r, of a step of another length, would contradict the new ones where both are nearly parallel.
-/// They become a map instead, as in the multi-vector method (iqn_imvj.hpp),
+/// as in Anderson mixing: good where a pass overshoots the unexplained part too, though less than the rest.
+/// Columns of a step of longer period belong to another r and would contradict the new ones where both are nearly
+/// parallel. They become a map instead, as in the multi-vector method (iqn_imvj.hpp),
 ///   L <- L + (W - (1 - m) V - L V) V^+,
-/// which answers for what the columns that follow do not explain, x <- x~ + W c - (1 - m + L) (r + V c), in the first
-/// steps after the change. Later ones are better without it.
+/// for what the columns that follow do not explain, x <- x~ + W c - (1 - m + L) (r + V c), in the first step, or stage,
+/// after the change. Later ones converge better without it. After a change to a longer period all columns are dropped.
 class IqnIls : public Accelerator {
  public:
   static constexpr int most_before = 1;  ///< steps, or stages, in which L serves

@@ -14,16 +14,15 @@ class LowRankMap {
  public:
   explicit LowRankMap(const InterfaceSpace& space = {}) : space_(space) {}
 
-  static constexpr double truncation =
-      1e-4;  ///< singular values that truncate() may well drop, relative to the largest
+  static constexpr double truncation = 1e-4;  ///< tolerance for truncate() that its callers use
 
   std::size_t rank() const { return a_.size(); }
   void clear();
   void add(std::vector<double> a, std::vector<double> b);
-  /// J x
+  /// J x. Collective.
   std::vector<double> times(const std::vector<double>& x) const;
   /// Replaces J by its best approximation of a rank of at most `rank`, singular values below `tolerance` times the
-  /// largest left out (the restart RS-SVD of [Scheufele2017]).
+  /// largest left out (the restart RS-SVD of [Scheufele2017]). Collective.
   void truncate(std::size_t rank, double tolerance);
 
   void keep(RestartArchive& archive, const std::string& name);

@@ -6,8 +6,8 @@
 #include "partitioned/accelerators/accelerator.hpp"
 #include "partitioned/interface_space.hpp"
 
-/// Accelerators by the options of a case, each with the relaxation that suits its passes: those of Dirichlet-Neumann overshoot,
-/// those of Robin-Neumann (robin...) do not.
+/// Accelerators by the options of a case, each with the relaxation that suits its passes: those of Dirichlet-Neumann
+/// overshoot, those of Robin-Neumann (robin..., regularised) do not. `space` is copied.
 namespace fsi::accelerators {
 
 using Made = std::unique_ptr<Accelerator>;

@@ -13,9 +13,10 @@ namespace fsi {
 /// [Degroote2009] with a least-squares problem that knows how wrong its columns are. With differences of successive
 /// passes V = [dr ...], W = [dx ...], of this step and earlier ones, and s_j the size of the error in column j of V,
 ///   c = argmin |V c + r|^2 + sum_j (s_j c_j)^2,   x <- x + W c + m (r + V c).
-/// Were the errors independent, the second term would be the expected square of what they do to V c: a combination of nearly
-/// parallel columns is used for as much as they can tell, and no filter drops any (Tikhonov's regularisation of an errors-
-/// in-variables problem). s_j grows with the age of a column in steps, as the Jacobian drifts.
+/// For independent errors the second term is the expected square of their effect on V c. It bounds the coefficients of
+/// nearly parallel columns, so that no filter is needed (Tikhonov regularisation of an errors-in-variables problem).
+/// s_j is relative to the length of the column and grows with its age in steps or stages, as the Jacobian drifts. m is
+/// options.mixing; options.filter is not used.
 class RegularisedIqn : public Accelerator {
  public:
   explicit RegularisedIqn(const QuasiNewtonOptions& options, const InterfaceSpace& space = {})
@@ -30,6 +31,7 @@ class RegularisedIqn : public Accelerator {
   void keep(RestartArchive& archive) override;
 
  private:
+  /// Adds the difference to the last pass, if there was one in this step or stage.
   void add_difference(const std::vector<double>& x, const std::vector<double>& r);
   void add_column(std::vector<double> v, std::vector<double> w, int age);
   /// Forgets the first `count` columns, the oldest.

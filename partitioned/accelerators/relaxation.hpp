@@ -22,8 +22,8 @@ class ConstantRelaxation : public Accelerator {
 
 /// Aitken's dynamic relaxation ([Irons1969]; [Kuettler2008], equation 44):
 ///   omega_k = -(x_k - x_(k-1)) . (r_k - r_(k-1)) / |r_k - r_(k-1)|^2.
-/// A step starts with the last factor of the previous one, no larger than `largest_start`: a first guess that
-/// overshoots can invert elements.
+/// A step, or stage, starts with the magnitude of the last factor of the previous one, between 1e-4 and
+/// `largest_start`: a first correction that overshoots can invert elements.
 class AitkenRelaxation : public Accelerator {
  public:
   /// \param first_factor   of the first correction of all

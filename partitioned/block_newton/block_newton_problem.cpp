@@ -18,14 +18,14 @@ namespace fsi {
 
 namespace {
 
-constexpr double pass_share = 0.5;  // of a linear tolerance, for the gap that passes leave; the rest is the media's
-constexpr double loosest_answer = 1e-3;  // of a medium to a change of the datum: pairs are as exact as that
+constexpr double pass_share = 0.5;  // of the linear tolerance, for the gap that passes leave; the rest is the media's
+constexpr double loosest_answer = 1e-3;  // tolerance of a medium's response to a change of the datum, and so of pairs
 constexpr double tightest_answer = 1e-8;
 constexpr int most_directions = 50;  // of the iteration over both media, between two residuals in double precision
 constexpr double stalled = 0.95;     // of the residual, left by a correction
-constexpr double rounding_of_gap = 1e-14, rounding_of_load = 1e-13;  // relative: no pass makes less of them
+constexpr double rounding_of_gap = 1e-14, rounding_of_load = 1e-13;  // relative: passes do not reduce them further
 
-/// 1 where nothing is demanded of nothing.
+/// demanded / left, at most 1; 1 also where both are zero.
 double ratio(double demanded, double left) {
   return left > demanded ? demanded / left : 1;
 }
@@ -242,7 +242,7 @@ bool BlockNewtonProblem<n>::solve_jointly(double tolerance) {
       demanded = std::min(
           {demanded, ratio(gap, space_.norm(linear_residual_.gap)), ratio(force, as_force(linear_residual_.gap))});
       if (demanded >= 1) return true;
-      // The gap may fall where it is none of the residual to speak of.
+      // A stalled residual is no failure while the gap, a small part of it, still falls.
       if (contraction > stalled && last_demanded > stalled * demanded) return false;
       left_out = contraction > 2 * accuracy ? std::clamp(contraction, 1e-3, 0.2) : 0.2 * left_out;
     }

@@ -23,25 +23,25 @@ struct BlockNewtonCost {
   double fluid_seconds = 0, wall_seconds = 0, algebra_seconds = 0;
 };
 
-/// Fluid and wall as one problem for Newton's method whose linear systems are solved by passes between the two: the block
-/// Newton method of [Fernandez2005], with a Robin condition on the fluid (docs/theory.md, section 10.4). Each medium has a
-/// Jacobian and a linear solver of its own; they exchange velocities and loads of the interface, nothing else.
+/// Fluid and wall as one problem for Newton's method whose linear systems are solved by passes between the two: the
+/// block Newton method of [Fernandez2005], with a Robin condition on the fluid (docs/theory.md, section 10.4). Each
+/// medium has a Jacobian and a linear solver of its own; they exchange velocities and loads of the interface, nothing
+/// else.
 ///
-/// Unknowns are the fluid with its domain, which follows its velocity u on the interface, the wall with its displacement d,
-/// and the datum v of the Robin condition. F and W being the momentum rows of fluid and wall on the interface, and C nodal
-/// areas times an impedance, the residual is
+/// Unknowns are the fluid with its domain, which follows its velocity u on the interface, the wall with its
+/// displacement d, and the datum v of the Robin condition. F and W being the momentum rows of fluid and wall on the
+/// interface, and C nodal areas times an impedance, the residual is
 ///   F + W              the balance: rows of the wall, whose load is F,
 ///   C_1 (v(d) - u)     the kinematics as a force, v(d) being the wall's velocity and C_1 the membrane's C,
 /// and the rows of both media away from the interface. The datum enters linearly, and alone F + C (u - v) = 0: at each
 /// residual it is taken so that this holds. A pass answers to a change dv of it,
 ///   J_f du + C (du - dv) = -R_f,   J_w dd = -R_w + C (du - dv),
-/// and assembles nothing. The gap that it leaves is an affine function of dv, whose slope is the same for as long as both
-/// Jacobians are kept, over time steps too: what passes have told of it stays exact (affine_map.hpp).
+/// and assembles nothing. The gap that it leaves is an affine function of dv, whose slope is the same for as long as
+/// both Jacobians are kept, over time steps too: what passes have told of it stays exact (affine_map.hpp).
 template <int n>
 class BlockNewtonProblem : public NewtonProblem {
  public:
-  /// \param stiffness  C over what the membrane of the wall has it: 1 in steps that are short against the time within
-  ///                   which the wall answers; more where its stiffness answers, or where it is no tube
+  /// \param stiffness  factor of C over the membrane's impedance (robin_stiffness())
   BlockNewtonProblem(Scene<n>& scene, const PartitionedData& options, double stiffness);
 
   /// The step, or stage of it, that evaluate() and the others refer to from now on. Both must outlive that.
@@ -63,17 +63,17 @@ class BlockNewtonProblem : public NewtonProblem {
 
   /// At the last residual, between the wall's displacement and the one that the fluid's velocity gives, mm.
   double gap() const { return space_.norm(gap_); }
-  /// The same over the wall's displacement; 0 where there is neither.
+  /// gap() over the wall's displacement on the interface; 0 where that is zero, whatever the gap.
   double relative_gap() const;
-  /// And as a pressure, over the force between fluid and wall.
+  /// The pressure that would close the gap, relative to the force between fluid and wall (relative_gap_pressure()).
   double relative_pressure() const;
   /// The same in kPa, root mean square over the interface.
   double gap_pressure() const;
-  /// The whole residual over the force between fluid and wall.
+  /// Norm of the last residual over the force between fluid and wall; 0 without a force.
   double relative_residual() const;
   const System<n>& fluid() const { return fluid_; }
   const System<n>& wall() const { return wall_; }
-  /// LinearSolver::decides() of the media, which decide alike.
+  /// LinearSolver::decides() of the wall; the fluid's is the same.
   std::string linear_decision() const { return wall_.solver().decides(); }
   /// Pairs and rank that corrections of the datum are made of.
   int columns() const { return map_.columns(); }
@@ -82,12 +82,12 @@ class BlockNewtonProblem : public NewtonProblem {
   BlockNewtonCost cost;  ///< of the step; its owner sets it back
 
  private:
-  /// Of what is tried when fluid and wall do not come to agree: C so much stiffer, so often. A pressure that turns with the
-  /// interface makes the fluid by itself indefinite where C is small beside it.
+  /// Where the linear iteration fails C is multiplied by this factor, at most so many times. A pressure load that turns
+  /// with the interface makes the fluid's own matrix indefinite where C is small beside it.
   static constexpr double stiffening = 10;
   static constexpr int most_stiffenings = 4, most_joint_stiffenings = 2;
 
-  /// Of the linear system of both media: residuals of the systems, and the gap as a displacement.
+  /// Residuals of the linear systems of both media, and the gap that their increments leave, mm.
   struct LinearResidual {
     std::vector<double> fluid, wall, gap;
   };
@@ -99,20 +99,23 @@ class BlockNewtonProblem : public NewtonProblem {
                      const MediumSolvers<n>& solvers);
   std::vector<double> impedance_of(const StepRates& rates) const;
   std::vector<double> interface_gap() const;
-  /// The membrane's impedance times velocities that displacements of the interface are worth, Euclidean norm: the force that
-  /// a gap is in the error of the solution. C, where it is a stiffer one, would only tell what the fluid's datum makes of it.
+  /// Euclidean norm of C_1 times displacements / period: the force that a gap stands for in the error of the solution.
+  /// A stiffer C would overrate it.
   double as_force(const std::vector<double>& displacements) const;
-  /// Norms of the fluid's force on the wall, of the wall's displacement there, and of its increment.
+  /// Euclidean norm of the fluid's force on the wall over the interface, kPa mm^2.
   double load() const;
+  /// Euclidean norm of the wall's displacement on the interface, mm.
   double displacement() const;
+  /// The same of its last increment.
   double displacement_increment() const;
-  /// Both media's increments by passes until the gap is small beside the increments of the interface, as a displacement and
-  /// as a force. Beside the residual it would not do: that adds up forces and volumes in units that anybody may choose.
-  /// \returns whether they get there
+  /// Finds both increments by passes, until the gap is small beside the increments of displacement and load on the
+  /// interface. It is not compared with the residual, whose rows have different units.
+  /// \returns whether it converges
   bool solve_by_passes(double tolerance);
-  /// The same where both media iterate, by one iteration over both (joint_iteration.hpp), in which a pass takes one cycle
-  /// of each. \returns whether it gets there
+  /// The same where both media iterate, by one iteration over both (joint_iteration.hpp), in which a pass takes one
+  /// cycle of each. \returns whether it converges; false also where a medium has no preconditioner
   bool solve_jointly(double tolerance);
+  /// Sets the factor of C, and makes the fluid's Jacobian again.
   void stiffen(double stiffness);
   /// linear_residual_ of the increments and of the datum as they are.
   void find_linear_residual();
@@ -139,7 +142,7 @@ class BlockNewtonProblem : public NewtonProblem {
   AffineMap map_;  ///< from x_ to the gap
   JointIteration<n> joint_;
   bool joint_is_current_ = false;  ///< joint_ knows these Jacobians
-  double period_ = 0;              ///< ms, for which it is
+  double period_ = 0;              ///< ms, of the interface kinematics that map_ belongs to
   State* state_ = nullptr;
   StepData* data_ = nullptr;
   std::vector<double> gap_;                         ///< at the last residual, n numbers per interface node, mm

@@ -10,7 +10,7 @@ namespace fsi {
 
 namespace {
 
-/// Of the datum's rows beside those of the media: the gap is what converges last (docs/archive.md).
+/// Weight of the datum's rows against those of the media: the gap converges last (docs/archive.md).
 constexpr float weight_of_gap = 3;
 
 }  // namespace

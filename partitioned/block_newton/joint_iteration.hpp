@@ -13,16 +13,17 @@
 namespace fsi {
 
 /// The linear system of block Newton (docs/theory.md, section 10.4) where both media iterate: flexible GMRES in single
-/// precision for fluid, wall and datum together, preconditioned by a pass in which each medium answers by one cycle. z_f and
-/// z_w being the media's unknowns as velocities, x the datum, C the impedance of the Robin condition:
+/// precision for fluid, wall and datum together, preconditioned by a pass in which each medium takes one cycle.
+/// z_f and z_w being the media's unknowns as velocities, x the datum, C the impedance of the Robin condition:
 ///   J_f z_f - C x = r_f,   J_w z_w - C (z_f - x) = r_w,   C (z_w - z_f) = r_x,
-/// all terms with C on the interface. A pass is
+/// all terms with C on the interface, J_f with C in its rows there. A pass is, with cycles for the inverses,
 ///   x = -r_x / C,   z_f = J_f^-1 (r_f + C x),   z_w = J_w^-1 (r_w + C (z_f - x)).
-/// So nothing of what a pass has told is lost on a datum that is not yet right, and no medium is solved for one.
+/// GMRES weights the rows of the datum by 3, as the gap converges last. No medium is solved exactly for a datum that is
+/// not yet right.
 template <int n>
 class JointIteration {
  public:
-  /// Seconds of either medium.
+  /// Counters of the seconds of each medium, added to.
   struct Seconds {
     double &fluid, &wall;
   };
@@ -30,15 +31,16 @@ class JointIteration {
   JointIteration(const Scene<n>& scene, const Numbering& fluid, const Numbering& wall);
 
   /// The Jacobians hold new values, or the Robin condition has another impedance.
-  /// \param impedance  C, per node of the scene's interface; zero where there is no condition
+  /// \param impedance  C, kPa mm^2/(mm/ms), per node of the scene's interface; zero where there is no condition
   void update(MediumPreconditioner& fluid, MediumPreconditioner& wall, const std::vector<double>& impedance);
 
-  /// Of the vectors of solve(), as of the last update().
+  /// Layout of the vectors of solve(), as of the last update().
   const BlockLayout& layout() const { return layout_; }
 
-  /// Of residuals r, Euclidean norms of all: z and x, up to a residual of `tolerance` |r|.
-  /// \param right  overwritten
-  /// \returns iterations
+  /// Solves for z and x up to a residual of `tolerance` |r|, by Euclidean norms with the datum's rows weighted.
+  /// \param right     r; overwritten
+  /// \param solution  (z_f, z_w, x)
+  /// \returns iterations, also where it has not converged
   int solve(std::vector<float>& right, double tolerance, int most_iterations, std::vector<float>& solution,
             const Seconds& seconds);
 
@@ -56,11 +58,11 @@ class JointIteration {
   static void add_to(const Vector& x, int place, const NodalAxes<n>* axes, const std::array<bool, n>& free,
                      VectorView<float> to);
 
-  /// wall += C (z_f - x)
+  /// wall += sign C (z_f - x)
   void load_wall(const Blocks& z, float sign, VectorView<float> wall) const;
-  /// z = the pass's answer to r, y = the matrix times z.
+  /// z = the result of the pass for r, y = the matrix times z.
   void pass(const std::vector<float>& r, std::vector<float>& z, std::vector<float>& y, const Seconds& seconds);
-  /// Adds what the interface's terms make of z to the products of the media's own Jacobians; the datum's are set.
+  /// Adds the interface terms times z to the products of the media's Jacobians; the datum's products are set.
   void add_interface_terms(const Blocks& z, const Blocks& products) const;
 
   const Scene<n>& scene_;

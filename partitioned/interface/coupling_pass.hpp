@@ -19,27 +19,29 @@
 
 namespace fsi {
 
-/// The result of a pass. Interface vectors (interface_space.hpp) hold n numbers per interface node, zero where the rim is
-/// clamped.
+/// The result of a pass. Interface vectors (interface_space.hpp) hold n numbers per interface node, ghosts behind the
+/// nodes of this process; zero where the wall is clamped.
 struct Pass {
   std::vector<double> residual;      ///< r(x) = x~ - x in mm: the gap between the wall's and the fluid's displacement
-  std::vector<double> displacement;  ///< d~, the wall's answer, mm
+  std::vector<double> displacement;  ///< d~, the wall's displacement, mm
 };
 
 /// How well the sub-problems are solved in a pass.
 struct PassAccuracy {
   double tolerance;           ///< of their Newton iterations, relative to their iterates
-  bool linearised_wall;       ///< the wall answers by one linearised step from the step's first guess
-  int newton_iterations = 0;  ///< of each medium at most, whatever it leaves; 0: until the tolerance
+  bool linearised_wall;       ///< the wall takes one linearised step from the first guess of the stage
+  int newton_iterations = 0;  ///< of each medium at most, the tolerance not read; 0: until the tolerance
   double enough = 0;          ///< part of its residual that ends them sooner
 };
 
-/// One time step as an equation r(x) = 0 for an interface vector x, evaluated by one pass through the sub-problems. At
-/// its root fluid and wall have one displacement and their forces balance: the monolithic solution.
+/// One time step, or one stage of it, as an equation r(x) = 0 for an interface vector x, evaluated by one pass through
+/// the sub-problems. At its root fluid and wall have one displacement and their forces balance: the monolithic
+/// solution. All processes call each function together.
 template <int n>
 class CouplingPass {
  public:
-  /// \param wall_impedance  joins the wall's equations (MediumSystem), and is made later; null: nothing
+  /// \param wall_impedance  joins the wall's equations (MediumSystem) and must outlive this; derived classes set it
+  ///                        before the first pass; null: nothing
   CouplingPass(Scene<n>& scene, const PartitionedData& options, const InterfaceImpedance* wall_impedance = nullptr)
       : CouplingPass(scene, solver_factory(options), wall_impedance) {}
   /// \param wall_solver  of the wall's linearised equations
@@ -50,7 +52,7 @@ class CouplingPass {
         wall_("wall", scene, number_wall(scene), wall_solver, SystemNorm::volumes, wall_impedance) {}
   virtual ~CouplingPass() = default;
 
-  /// Starts a step, or a stage of it: state.now holds the first guess of all fields.
+  /// Starts a step, or a stage of it: state.now holds the first guess of all fields. Both must outlive the passes.
   virtual void start(State& state, StepData& data) {
     state_ = &state;
     data_ = &data;
@@ -59,7 +61,7 @@ class CouplingPass {
     wall_.work_on(state, data);
     if (mesh_motion_) mesh_motion_->start();
   }
-  /// The same from all fields extrapolated by `order`.
+  /// Sets state.now to all fields extrapolated in time by `order` (0 to 2), with the boundary conditions, and starts.
   void start_from_prediction(State& state, StepData& data, int order) {
     scene_.integrator->predict(state, order, data);
     scene_.impose_conditions(state.now);
@@ -67,7 +69,7 @@ class CouplingPass {
     scene_.impose_interface(state, data.rates);
     start(state, data);
   }
-  /// Of schemes that do not iterate: whether the next step is iterated all the same, x being what its passes are a function of.
+  /// For loosely coupled schemes: whether the steps from now on are iterated. Only then is x the unknown of r(x) = 0.
   virtual void iterate(bool /*on*/) {}
   /// The equations of either medium by itself.
   virtual const System<n>& fluid() const = 0;
@@ -76,31 +78,31 @@ class CouplingPass {
   virtual std::vector<double> first_guess(int order) = 0;
   /// r(x), the sub-problems solved as `accuracy` says; leaves their fields in the state. \throws PassFailure
   virtual Pass pass(const std::vector<double>& x, const PassAccuracy& accuracy) = 0;
-  /// The same x again, solved tighter from where pass() left the fields.
+  /// Solves the pass for the last x again, from the fields that pass() left. \throws PassFailure
   virtual Pass refine(const PassAccuracy& accuracy) = 0;
-  /// After a first pass without an answer: makes the fluid's interface stiffer, for the rest of the run, where a pass
-  /// may then have one. \returns false when it cannot, or not any more
+  /// After a first pass without a solution: makes the fluid's interface stiffer for the rest of the run.
+  /// \returns false where the scheme has no such coefficient, or it is at its bound
   virtual bool stiffen() { return false; }
-  /// After passes that lead nowhere: another coefficient, for the rest of the run, with which they may lead somewhere. The
-  /// stage is to begin anew then. \returns false when there is none
+  /// After passes that stagnate: changes the Robin coefficient for the rest of the run. The stage must begin anew then.
+  /// \returns false where there is no other coefficient
   virtual bool change_coefficient() { return false; }
   /// The stage was accepted with the last pass.
   virtual void accept() {}
   /// All stages of a step have been accepted. What they left is forgotten unless this is called before the next start()
   /// of a first stage.
   virtual void finish_step() {}
-  /// Takes the mesh to the wall's answer, where a step ends without agreement: the next velocities of the interface,
-  /// differences of its positions, are then the wall's.
+  /// Moves the mesh to the wall, where a step ends with a gap: the next velocities of the interface, differences of its
+  /// positions, are then the wall's.
   /// \throws ConvergenceError when a nonlinear mesh motion finds no way there
   virtual void follow_wall() { move_mesh_to_wall(); }
 
-  /// The pressure of a gap between fluid and wall, kPa/mm: the load that moves the wall by it within the
-  /// stage. The fluid's pressure is off by that much, whatever the scheme: where the added mass is large it takes up what
-  /// the wall has not (docs/coupling.md).
+  /// Pressure per gap between fluid and wall, kPa/mm: the load that moves the wall by the gap within the stage. With a
+  /// large added mass the error of the fluid's pressure is that large, whatever the scheme (docs/coupling.md).
   virtual double pressure_per_gap() const { return push_stiffness(); }
   /// The pressure, kPa, that moves the wall by its own thickness within the stage.
   double pressure_of_thickness() const { return push_stiffness() * membrane_.thickness; }
-  /// The pressure that would close the gap r(x), relative to the force between fluid and wall: Euclidean norms of nodal forces.
+  /// The pressure that would close the gap r(x), relative to the force between fluid and wall
+  /// (relative_gap_pressure()).
   virtual double pressure_residual(const std::vector<double>& residual) const {
     return relative_gap_pressure(scene_, membrane_, wall_.numbering(), *data_, residual);
   }
@@ -108,23 +110,24 @@ class CouplingPass {
   double gap_pressure(const std::vector<double>& residual) const {
     return mean_gap_pressure(scene_, membrane_, wall_.numbering(), pressure_per_gap(), residual);
   }
-  /// Between the fluid's traction and what the wall was loaded with in the last pass, kPa, root mean square over the
-  /// interface. None where the wall bears the fluid's own rows.
+  /// Difference between the fluid's traction and the wall's load in the last pass, kPa, root mean square over the
+  /// interface. 0 where the wall is loaded with the fluid's own momentum rows.
   virtual double traction_gap() const { return 0; }
 
   /// Whether the fluid's domain goes with the interface in each pass.
   virtual bool domain_follows() const { return true; }
-  /// Between the wall's answer and the boundary of the fluid's domain, mm, root mean square over the interface.
+  /// Distance between the wall and the boundary of the fluid's domain, mm, root mean square over the interface.
   double domain_gap() const {
     std::vector<double> gap = wall_displacement(state_->now);
     for (std::size_t i = 0; i < scene_.interface.size(); ++i)
       for (int k = 0; k < n; ++k) gap[i * n + k] -= state_->now.mesh[mesh_entry(scene_.interface[i], k)];
     return mean_gap_pressure(scene_, membrane_, wall_.numbering(), 1.0, gap);
   }
-  /// mm, of the vessel.
+  /// Radius of the vessel (Membrane::radius), mm.
   double radius() const { return membrane_.radius; }
 
-  /// |d~ - d^{n-1}| of the last pass, mm.
+  /// |d~ - d^(n-1)| of the last pass, mm: the wall's movement since the last time level, Euclidean norm over the
+  /// interface.
   double movement() const {
     const std::vector<double> now = wall_displacement(state_->now), last = wall_displacement(state_->before[0]);
     double sum = 0;
@@ -132,8 +135,9 @@ class CouplingPass {
     return std::sqrt(scene_.processes().sum(sum));
   }
 
-  /// The residual of the momentum balance on the interface when the fluid is given the wall's response, relative to the
-  /// force between them: the interface rows of the monolithic residual of this iterate, Euclidean norm.
+  /// The residual of the momentum balance on the interface where the fluid has the wall's displacement, relative to the
+  /// force between them: the interface rows of the monolithic residual of this iterate, ratio of Euclidean norms. 0
+  /// without a force. Costs an assembly of the fluid's residual.
   double force_residual() {
     const Stopwatch watch(cost.fluid_seconds);
     const auto phase = scene_.profile.phase("assembly: interface balance");
@@ -173,7 +177,8 @@ class CouplingPass {
   static std::size_t wall_entry(const InterfaceNode& node, int k) { return MixedLayout<n>::vector(node.wall, k); }
   std::size_t interface_size() const { return scene_.interface.size() * n; }
 
-  /// That of the fluid's domain, or, where this does not follow, what the fluid's velocity gives the interface.
+  /// Displacement of the fluid's domain on the interface, mm; where the domain does not follow, the one that the
+  /// fluid's velocity gives.
   double displacement_of_fluid(const InterfaceNode& node, int k) const {
     if (domain_follows()) return state_->now.mesh[mesh_entry(node, k)];
     return data_->rates.interface.displacement(state_->now.fluid[fluid_entry(node, k)],
@@ -274,8 +279,8 @@ class CouplingPass {
     mesh_motion_->solve(state_->now.mesh, from, state_->before[0].mesh);
   }
 
-  std::vector<double> first_wall_;    ///< of the step's first guess
-  bool last_was_linearised_ = false;  ///< the wall's fields are no solution to start from
+  std::vector<double> first_wall_;    ///< the wall's fields in the first guess of the stage
+  bool last_was_linearised_ = false;  ///< the wall's fields are no good start for Newton's method
 };
 
 }  // namespace fsi

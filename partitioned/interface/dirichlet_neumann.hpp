@@ -8,8 +8,8 @@
 namespace fsi {
 
 /// Dirichlet-Neumann (docs/theory.md, section 10.1), x = d: mesh motion from the interface displacement d; fluid with
-/// u = (d - d^(n-1)) / dt on the interface; the fluid's interface residual as load on the wall; the wall's answer d~;
-/// r = d~ - d.
+/// u = (d - reference) / period on the interface (InterfaceKinematics; backward Euler: (d - d^(n-1)) / dt); the fluid's
+/// interface residual as load on the wall, whose displacement is d~; r = d~ - d.
 template <int n>
 class DirichletNeumann : public CouplingPass<n> {
   using Base = CouplingPass<n>;
@@ -35,8 +35,9 @@ class DirichletNeumann : public CouplingPass<n> {
     for (std::size_t i = 0; i < scene_.interface.size(); ++i)
       for (int k = 0; k < n; ++k) {
         const auto& node = scene_.interface[i];
-        // The velocity of the mesh, so that no fluid crosses the interface whatever the last step's tolerance left. But
-        // where a scheme carries values on from its balance, that gap would alternate in the velocity: the wall's.
+        // The velocity of the mesh, so that no fluid crosses the interface, whatever gap the last step left. But where
+        // carry < 1, values at the end of a stage are extrapolated from its balance. That gap would then alternate in
+        // sign from step to step, so the reference is the wall's.
         const double reference = rates.carry < 1 ? rates.wall_reference[Base::wall_entry(node, k)]
                                                  : rates.mesh_reference[Base::mesh_entry(node, k)];
         state_->now.fluid[Base::fluid_entry(node, k)] = rates.interface.velocity(d[i * n + k], reference);

@@ -12,10 +12,13 @@
 
 namespace fsi {
 
-/// The pressure that would close a gap between fluid and wall, relative to the force between them: Euclidean norms of nodal
-/// forces, the gap's being Membrane::push_stiffness() times the nodes' areas.
-/// \param numbering  of the wall; held components bear no force
+/// The pressure that would close a gap between fluid and wall, relative to the force between them: the ratio of
+/// Euclidean norms of nodal forces, a node's force for the gap being Membrane::push_stiffness() times its area times
+/// the gap. Collective.
+/// \param numbering  of the wall; held components of the load are left out
+/// \param data       its interface_load is the force
 /// \param gap        n numbers per interface node, mm
+/// \returns 0 without a gap, the largest number for a gap without a force
 template <int n>
 double relative_gap_pressure(const Scene<n>& scene, const Membrane& membrane, const Numbering& numbering,
                              const StepData& data, const std::vector<double>& gap) {
@@ -38,8 +41,10 @@ double relative_gap_pressure(const Scene<n>& scene, const Membrane& membrane, co
   return membrane.push_stiffness(data.rates.acceleration_factor) * std::sqrt(lacking / force);
 }
 
-/// Of nodal forces on the interface, n numbers per node: sqrt(sum of |force|^2 / area over the whole area), kPa. Held
-/// components do not count. \param numbering  of the wall
+/// Root mean square of the traction of nodal forces, kPa: sqrt((sum over nodes of |force|^2 / area) / whole area).
+/// Clamped nodes and held components are left out. Collective.
+/// \param numbering  of the wall
+/// \param forces     n numbers per interface node, kPa mm^2
 template <int n>
 double root_mean_traction(const Scene<n>& scene, const Membrane& membrane, const Numbering& numbering,
                           const std::vector<double>& forces) {
@@ -59,8 +64,9 @@ double root_mean_traction(const Scene<n>& scene, const Membrane& membrane, const
   return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0.0;
 }
 
-/// The pressure that would close a gap, kPa: root mean square over the interface.
-/// \param per_gap  kPa/mm \param gap  n numbers per interface node, mm
+/// The pressure that would close a gap, kPa: root mean square over the interface. Collective.
+/// \param per_gap  pressure per gap, kPa/mm; 1 gives the gap itself, mm
+/// \param gap      n numbers per interface node, mm
 template <int n>
 double mean_gap_pressure(const Scene<n>& scene, const Membrane& membrane, const Numbering& numbering, double per_gap,
                          const std::vector<double>& gap) {

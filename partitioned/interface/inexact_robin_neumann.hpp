@@ -8,14 +8,16 @@
 
 namespace fsi {
 
-/// Robin-Neumann whose passes cost about one linear solve and one residual of each medium (docs/theory.md, section 10.2a).
-/// - Media go on from the fields and the rows that the last pass left, the datum and the load alone being others.
-/// - The wall's load is what the Robin condition says it is, lambda~ = g - c u: the fluid's rows are off by all that an
-///   inexact solve has left.
-/// - The coefficient is the wall's impedance across, z_n (Membrane::normal_impedance()). Where passes lead nowhere the stage
-///   begins anew with that of RobinNeumann.
-/// - The first guess is the wall's answer to the extrapolated load, in place of the extrapolated displacement: an error e of
-///   a displacement is a rho_f R e / 2 as a pressure, 1/a being the square of the step, while one of a load stays what it is.
+/// Robin-Neumann whose passes cost about one linear solve and one residual of each medium (docs/theory.md, section
+/// 10.2a).
+/// - Each medium continues from the fields and the residual of the last pass; only datum and load are new.
+/// - The wall's load follows from the Robin condition, lambda~ = g - c u. The fluid's momentum rows would add the
+///   residual that the inexact solve leaves.
+/// - The coefficient is the wall's impedance in normal direction, z_n (Membrane::normal_impedance()). Where passes
+///   stagnate the stage begins anew with that of RobinNeumann.
+/// - The first guess is the wall's response to the extrapolated load, not the extrapolated displacement: an error e of
+///   the displacement is a rho_f R e / 2 as a pressure, 1/a being the square of the step; an error of the load is not
+///   amplified.
 template <int n>
 class InexactRobinNeumann : public RobinNeumann<n> {
   using Base = RobinNeumann<n>;
@@ -47,7 +49,7 @@ class InexactRobinNeumann : public RobinNeumann<n> {
     return Base::datum(Base::wall_displacement(state_->now), load);
   }
 
-  /// Where the wall is light beside the fluid z_n is no good guess of what most modes meet.
+  /// Where the wall is light beside the fluid, z_n is far from the impedance of most modes.
   bool change_coefficient() override {
     if (changed_) return false;
     changed_ = true;
@@ -76,7 +78,7 @@ class InexactRobinNeumann : public RobinNeumann<n> {
       fluid_.keep_rows();
       wall_.keep_rows();
     }
-    keeps_rows_ = false;  // unless the pass comes to its end: else the fields are put back
+    keeps_rows_ = false;  // where the pass throws, the stepper resets the fields and the kept residuals do not match
     Pass pass = Base::refine(accuracy);
     keeps_rows_ = true;
     return pass;
@@ -112,7 +114,7 @@ class InexactRobinNeumann : public RobinNeumann<n> {
 
   bool wall_decides_;
   bool changed_ = false;     ///< the coefficient is another one than z_n
-  bool keeps_rows_ = false;  ///< of the media, which nobody has touched since the last pass
+  bool keeps_rows_ = false;  ///< fields and residuals of the media are those of the last pass
 };
 
 }  // namespace fsi

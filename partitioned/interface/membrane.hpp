@@ -9,7 +9,7 @@
 
 namespace fsi {
 
-/// The wall as a membrane on the interface: what the Robin condition knows of it.
+/// The wall as a membrane on the interface, from which the Robin conditions take their coefficients.
 struct Membrane {
   double area = 0;                 ///< of the interface, mm^2
   double thickness = 0;            ///< h, wall volume over interface area, mm
@@ -21,7 +21,7 @@ struct Membrane {
 
   /// Hoop stiffness E h / ((1 - nu^2) R^2): pressure per normal displacement, kPa/mm.
   double stiffness() const { return tension / (radius * radius); }
-  /// Time within which the wall's ring answers, ms: R sqrt(rho_s (1 - nu^2) / E).
+  /// Response time of the wall's ring, ms: R sqrt(rho_s (1 - nu^2) / E).
   double answer_time() const { return std::sqrt(density * thickness / stiffness()); }
   /// Pressure per normal displacement within a step, kPa/mm, a being `acceleration_factor` (1/ms^2):
   ///   a rho_s h + E h / ((1 - nu^2) R^2).
@@ -29,16 +29,19 @@ struct Membrane {
     return acceleration_factor * density * thickness + stiffness();
   }
 
-  /// Traction per normal velocity, kPa/(mm/ms), within a step: dt (a rho_s h + E h / ((1 - nu^2) R^2)), z_n below. With it
-  /// as coefficient Robin-Neumann passes leave long waves of the normal velocity to nobody, and others, for which it is
-  /// too large, to the quasi-Newton method: best by trial there, by a factor of 1.2 either way (docs/coupling.md).
+  /// Traction per normal velocity, kPa/(mm/ms), within a step: dt (a rho_s h + E h / ((1 - nu^2) R^2)), z_n below. With
+  /// this coefficient a Robin-Neumann pass removes the error of long waves of the normal velocity. For other modes it
+  /// is too large, and the quasi-Newton method removes their errors. By trial the best for these passes is within a
+  /// factor of 1.2 of it (docs/coupling.md).
+  /// \param acceleration_factor  a, 1/ms^2 (StepRates)
+  /// \param step                 dt, ms: InterfaceKinematics::period, not the length of the step
   double normal_impedance(double acceleration_factor, double step) const {
     return step * push_stiffness(acceleration_factor);
   }
 
   static constexpr double smallest_depth = 0.05;  ///< l / h in impedance()
 
-  /// Traction per interface velocity, kPa/(mm/ms), with which the wall answers within a step whose acceleration is
+  /// Traction per interface velocity, kPa/(mm/ms), with which the wall responds within a step whose acceleration is
   /// `acceleration_factor` (1/ms^2) times the displacement. Pushed outward, its whole thickness moves, and the hoop
   /// stretches; pushed along, it shears, and inertia is felt to a depth of l only:
   ///   z_n = dt (a rho_s h + E h / ((1 - nu^2) R^2)),   z_t = dt a rho_s l tanh(h / l),   l = sqrt(mu / (a rho_s)).
@@ -46,7 +49,8 @@ struct Membrane {
   /// and f the fluid's, by (1 - alpha / z) f / (f + alpha). Where the added mass is large the last factor is one, and
   /// best for all z from z_t to z_n is their harmonic mean, alpha = 2 / (1/z_n + 1/z_t): within a tenth the best by
   /// trial for time steps from a tenth to four times the artery's, and for a wall ten times softer. l counts as h/20 at
-  /// least: where it is less than a part of an element, the mass of the nodes answers.
+  /// least: where it is a small part of an element, the inertia is that of the nodal mass.
+  /// \param step  dt, as for normal_impedance()
   double impedance(double acceleration_factor, double step) const {
     const double inertia = acceleration_factor * density;
     const double depth = std::max(std::sqrt(shear_modulus / inertia), smallest_depth * thickness);
@@ -56,6 +60,7 @@ struct Membrane {
   }
 };
 
+/// Of a scene with fluid and wall. Collective: areas and volumes are those of all processes.
 template <int n>
 Membrane membrane_of(const Scene<n>& scene) {
   Membrane m;

@@ -11,8 +11,8 @@
 
 namespace fsi {
 
-/// Takes the fluid's mesh along with its interface. A harmonic extension is prepared once per run or as often as the
-/// scene assembles its operator; a nonlinear motion once a stage at least.
+/// Moves the fluid's mesh with its interface. The operator of a harmonic extension is factorised once per run, or as
+/// often as the scene assembles it; the tangent of a nonlinear motion once a stage at least. Collective.
 template <int n>
 class MeshMotionSolver {
  public:
@@ -37,15 +37,16 @@ class MeshMotionSolver {
     version_ = scene_.mesh_motion_assemblies;
   }
 
-  /// A stage begins: what follows does not depend on those before.
+  /// A stage begins. Discards tangents of earlier stages, so that results do not depend on them.
   void start() {
     if (follower_) follower_->forget();
   }
 
-  /// Overwrites the inner values of d_m, n numbers per fluid node, from those on the boundary.
-  /// \param from      a mesh, of any boundary values, that a nonlinear motion sets out from
-  /// \param unfolded  or, where an element of that is folded, from this one
-  /// \throws ConvergenceError when it finds no way
+  /// Overwrites the inner values of `mesh` by the motion of its boundary values.
+  /// \param mesh      d_m, n numbers per fluid node, mm
+  /// \param from      start of a nonlinear motion, alike, with any boundary values; not read by a harmonic extension
+  /// \param unfolded  start in place of `from` where that has an inverted element
+  /// \throws ConvergenceError where a nonlinear motion does not reach the boundary values
   void solve(std::vector<double>& mesh, const std::vector<double>& from, const std::vector<double>& unfolded) {
     if (follower_) {
       const auto phase = scene_.profile.phase("solve: mesh motion");

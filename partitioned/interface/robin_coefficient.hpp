@@ -17,12 +17,12 @@ struct RobinCoefficient {
   std::string reason;  ///< a clause for the log
 };
 
-/// As the case gives it; else, K being the hoop stiffness of the wall and R the radius that volume and surface of the fluid
-/// give,
+/// As the case gives it; else, with the wall's hoop stiffness K and the radius R (Membrane),
 ///   alpha = sqrt(K (rho_s h + rho_f R / 2)),
-/// traction over velocity in an oscillation of the ring with the fluid's added mass. The wall is off by an apparent mass
-/// alpha dt per area, which grows with alpha, and fluid and wall differ in velocity by dt lambda' / alpha, which falls: the
-/// two are alike where alpha is the size of lambda / w (docs/coupling.md). It does not depend on the step.
+/// traction over velocity in an oscillation of the ring with the fluid's added mass (docs/theory.md, section 10.5). It
+/// does not depend on the step. Two errors balance: the apparent mass alpha dt per area of the wall grows with alpha,
+/// and the velocity difference dt lambda' / alpha of fluid and wall falls. They are of one size where alpha is about
+/// the ratio of the traction lambda to the wall's velocity (docs/coupling.md).
 template <int n>
 RobinCoefficient robin_coefficient(const PartitionedData& options, const Scene<n>& scene, const Membrane& membrane) {
   if (options.robin_coefficient) return {*options.robin_coefficient, "named by the case"};

@@ -18,9 +18,9 @@ namespace fsi {
 ///   R_f + c u = g on the interface,   g = lambda + c v,
 /// with load lambda and velocity v of the wall from the last pass; the wall is loaded with lambda~ = R_f. With
 /// c = alpha times the nodal areas, alpha being the wall's own impedance (membrane.hpp), the fluid meets the inertia
-/// and stiffness that will answer it, and the added mass does no harm. The datum g is written as a displacement,
-/// x = d^(n-1) + dt g / c. The next datum is then x~ = x + (d~ - d_f), d_f being the displacement that the fluid gave
-/// the interface: r = d~ - d_f.
+/// and stiffness of the wall, and the added mass does no harm. The datum g is written as a displacement,
+/// x = reference + period g / c (InterfaceKinematics). The next datum is then x~ = x + (d~ - d_f), d_f being the
+/// displacement that the fluid gave the interface: r = d~ - d_f.
 template <int n>
 class RobinNeumann : public CouplingPass<n> {
   using Base = CouplingPass<n>;
@@ -49,7 +49,7 @@ class RobinNeumann : public CouplingPass<n> {
 
   void start(State& state, StepData& data) override {
     Base::start(state, data);
-    if (data.rates.stage == 0) stage_loads_.clear();  // of a step that failed
+    if (data.rates.stage == 0) stage_loads_.clear();  // left by a step that failed or was rejected
     robin_.impedance = impedance_of(data.rates);
     fluid_.work_on(state, data);
   }
@@ -115,14 +115,17 @@ class RobinNeumann : public CouplingPass<n> {
   }
 
  protected:
-  /// The load of the interface, lambda, extrapolated by `order`: n numbers per node of the interface, kPa mm^2.
+  /// The load lambda of the interface, extrapolated in time by `order` (0 to 2): n numbers per interface node, kPa
+  /// mm^2.
   std::vector<double> extrapolated_load(int order) const {
     const auto weights = scene_.integrator->balance_weights(*state_, order, *data_);
     std::vector<double> load(Base::interface_size(), 0.0);
     for (std::size_t level = 0; level < 3; ++level) axpy(weights[level], load_before(level), load);
     return load;
   }
-  /// The datum of a displacement and a load of the wall: d + dt lambda / c.
+  /// The datum of a displacement and a load of the wall: d + period lambda / c, mm. Held components stay d.
+  /// \param x     d, n numbers per interface node, mm
+  /// \param load  lambda, likewise, kPa mm^2
   std::vector<double> datum(std::vector<double> x, const std::vector<double>& load) const {
     for (std::size_t i = 0; i < scene_.interface.size(); ++i) {
       if (robin_.impedance[i] == 0) continue;
@@ -146,7 +149,7 @@ class RobinNeumann : public CouplingPass<n> {
     return membrane_.impedance(rates.acceleration_factor, rates.interface.period);
   }
 
-  /// The wall under the fluid's momentum rows.
+  /// Solves the wall, loaded with the fluid's momentum rows.
   virtual void answer_of_wall(const PassAccuracy& accuracy) { Base::solve_wall(fluid_.fluid_residual(), accuracy); }
 
   void set_datum(const std::vector<double>& x) {
@@ -163,9 +166,9 @@ class RobinNeumann : public CouplingPass<n> {
   MediumSystem<n> fluid_;
 
  private:
-  /// Where elements are small the membrane's impedance may let the interface go so far in a step that they fold. Four
-  /// times as much costs few passes, if any: 6 to 11 a step on a graded quarter of the artery, where the membrane's own
-  /// finds no answer.
+  /// Where elements are small the membrane's impedance may let the interface move so far in the first pass that they
+  /// are inverted. Four times the impedance costs few passes, if any: 6 to 11 a step on a graded quarter of the artery,
+  /// where the first pass fails with the impedance itself.
   static constexpr double stiffening_factor = 4, most_stiffening = 64;
 
   std::vector<double> impedance_of(const StepRates& rates) const {
@@ -180,8 +183,8 @@ class RobinNeumann : public CouplingPass<n> {
     return level < stages ? stage_loads_[stages - 1 - level] : loads_[level - stages];
   }
 
-  /// The fluid's domain follows its own interface velocity, so that the answer is a function of the datum alone. Newton's
-  /// method keeps to it once it holds, and finds the mesh inside.
+  /// Sets the mesh on the interface to what the fluid's velocity there gives, so that the result of the pass is a
+  /// function of the datum alone. The increments of Newton's method keep this relation, and move the mesh inside.
   void follow_fluid(State& state) {
     for (const auto& node : scene_.interface)
       for (int k = 0; k < n; ++k)
@@ -189,7 +192,7 @@ class RobinNeumann : public CouplingPass<n> {
             state.now.fluid[Base::fluid_entry(node, k)], data_->rates.wall_reference[Base::wall_entry(node, k)]);
   }
 
-  double stiffening_ = 1;                         ///< of the coefficient
+  double stiffening_ = 1;                         ///< factor of the coefficient
   std::vector<double> whole_rows_;                ///< the fluid's, ghosts too
   std::array<std::vector<double>, 3> loads_;      ///< lambda of the last stages of finished steps, the latest first
   std::vector<std::vector<double>> stage_loads_;  ///< lambda of the stages of the step in progress

@@ -10,21 +10,24 @@
 
 namespace fsi {
 
-/// What the conditions on both sides of the interface are made of: a base of the problem that refers to them, and so there
-/// before it is.
+/// Data of the Robin conditions on both sides of the interface. A base class, so that they exist before the other base,
+/// CouplingPass, whose wall refers to them.
 struct RobinSides {
   InterfaceImpedance wall_side_{}, fluid_side_{};
 };
 
-/// The loosely coupled Robin-Robin scheme ([Burman2023]; docs/theory.md, section 10.5). A step is one wall and then one fluid
-/// solve, c being nodal areas times the coefficient alpha, F and W the momentum rows of fluid and wall on the interface,
-/// u the fluid's velocity there, w the wall's, and lambda^n = F^n of the last step:
+/// The loosely coupled Robin-Robin scheme ([Burman2023]; docs/theory.md, section 10.5). A step is one wall and then one
+/// fluid solve, c being nodal areas times the coefficient alpha, F and W the momentum rows of fluid and wall on the
+/// interface, u the fluid's velocity there, w the wall's, and lambda^n = F^n of the last step:
 ///   W^(n+1) + lambda^n + c (w^(n+1) - u^n) = 0,
 ///   F^(n+1) - lambda^n + c (u^(n+1) - w^(n+1)) = 0.
-/// The fluid's domain follows the wall. alpha does not depend on the step: the gap c (u - w) = lambda^n - lambda^(n+1) is of
-/// first order then, and telescopes, so that the displacements do not drift apart. x is not used; r = period (w - u).
-/// Where a step is iterated, x is the datum v of the wall's condition, given as a displacement; a pass and its next datum are
-///   W + c (w - v) = 0,   L = c (w - v),   F - L + c (u - w) = 0,   v~ = u - F/c,   r = period (v~ - v) = 2 period (u - w).
+/// The fluid's domain follows the wall. alpha does not depend on the step: the gap c (u - w) = lambda^n - lambda^(n+1)
+/// is of first order then, and telescopes, so that the displacements do not drift apart. x is not used, and
+///   r = period (w - u).
+/// Where a step is iterated, x is the datum v of the wall's condition, given as a displacement. A pass and its next
+/// datum:
+///   W + c (w - v) = 0,   L = c (w - v),   F - L + c (u - w) = 0,   v~ = u - F/c,
+///   r = period (v~ - v) = 2 period (u - w).
 template <int n>
 class RobinRobin : private RobinSides, public CouplingPass<n> {
   using Base = CouplingPass<n>;
@@ -95,16 +98,16 @@ class RobinRobin : private RobinSides, public CouplingPass<n> {
   }
   void finish_step() override { traction_ = next_traction_; }
 
-  /// What both media have data of, u and lambda: n numbers per node of the interface, mm/ms and kPa mm^2.
+  /// Data of both Robin conditions, u and lambda: n numbers per interface node, mm/ms and kPa mm^2.
   struct Data {
     std::vector<double> velocity, traction;
   };
   /// By how much the accepted stages of the step differ from the last step.
   const std::vector<Data>& changes() const { return changes_; }
 
-  /// The gap stands for a change of the traction by alpha times its velocity within a step.
+  /// A gap between u and w goes with a change of the traction by alpha times it within a step: alpha / period, kPa/mm.
   double pressure_per_gap() const override { return alpha_ * data_->rates.interface.rate(); }
-  /// Over the larger of the tractions of fluid and wall: in a step the wall may bear nothing yet.
+  /// Relative to the larger of the tractions of fluid and wall: in the first step the wall may bear nothing yet.
   double pressure_residual(const std::vector<double>& residual) const override {
     return traction_size_ > 0 ? Base::gap_pressure(residual) / traction_size_ : 0.0;
   }
@@ -121,7 +124,7 @@ class RobinRobin : private RobinSides, public CouplingPass<n> {
  protected:
   using Base::scene_, Base::state_, Base::data_;
 
-  /// That of a step without iteration.
+  /// The pass of a step without iteration.
   virtual Pass single_pass(const std::vector<double>& /*x*/, const PassAccuracy& accuracy) {
     return pass_with(last_velocity(), traction_, accuracy);
   }
@@ -196,8 +199,8 @@ class RobinRobin : private RobinSides, public CouplingPass<n> {
     return on_interface;
   }
 
-  /// The data of the last step, where another method made it, or where it is the state at rest under a load: the fluid's
-  /// rows at the start of this step.
+  /// Sets the data of the last step where another method made that step, or where it is the state at rest under a load,
+  /// from the fluid's momentum rows at the first guess of this step.
   virtual void find_data(State&, StepData&) {
     fluid_.evaluate();
     traction_ = last_rows();

@@ -7,14 +7,15 @@
 
 namespace fsi {
 
-/// Robin-Robin with a correction of its data, in the manner of [Burman2024] (docs/theory.md, section 10.5). A march of
-/// RobinRobin beside this one predicts, index 1, by how much the data of both media change in a step:
+/// Robin-Robin with a correction of its data, in the manner of [Burman2024] (docs/theory.md, section 10.5). A time
+/// integration with RobinRobin beside this one, index 1, predicts by how much the data of both media change in a step:
 ///   lambda* = lambda^n + lambda_1^(n+1) - lambda_1^n,   u* = u^n + u_1^(n+1) - u_1^n,
 ///   W^(n+1) + lambda* + c (w^(n+1) - u*) = 0,
 ///   F^(n+1) - lambda* + c (u^(n+1) - w^(n+1)) = 0.
-/// The prediction is off by the first order in the step, its changes by the second. The corrected data do not enter it: the
-/// stability is that of RobinRobin. alpha is twice that of the prediction: what is left of a jump of the load swings at a
-/// frequency that goes with alpha, and a prediction that swings at the same would drive this march in resonance.
+/// The error of the prediction is of first order in the step, that of its changes of second order. The corrected data
+/// do not enter the prediction, so the stability is that of RobinRobin. alpha is twice that of the prediction: the rest
+/// of a jump of the load oscillates with a frequency that depends on alpha, and at equal frequencies the prediction
+/// would excite the correction in resonance.
 template <int n>
 class RobinRobinCorrected : public RobinRobin<n> {
   using Base = RobinRobin<n>;

@@ -6,11 +6,12 @@
 
 namespace fsi {
 
-/// Robin-Robin with data of the last step alone ([Guo2025]; docs/theory.md, section 10.5): fluid and wall know nothing of
-/// each other within a step and can be solved at once. L being the load that the wall bore,
+/// Robin-Robin with data of the last step alone ([Guo2025]; docs/theory.md, section 10.5): fluid and wall know nothing
+/// of each other within a step and can be solved at once. L being the load that the wall bore,
 ///   W^(n+1) + lambda^n + c (w^(n+1) - u^n) = 0,
 ///   F^(n+1) - L^n + c (u^(n+1) - w^n) = 0,   L^n = lambda^(n-1) + c (w^n - u^(n-1)).
-/// x is the extrapolated displacement, which the fluid's domain follows.
+/// x is the extrapolated displacement, which the fluid's domain follows. Steps that are iterated are those of
+/// RobinRobin.
 template <int n>
 class RobinRobinParallel : public RobinRobin<n> {
   using Base = RobinRobin<n>;

@@ -6,11 +6,11 @@
 
 namespace fsi {
 
-/// Semi-implicit coupling ([Fernandez2007]; docs/theory.md, section 10.7): velocity, pressure and wall agree at the end of a
-/// step, as in RobinNeumann, on a domain of the fluid that is extrapolated before,
+/// Semi-implicit coupling ([Fernandez2007]; docs/theory.md, section 10.7): velocity, pressure and wall agree at the end
+/// of a step, as in RobinNeumann, on a domain of the fluid that is extrapolated before,
 ///   d_m = d* on the interface, d* = the wall's displacement extrapolated in time.
-/// No pass moves the mesh, and the fluid's Jacobian has no derivatives by its domain. The next step's velocities of the mesh
-/// are differences of d*.
+/// No pass moves the mesh, and the fluid's Jacobian has no shape derivatives. Velocities of the mesh are differences of
+/// d*.
 template <int n>
 class SemiImplicit : public RobinNeumann<n> {
   using Base = RobinNeumann<n>;

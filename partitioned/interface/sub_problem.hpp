@@ -57,15 +57,17 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
-/// Solves one sub-problem by Newton's method up to increments below `tolerance` times its iterate. Each field by itself may
-/// miss that by a factor, but no more: in the norm of all, displacements of short steps count for nothing beside
-/// pressures. Factors or preconditioners of earlier passes and steps serve while they contract.
-/// \throws PassFailure
+/// Solves one sub-problem by Newton's method up to increments below `tolerance` times its iterate. The increment of
+/// each field by itself is brought below 30 times that, as far as rounding allows: in the norm of all fields,
+/// displacements of short steps do not count beside pressures. Factors or preconditioners of earlier passes and steps
+/// are kept while the iteration contracts.
+/// \param newton_iterations, linear_iterations  counters, added to
+/// \throws PassFailure where Newton's method does not converge
 inline void solve_sub_problem(const std::string& name, NewtonProblem& problem, double tolerance, NewtonOptions options,
                               int& newton_iterations, int& linear_iterations) {
   options.tolerance = tolerance;
   options.reference = problem.size();
-  constexpr int most_repeats = 4;     // a field that is nothing but rounding never gets there
+  constexpr int most_repeats = 4;     // a field that is nothing but rounding never meets its tolerance
   constexpr double field_share = 30;  // the interface's tolerance is a hundred times the sub-problems'
   NewtonReport report;
   for (int repeats = 0; repeats <= most_repeats; ++repeats) {
@@ -76,7 +78,7 @@ inline void solve_sub_problem(const std::string& name, NewtonProblem& problem, d
     report = std::move(next);
     if (!report.converged) break;
     if (problem.negligible(report.iterations.back().increment, field_share * tolerance)) return;
-    options.stop_at_rounding = false;  // of a residual whose largest rows are not those out of balance
+    options.stop_at_rounding = false;  // rounding of the largest rows may hide small rows that are out of balance
   }
   if (report.converged) return;
   std::vector<std::string> history{fmt::format("{} sub-problem, first residual {:.3e}", name, report.first_residual)};
@@ -86,11 +88,11 @@ inline void solve_sub_problem(const std::string& name, NewtonProblem& problem, d
                     std::move(history));
 }
 
-/// A few iterations of Newton's method, whatever they leave: the coupling goes on with what it has. A Jacobian that
-/// contracts too little is not kept.
-/// \param most    iterations
-/// \param enough  part of the residual that ends them sooner
-/// \throws PassFailure where no step lowers the residual
+/// At most `most` iterations of Newton's method, without a tolerance: the coupling goes on with the iterate. A Jacobian
+/// that contracts too little is discarded.
+/// \param enough  ends the iterations sooner, at this part of the first residual
+/// \param newton_iterations, linear_iterations  counters, added to
+/// \throws PassFailure where Newton's method fails before: no step lowers the residual, or the linear solver fails
 template <class Problem>
 void improve_sub_problem(const std::string& name, Problem& problem, int most, double enough, NewtonOptions options,
                          int& newton_iterations, int& linear_iterations) {
@@ -112,7 +114,9 @@ void improve_sub_problem(const std::string& name, Problem& problem, int most, do
   if (!report.converged && report.iterations.back().residual > contraction * before) problem.forget_jacobian();
 }
 
-/// One linearised step with the Jacobian at hand, whatever it does to the residual.
+/// One step of Newton's method without backtracking; makes a Jacobian only where there is none.
+/// \param tolerance  of the linear solve, relative
+/// \throws PassFailure for an inverted element at the start, or where the linear solver fails
 inline void solve_linearised(const std::string& name, NewtonProblem& problem, double tolerance, int& newton_iterations,
                              int& linear_iterations) {
   if (!std::isfinite(problem.evaluate())) throw PassFailure("the " + name + " sub-problem: inverted element", {});

@@ -10,13 +10,13 @@
 
 namespace fsi {
 
-/// Areas of the wall's boundary at rest, mm^2 (of plane scenes mm): its faces on the interface, and all others but those
-/// on planes of symmetry.
+/// Areas of the wall's boundary at rest, mm^2 (plane scenes: lengths, mm; axisymmetric scenes: areas over 2 pi): its
+/// faces on the interface, and all others but those on planes of symmetry.
 struct WettedSides {
   double wet = 0, dry = 0;
 
-  /// A wall around the fluid has an outer face that is no smaller than the inner one; of a flag, a valve or a pillar that
-  /// stands in the flow the fluid wets nearly everything.
+  /// A wall around the fluid has an outer face that is no smaller than the inner one; of a flag, a valve or a pillar
+  /// that stands in the flow the fluid wets nearly everything.
   bool stands_in_the_fluid() const { return wet > dry; }
 };
 
@@ -55,6 +55,7 @@ bool is_across(const std::array<Point, n>& at, int axis) {
 
 }  // namespace wetted_sides
 
+/// Collective: areas over all processes.
 template <int n>
 WettedSides wetted_sides_of(const Scene<n>& scene) {
   using Facet = std::array<int, n>;
@@ -81,8 +82,8 @@ WettedSides wetted_sides_of(const Scene<n>& scene) {
     const auto all = [&nodes = facet](const auto& holds) { return std::all_of(nodes.begin(), nodes.end(), holds); };
     std::array<Point, n> at;
     for (int i = 0; i < n; ++i) at[i] = part.nodes[facet[i]];
-    // Where the component along its normal vanishes at all nodes, but not the others, the facet lies on a plane of symmetry.
-    // An outer face that slides along nothing but its own plane is none.
+    // Where the component along its normal vanishes at all nodes, but not the others, the facet lies on a plane of
+    // symmetry. An outer face that slides along nothing but its own plane is none.
     int vanishing = 0, component = 0;
     for (int k = 0; k < n; ++k)
       if (all([&](int a) { return scene.wall_conditions.fixes(a, k); })) {

@@ -5,9 +5,11 @@
 
 namespace fsi {
 
-/// The fluid's added mass over what the wall answers a push of the interface with, both within the stage: the size G
-/// of the largest eigenvalue of d -> d~ at rest, by power iteration, an estimate from below. 0: no answer.
-/// \param order  of the extrapolated start
+/// The fluid's added mass over the wall's inertia and stiffness within the stage: the magnitude G of the largest
+/// eigenvalue of d -> d~ at rest, by power iteration, an estimate from below. 0: a pass failed, or nothing moved.
+/// Collective.
+/// \param problem  solved on copies of state and data that end with this call: call its start() before the next pass
+/// \param order    of the extrapolated start
 template <int n>
 double added_mass(const Scene<n>& scene, CouplingPass<n>& problem, const InterfaceSpace& space, int order,
                   const State& state, const StepData& data);

@@ -8,9 +8,8 @@
 
 namespace fsi {
 
-/// Watches a march of one pass a step, which makes no claim that fluid and wall agree: one that has become unstable ends
-/// here, long before an element is inverted, and so does one that lingers at its stability limit with a pressure that means
-/// nothing.
+/// Monitors the explicit coupling, one pass a step, which does not check that fluid and wall agree. It ends a run that
+/// has become unstable, long before an element is inverted, and one at its stability limit, whose pressure is wrong.
 class ExplicitCouplingMonitor {
  public:
   /// \param scheme        must outlive this
@@ -18,11 +17,17 @@ class ExplicitCouplingMonitor {
   ExplicitCouplingMonitor(const CouplingScheme& scheme, double velocity_gap)
       : scheme_(&scheme), velocity_gap_(velocity_gap) {}
 
-  /// With an extrapolation of order p, steps that alternate grow where the added mass is more than 1/3^(p-1) of what the
-  /// wall answers with, whatever the time scheme; with backward Euler and Newmark's beta = gamma = 1 from half of that on
-  /// (docs/coupling.md). \param time  ms, of the first step's end. \throws ConvergenceError there
+  /// With an extrapolation of order p, alternating steps grow where the ratio of added_mass() exceeds 1/3^(p-1),
+  /// whatever the time scheme; with backward Euler and Newmark's beta = gamma = 1 from half of that on
+  /// (docs/coupling.md).
+  /// \param time  end of the first step, ms
+  /// \throws ConvergenceError where the ratio exceeds 1/3^(p-1)
   void require_small(double added_mass, int order, double time) const;
-  /// \param movement  of the wall in the step, mm. \throws ConvergenceError where the step goes wrong
+  /// Judges the pass of a step.
+  /// \param step      number of the step in progress, from 1
+  /// \param time      end of the step, ms
+  /// \param movement  of the wall in the step, mm, Euclidean norm (CouplingPass::movement())
+  /// \throws ConvergenceError where the run has become unstable, or fluid and wall have come apart
   void check(int step, double time, const CouplingReport& pass, double movement);
   void finish(int step) { steps_ = step; }
 

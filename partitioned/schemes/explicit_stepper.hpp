@@ -8,8 +8,8 @@
 
 namespace fsi {
 
-/// A step is one pass of Dirichlet-Neumann (docs/theory.md, section 10.6): unstable where the fluid's added mass exceeds the
-/// wall's answer.
+/// A step is one pass of Dirichlet-Neumann (docs/theory.md, section 10.1): unstable where the fluid's added mass
+/// exceeds the wall's inertia and stiffness within a step (docs/coupling.md).
 template <int n>
 class ExplicitStepper : public DirichletNeumannStepper<n> {
   using Base = DirichletNeumannStepper<n>;
@@ -19,15 +19,15 @@ class ExplicitStepper : public DirichletNeumannStepper<n> {
   ExplicitStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme);
 
   std::optional<CouplingMethod> coupling_method() const override;
-  /// Without iterations a march fails because it is unstable, which smaller steps do not mend.
+  /// Without iterations a run fails because it is unstable, and smaller steps do not help.
   bool can_retry() const override { return false; }
   std::string unchecked() const override { return march_.unchecked(); }
   void finish_step(const State& state) override;
   void keep(RestartArchive& archive) override;
 
  private:
-  /// Without iterations a step is its extrapolation, and the second order makes it unstable at three times the wall's mass
-  /// (docs/coupling.md).
+  /// Without iterations the fluid sees the extrapolated interface. With order 2 this is unstable from a third of the
+  /// added mass on that order 1 bears (ExplicitCouplingMonitor::require_small()).
   int standard_order() const override { return 1; }
   void begin_stage(const State& state, const StepData& data) override;
   void judge_pass(const State& state, const StepData& data) override;

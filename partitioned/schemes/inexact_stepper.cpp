@@ -20,25 +20,25 @@ namespace {
 /// pass, which finds the fields far from where they go, of later ones, and of those that come late.
 constexpr PassAccuracy first_pass{0, false, 3, 0.01}, later_passes{0, false, 1, 0.15}, late_passes{0, false, 4, 0.02};
 constexpr int late = 15;  // passes: more than nearly all steps take
-/// Of what is demanded, where the load has jumped, or nothing was before: later steps change less than that one, and what
-/// it leaves is large beside them.
+/// Of what is demanded, where the load has jumped, or nothing was before: later steps change less than that one, and
+/// what it leaves is large beside them.
 constexpr double share_after_jump = 0.1;
-constexpr std::size_t patience = 12;  // passes before anybody asks whether they lead anywhere:
-constexpr std::size_t window = 6;     // whether so many have brought the gap
-constexpr double progress = 0.5;      // to that part of what it was
-constexpr double slowest = 0.9;       // of the factors by which passes are taken to gain
-constexpr double unknown = 0.5;       // such a factor, of a first change
-constexpr double at_rest = 0.1;  // of the demand, on gap and pressure, under a load at rest: next to nothing may change
-constexpr double rounding = 1e-13;  // of the displacement: no pass makes less of a gap
+constexpr std::size_t patience = 12;  // passes before stagnation is looked for,
+constexpr std::size_t window = 6;     // which means that so many passes have not reduced the gap
+constexpr double progress = 0.5;      // to this part
+constexpr double slowest = 0.9;       // upper bound of the contraction factor in the error estimate
+constexpr double unknown = 0.5;       // that factor where there is one change alone
+constexpr double at_rest = 0.1;  // of the demand, on gap and pressure: a wall at rest under load may not change at all
+constexpr double rounding = 1e-13;  // of the displacement: passes do not reduce a gap further
 
-/// By which the last of some numbers have fallen, each, in the mean of two.
+/// Factor by which the last numbers of a sequence fall, geometric mean of the last two; 0 for a single number.
 double rate(const std::vector<double>& of) {
   const std::size_t last = of.size() - 1, back = std::min<std::size_t>(2, last);
   if (back == 0 || !(of[last - back] > 0)) return 0;
   return std::pow(of[last] / of[last - back], 1.0 / static_cast<double>(back));
 }
 
-/// No pass is solved again when it agrees: with a linearised wall it would be off by what that leaves.
+/// Accepted passes are not refined here: a linearised wall would leave its linearisation error in the step.
 PassAccuracy with_its_own_wall(PassAccuracy accuracy) {
   accuracy.linearised_wall = false;
   return accuracy;
@@ -131,7 +131,7 @@ bool InexactStepper<n>::agrees(const State& state, const StepData& data, const G
   if (!good.found) return pass.displacement_gap == 0;
   changes_.push_back(Base::change_since(state, data, good));
   if (!std::isfinite(changes_.back()))
-    changes_.back() = pass.displacement_residual;  // nobody knows what a step changes
+    changes_.back() = pass.displacement_residual;  // what the step changes is not known
   const double factor = std::min(slowest, std::max(rate(gaps_), changes_.size() > 1 ? rate(changes_) : unknown));
   error_ = changes_.back() * factor / (1 - factor);
   const bool balanced = force_tolerance_ == 0 || pass.force_residual <= force_tolerance_;

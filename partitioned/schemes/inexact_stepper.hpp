@@ -7,11 +7,11 @@
 
 namespace fsi {
 
-/// Interface iteration by passes that solve each medium inexactly (docs/theory.md, section 10.2a; inexact_robin_neumann.hpp,
-/// regularised_iqn.hpp). A step is solved when what is left of it is estimated to be a part of what it changes, as in the
-/// monolithic driver: change and residual of the last passes fall by some factor rho, and rho / (1 - rho) of the last
-/// change is to come. Where passes lead nowhere the stage begins anew with a softer Robin condition, and where that does not
-/// help passes solve both media.
+/// Interface iteration by passes that solve each medium inexactly (docs/theory.md, section 10.2a;
+/// inexact_robin_neumann.hpp, regularised_iqn.hpp). A step is solved when its error is estimated to be a small part of
+/// what the step changes, as in the monolithic driver: with rho the factor by which changes and gaps of the last passes
+/// fall, rho / (1 - rho) of the last change remains. Where passes stagnate the stage begins anew with a softer Robin
+/// condition; where these stagnate too, with passes that solve both media.
 template <int n>
 class InexactStepper : public CouplingStepper<n> {
   using Base = CouplingStepper<n>;
@@ -37,11 +37,11 @@ class InexactStepper : public CouplingStepper<n> {
   double estimated_error(const State&, const StepData&, const GoodPass&) const override { return error_; }
 
   PartitionedData options_;
-  double demand_;                       ///< part of what a step changes that may be left
+  double demand_;                       ///< tolerated error over what a step changes
   double force_tolerance_;              ///< PartitionedData::force_tolerance
   bool loaded_at_rest_;                 ///< displacements count from a loaded shape
   double error_ = 0;                    ///< estimated, of the last pass
-  bool solves_ = false;                 ///< passes solve both media now, as those of iqn-ils do
+  bool solves_ = false;                 ///< passes solve both media now, as in iqn-ils or robin-neumann-iqn
   std::vector<double> gaps_, changes_;  ///< of the passes of the stage in progress
 };
 

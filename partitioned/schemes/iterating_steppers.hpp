@@ -7,12 +7,12 @@
 
 namespace fsi {
 
-/// Dirichlet-Neumann iterations: the fluid is given its velocity on the wall, the wall the fluid's traction. The fluid's pressure
-/// must be determined by something else than the wall then.
+/// Dirichlet-Neumann iterations: the fluid has its velocity prescribed on the wall, the wall the fluid's traction.
+/// Something other than the wall must determine the fluid's pressure.
 template <int n>
 class DirichletNeumannStepper : public CouplingStepper<n> {
  public:
-  /// \throws InputError where nothing determines it
+  /// \throws InputError where nothing determines the fluid's pressure
   DirichletNeumannStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme);
 };
 

@@ -9,8 +9,8 @@
 
 namespace fsi {
 
-/// The march of robin-robin beside that of robin-robin-corrected, from the same state and with the same steps. It knows
-/// nothing of the correction, so that what it leaves in a step varies smoothly with time.
+/// The time integration by robin-robin that predicts for robin-robin-corrected, from the same state and with the same
+/// steps. The correction does not enter it, so that its splitting error varies smoothly with time.
 template <int n>
 class PredictorStepper {
  public:
@@ -20,8 +20,10 @@ class PredictorStepper {
       : scene_(scene),
         stepper_(scene, loads, setup, scheme, std::make_unique<RobinRobin<n>>(scene, setup.partitioned)) {}
 
-  /// Solves the step that follows, which becomes the latest with finish_step() only.
-  /// \param corrected  where the march begins, if it has not yet \throws ConvergenceError
+  /// Solves the next step, which becomes the latest level with finish_step() only.
+  /// \param corrected  state of the corrected scheme: the start of the first step; later its step and time alone are
+  ///                   read
+  /// \throws ConvergenceError
   const StepReport& solve_step(const State& corrected) {
     if (!state_) state_ = corrected;
     next_ = *state_;

@@ -10,15 +10,15 @@
 
 namespace fsi {
 
-/// The loosely coupled Robin-Robin scheme (interface/robin_robin.hpp): a step is one pass, the wall and then the fluid. Where
-/// the load has jumped steps are iterated: else what one pass leaves of the jump swings between fluid and wall for long, the
-/// faster the shorter the steps (docs/theory.md, section 10.5).
+/// The loosely coupled Robin-Robin scheme (interface/robin_robin.hpp): a step is one pass, the wall and then the fluid.
+/// The first step and each after a jump of the load are iterated: the rest that one pass leaves of the jump would
+/// oscillate between fluid and wall for long, the faster the shorter the steps (docs/theory.md, section 10.5).
 template <int n>
 class RobinRobinStepper : public CouplingStepper<n> {
   using Base = CouplingStepper<n>;
 
  public:
-  /// \throws InputError of a static case, and where the time scheme makes pressures ring
+  /// \throws InputError for a static case, and for a time scheme that needs iterations (require_scheme_for_one_pass())
   RobinRobinStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme);
   /// With this problem, unchecked.
   RobinRobinStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme,
@@ -50,7 +50,7 @@ class RobinRobinStepper : public CouplingStepper<n> {
 template <int n>
 class RobinRobinParallelStepper : public RobinRobinStepper<n> {
  public:
-  /// \throws InputError also for time schemes other than "euler"
+  /// \throws InputError as RobinRobinStepper, for time schemes other than "euler" and for time.predictor = 0
   RobinRobinParallelStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme);
 };
 

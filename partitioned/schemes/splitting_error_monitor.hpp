@@ -7,8 +7,8 @@
 
 namespace fsi {
 
-/// Adds up by how much fluid and wall differ on the interface in a march of a loosely coupled scheme, which is stable but
-/// leaves an error in each step.
+/// Sums the gap between fluid and wall over the stages of a loosely coupled scheme, which is stable but leaves an error
+/// in each step.
 class SplittingErrorMonitor {
  public:
   /// Part of the interface's motion up to which the difference is small (docs/coupling.md).
@@ -17,7 +17,9 @@ class SplittingErrorMonitor {
   /// \param scheme  must outlive this
   explicit SplittingErrorMonitor(const CouplingScheme& scheme) : scheme_(&scheme) {}
 
-  /// \param gap  between wall and fluid in a step, |d~ - d|, mm \param movement  of the wall in it, mm
+  /// To be called once a stage.
+  /// \param gap       |d~ - d| of its last pass, mm
+  /// \param movement  of the wall since the last time level, mm (CouplingPass::movement())
   void add(double gap, double movement) {
     gaps_ += gap * gap;
     movements_ += movement * movement;

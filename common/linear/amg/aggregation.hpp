@@ -10,10 +10,14 @@ namespace fsi {
 inline constexpr int eigenvalue_iterations = 12;
 
 /// Which entries couple strongly, |a_ij| > threshold sqrt(|a_ii a_jj|); the diagonal always does.
+/// \param diagonal  per column of a, copies' too
+/// \returns per entry of a
 std::vector<char> strong_entries(const CsrMatrix<double>& a, const std::vector<double>& diagonal, double threshold);
 
 /// The aggregate of each row [Vanek1996]: first whole neighbourhoods of strong couplings, then
 /// leftovers join a neighbour's, then form their own.
+/// \param strong  per entry of a; false for columns behind the rows
+/// \param count   set to the number of aggregates
 std::vector<int> aggregates(const CsrMatrix<double>& a, const std::vector<char>& strong, int& count);
 
 /// A's diagonal.

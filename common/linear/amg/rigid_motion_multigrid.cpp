@@ -165,7 +165,7 @@ void smooth(const BlockMatrix<size, size>& a, const ShareOfNumbers& share, const
         for (int i = 0; i < size * size; ++i) diagonal[i] += a.block(at)[i];
     const double* own = a.block(a.graph->find(row, row));
     for (int i = 0; i < size * size; i += size + 1)
-      // Weak couplings of the diagonal's own size would leave nothing to divide by.
+      // Weak couplings of the opposite sign, as large as the diagonal, would leave nothing to divide by.
       if (diagonal[i] * own[i] < 0.1 * own[i] * own[i]) diagonal[i] = own[i];
     for (int at = begin; at < end; ++at) {
       if (!strong[at]) continue;

@@ -22,20 +22,21 @@ class RigidMotionMultigrid {
   static constexpr int modes = n == 3 ? 6 : n;
 
   struct Options {
-    double threshold = 0.08;   ///< of strong couplings, |A_ij| > threshold sqrt(|A_ii| |A_jj|); halved on each level
-    double damping = 4.0 / 3;  ///< of the prolongation's Jacobi step, over the largest eigenvalue of D^-1 A
-    int coarsest_nodes = 50;   ///< of the level that is inverted
-    int levels = 20;
+    double threshold = 0.08;      ///< of strong couplings, |A_ij| > threshold sqrt(|A_ii| |A_jj|); halved on each level
+    double damping = 4.0 / 3;     ///< of the prolongation's Jacobi step, over the largest eigenvalue of D^-1 A
+    int coarsest_nodes = 50;      ///< of the level that is inverted
+    int levels = 20;              ///< at most, between the finest and the coarsest
     bool post_smoothing = false;  ///< a backward sweep after the coarse correction, on coarse levels
   };
 
   /// Makes all levels anew. By all processes together.
   /// \param finest  own rows; columns of copies behind those of own rows
   /// \param share   of rows and columns
-  /// \param points  places of own nodes
+  /// \param points  places of own nodes, in any unit of length
   /// \param fixed   per node and component: its row is the identity's times a number, its column zero elsewhere, and no
   ///                rigid motion moves it; empty: none is
-  /// \throws ConvergenceError when the coarsest matrix is singular
+  /// \throws ConvergenceError at all processes when the coarsest matrix or a diagonal block of a coarse level is
+  ///         singular
   void set_up(const BlockMatrix<n, n>& finest, const ShareOfNumbers& share,
               const std::vector<std::array<double, 3>>& points, const Options& options,
               const std::vector<char>& fixed = {});
@@ -44,7 +45,8 @@ class RigidMotionMultigrid {
     set_up(finest, ShareOfNumbers(Communicator::alone(), finest.graph->rows(), {}), points, options, fixed);
   }
 
-  /// velocity += P M R residual: both hold padded<n> floats a node.
+  /// velocity += P M R residual, M being a cycle on the coarse levels. Both hold padded<n> floats for each own node. By
+  /// all processes together.
   void correct(const std::vector<float>& residual, std::vector<float>& velocity);
 
   int levels() const { return !coarsens_ ? 1 : static_cast<int>(levels_.size()) + 2; }

@@ -85,7 +85,7 @@ CsrMatrix<double> smoothed_prolongation(const CsrMatrix<double>& a, const ShareO
   auto diagonal = diagonal_of(filtered);
   const auto original = diagonal_of(a);
   for (int row = 0; row < a.rows(); ++row)
-    // Weak couplings of the diagonal's own sign and size would leave nothing to divide by.
+    // Weak couplings of the opposite sign, as large as the diagonal, would leave nothing to divide by.
     if (diagonal[row] * original[row] < 0.1 * original[row] * original[row]) diagonal[row] = original[row];
   const double scale = omega / share.processes->largest(largest_eigenvalue_of(filtered, diagonal));
 

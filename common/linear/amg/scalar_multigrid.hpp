@@ -16,10 +16,10 @@ namespace fsi {
 class ScalarMultigrid {
  public:
   struct Options {
-    double threshold = 0.08;   ///< of strong couplings, |a_ij| > threshold sqrt(|a_ii a_jj|); halved on each level
-    double damping = 4.0 / 3;  ///< of the prolongation's Jacobi step, over the largest eigenvalue of D^-1 A
-    int coarsest_size = 300;   ///< unknowns of the level that is inverted
-    int levels = 20;
+    double threshold = 0.08;      ///< of strong couplings, |a_ij| > threshold sqrt(|a_ii a_jj|); halved on each level
+    double damping = 4.0 / 3;     ///< of the prolongation's Jacobi step, over the largest eigenvalue of D^-1 A
+    int coarsest_size = 300;      ///< unknowns of the level that is inverted
+    int levels = 20;              ///< at most, the finest and the coarsest among them
     bool post_smoothing = false;  ///< a backward sweep after the coarse correction: costs as much as all the rest
   };
 

@@ -15,7 +15,7 @@ struct SparseRows {
   int rows() const { return static_cast<int>(offsets.size()) - 1; }
 };
 
-// All of these by all processes together. Copies of columns stand in the order of their numbers.
+// All of these but renumber() by all processes together. Copies of columns stand in the order of their numbers.
 
 /// Own rows, then those of copies, as their owners have them.
 /// \param rows     own ones

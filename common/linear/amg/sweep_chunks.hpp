@@ -13,8 +13,8 @@ namespace fsi {
 
 /// Rows of a matrix in contiguous chunks of fixed number. Gauss-Seidel runs row after row within a chunk and side by
 /// side over the chunks, couplings between chunks left out: parallel, and the same numbers for any number of threads.
-/// A thread goes through two chunks at once where it has several: a row waits for the one before, and the other chunk's
-/// does not.
+/// A thread with several chunks goes through two of them in turn, row by row: a row depends on the one before it in its
+/// chunk, so that the processor works on the other chunk's row meanwhile.
 struct SweepChunks {
   static constexpr int count = 8;
   static constexpr int smallest = 400;  ///< rows; smaller matrices are one chunk
@@ -51,6 +51,7 @@ struct SweepChunks {
 
   SweepChunks() = default;
   /// \param offsets, columns  sparsity by rows, columns ascending, every diagonal entry present
+  /// \param chunks            one or an even number, since a thread may take them in pairs
   SweepChunks(const std::vector<int>& offsets, const std::vector<int>& columns, int chunks = count) {
     divide(static_cast<int>(offsets.size()) - 1, chunks);
     for_rows([&](int row, int from, int to) {

@@ -12,13 +12,14 @@ namespace fsi {
 bool is_general_solver(const std::string& name);
 
 /// Refuses a `linear.preconditioner` other than the default where nothing iterates with it.
-/// \param where  what runs in place of `fast` on one process
+/// \param where  the solver that is made instead, as error messages name it
 /// \throws InputError
 void refuse_preconditioner(const FastOptions& fast, const std::string& where);
 
 /// Makes the linear solver `name`, one of general_solver_names(), for a scene or sub-problem of as many processes as
-/// share out the blocks' numbering: on several FastOnProcesses stands in for "fast", and MUMPS for the sparse factorisation.
-/// \throws InputError for "petsc" in a build without it
+/// share out the blocks' numbering. On several processes MUMPS stands in for the sparse factorisation of "direct", and
+/// "petsc" for "fast" where the case has [petsc] options. By all processes together.
+/// \throws InputError for another name, for "petsc" in a build without it, and as refuse_preconditioner()
 template <int n>
 std::unique_ptr<LinearSolver> make_general_solver(const std::string& name, const FastOptions& fast,
                                                   const JacobianBlocks<n>& blocks);
@@ -28,8 +29,8 @@ std::unique_ptr<LinearSolver> make_general_solver(const std::string& name, const
 template <int n>
 LinearSolverFactory<n> general_solver_factory(const std::string& name, const FastOptions& fast);
 
-/// As the case's [monolithic] and [linear] ask, for a scene with fluid or wall only.
-/// \throws InputError for a solver of coupled scenes
+/// make_general_solver() with the options of the case's [linear], for a scene with fluid or wall only.
+/// \throws InputError as that, and for a solver of coupled scenes
 template <int n>
 std::unique_ptr<LinearSolver> make_fast_or_direct(const std::string& name, const Case& setup,
                                                   const JacobianBlocks<n>& blocks);

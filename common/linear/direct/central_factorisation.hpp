@@ -22,11 +22,13 @@ class CentralFactorisation {
 
   /// Takes the numbers as they are now, and factorises.
   /// \throws ConvergenceError at all processes when the matrix is singular to working precision or holds NaN
+  /// \throws OutOfMemory at the first process alone, when the factors do not fit there
   void update();
   bool factorised() const { return factorised_; }
 
   /// \param b  per row of this process
   /// \param x  returns all unknowns, at every process
+  /// \throws ConvergenceError at all processes, as DirectSolver::solve()
   void solve(const std::vector<double>& b, std::vector<double>& x) const;
 
   /// Of this process.

@@ -32,7 +32,7 @@ class CholeskySolver {
   double residual() const;
   /// Solutions have a residual of at most `tolerance` |b|, so far as a known one tells; others may have several times as much.
   bool reaches(double tolerance) const { return tolerance >= 10 * residual(); }
-  /// Of a solution that does not reach what is demanded.
+  /// Limit for callers that refine a solution where reaches() is false.
   static constexpr int most_corrections = 20;
 
   /// x = A^-1 b for `count` right-hand sides, one behind the other.

@@ -34,7 +34,7 @@ class DirectSolver {
   bool factorised() const;
   void discard();
 
-  /// x = A^-1 b with the last factorised matrix; `a` is read only for iterative refinement and must have its pattern.
+  /// x = A^-1 b with the last factorised matrix A. `a` is read only for iterative refinement and must have A's pattern.
   /// \param tolerance  demanded |b - A x| / |b|; factors in double precision solve to rounding
   /// \throws ConvergenceError where rounding alone decides a thousandth of x: the matrix is singular to working precision. Which
   /// pivot of a singular matrix is zero, and which is rounding, depends on the processor.

@@ -15,7 +15,7 @@ inline bool will_not_fit(double estimated_bytes, double room) {
   return 0.85 * estimated_bytes > room;
 }
 
-/// Whether it deserves a word.
+/// Whether a warning is due.
 inline bool takes_more_than_half(double estimated_bytes, double room) {
   return estimated_bytes > 0.5 * room;
 }

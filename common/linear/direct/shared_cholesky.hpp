@@ -14,8 +14,8 @@ namespace fsi {
 /// Factors of a symmetric positive definite matrix whose rows processes share, by static condensation: with s the unknowns
 /// between processes, the separator, and i each process's others, which couple with no other's,
 ///   S = A_ss - sum A_si W,  S x_s = b_s - sum W^T b_i,  x_i = A_ii^-1 b_i - W x_s,  W = A_ii^-1 A_is.
-/// Each process keeps the factor of its A_ii, its W, and its rows of S^-1. One process alone has a CholeskySolver by it.
-/// All processes call together. Results do not depend on the number of threads.
+/// Each process keeps the factor of its A_ii, its W, and its rows of S^-1. One process alone has the factor of all of
+/// A. All processes call together. Results do not depend on the number of threads.
 class SharedCholesky {
  public:
   SharedCholesky() = default;
@@ -29,7 +29,7 @@ class SharedCholesky {
   static Size size_of(const CsrMatrix<double>& a, const ShareOfNumbers& share);
 
   /// A matrix with the same numbers of own unknowns and entries as the one before takes over its ordering.
-  /// \param a, share  as above; share must outlive this
+  /// \param a, share  as for size_of(); the processes of `share` must outlive this
   /// \param single_precision  keep what is the largest in single precision, where that serves (CholeskySolver::reduce_precision)
   /// \throws ConvergenceError when it is not positive definite, OutOfMemory before what will not fit, at all processes
   void factorise(const CsrMatrix<double>& a, const ShareOfNumbers& share, bool single_precision);

@@ -31,7 +31,9 @@ template <int n>
 std::unique_ptr<MeshExtension<n>> make_tangent_extension(const MeshMotionTangent<n>& tangent, std::vector<char> inner,
                                                          const PartNodes& part);
 
-/// That of a Jacobian's mesh motion, tangent or harmonic. \param inner  per entry: it is sought
+/// That of a Jacobian's mesh motion: of its tangent where there is one, else harmonic, with factors in single
+/// precision.
+/// \param inner  per node and component: its value is sought
 template <int n>
 std::unique_ptr<MeshExtension<n>> make_shared_extension(const JacobianBlocks<n>& blocks, std::vector<char> inner);
 

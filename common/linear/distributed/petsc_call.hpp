@@ -67,8 +67,9 @@ using OwnedVec = PetscOwned<Vec, VecDestroy>;
 using OwnedKsp = PetscOwned<KSP, KSPDestroy>;
 using OwnedScatter = PetscOwned<VecScatter, VecScatterDestroy>;
 
-/// A vector with this many entries here; its numbers are in an array of others (VecPlaceArray) or its own.
+/// A vector with this many entries on this process and no numbers of its own: PlacedArray gives it some.
 OwnedVec petsc_view(MPI_Comm communicator, PetscInt entries);
+/// A vector with this many entries on this process.
 OwnedVec petsc_vector(MPI_Comm communicator, PetscInt entries);
 
 /// Puts an array under a view for as long as this lives.
@@ -83,7 +84,7 @@ class PlacedArray {
   Vec view_;
 };
 
-/// Memory of a matrix on this process.
+/// Memory of a matrix on this process, bytes.
 double petsc_bytes(Mat matrix);
 
 }  // namespace fsi

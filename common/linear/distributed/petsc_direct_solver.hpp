@@ -29,7 +29,7 @@ class PetscDirectSolver : public LinearSolver {
   MPI_Comm communicator_;
   JacobianProduct<n> jacobian_;
   PetscGatheredMatrix matrix_;
-  int gathered_ = 0;  ///< version of the numbering whose factors it holds
+  int gathered_ = 0;  ///< Numbering::version that the matrix was gathered with
   OwnedKsp factors_;
   OwnedVec b_, x_;
   std::vector<double> product_;

@@ -55,7 +55,8 @@ double PetscExtension<n>::diagonal(std::size_t entry) const {
   return laplacian_->block(laplacian_->graph->find(node, node))[entry % n];
 }
 
-/// Decided by the couplings alone, and alike by all processes: nodes with two at most, and none of these with another such.
+/// Decided by the couplings alone, and alike by all processes: entries that couple with two others at most, and with no
+/// other such entry.
 template <int n>
 void PetscExtension<n>::find_followers() {
   constexpr double most_leaders = 2, many = 100;

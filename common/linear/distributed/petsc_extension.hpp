@@ -24,7 +24,8 @@ template <int n>
 class PetscExtension : public MeshExtension<n> {
  public:
   /// As make_harmonic_extension() has them.
-  /// \param central_below  unknowns below which the first process factorises the system
+  /// \param central_below  unknowns of all processes, without followers, below which the first process factorises the
+  ///                       system
   PetscExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner, const NodalFrames<n>* frames,
                  const PartNodes& part, std::int64_t central_below = 0);
   /// As make_tangent_extension() has them.
@@ -53,7 +54,7 @@ class PetscExtension : public MeshExtension<n> {
   void number_entries(std::int64_t central_below);
   template <class Builder>
   void gather(Builder& builder, const UnknownMap& rows, const UnknownMap& columns) const;
-  /// All entries, or those that couple no two components.
+  /// \param whole  all entries; else only those that couple a component with itself
   PetscGatheredMatrix gather(bool whole) const;
   CentralFactorisation gather_at_first() const;
   void set_up_iteration();
@@ -67,7 +68,7 @@ class PetscExtension : public MeshExtension<n> {
   const NodalFrames<n>* frames_ = nullptr;
   const PartNodes& part_;
   MPI_Comm communicator_;
-  std::vector<char> inner_;      ///< per entry: own and sought, 1; by another process, 2; a follower, 3
+  std::vector<char> inner_;      ///< per entry: 1 own and sought, 2 sought by another process, 3 own follower, else 0
   std::vector<double> follows_;  ///< per entry, also of copies: 1 of followers; empty where nothing is eliminated
   std::vector<double> sought_;   ///< per entry, also of copies: 1 where it is
   BlockMatrix<1, n> reduced_;    ///< the Laplacian without followers

@@ -9,7 +9,7 @@ namespace fsi {
 /// \param options    as on PETSc's command line: "-fsi_..." with values
 /// \param case_file  named in errors
 void set_petsc_options(const std::string& options, const std::string& case_file);
-/// What was set, for errors that name the case. \returns its file
+/// The case file of the last set_petsc_options(), for errors that name it.
 const std::string& case_of_petsc_options();
 
 /// Parts of the solver that read options of their own, by prefix.
@@ -19,7 +19,10 @@ enum class PetscPart {
   mesh,    ///< -fsi_mesh_: mesh motion
   direct,  ///< -fsi_direct_: factorisation
 };
+/// Without the dash.
 const char* prefix_of(PetscPart part);
+
+// take_petsc_options(), refuse_unread_petsc_options() and blame_petsc_options() are in builds with MPI only.
 
 /// Hands the options to PETSc, which must have begun.
 void take_petsc_options();
@@ -29,7 +32,7 @@ void refuse_unread_petsc_options(PetscPart part);
 /// \throws PetscFailure again
 [[noreturn]] void blame_petsc_options(const std::string& failure);
 bool has_petsc_options();
-/// Whether one begins with -fsi_pressure_ or another such prefix.
+/// Whether an option of the case begins with - and this prefix. \param prefix  without the dash, as "fsi_pressure_"
 bool has_petsc_options(const std::string& prefix);
 
 }  // namespace fsi

@@ -12,8 +12,9 @@ namespace fsi {
 /// The outer iteration is the same (CondensedIteration). The inner one is FGMRES for F = [A G; B C] of velocities and
 /// pressures with the block preconditioner
 ///   p = S^-1 (r_p - B D^-1 r_v),  v = A^-1 (r_v - G p),
-/// S^-1 by a cycle of algebraic multigrid, A^-1 by PetscMomentumSolver. What defeats it gets more sweeps and coarse
-/// levels, then a factorisation by MUMPS. Options: [petsc] options of the case, see petsc_options.hpp.
+/// A^-1 by PetscMomentumSolver. A small S (SolverPolicy) is factorised whole by each process; else S^-1 is a cycle of
+/// algebraic multigrid. What defeats it gets more sweeps and coarse levels, then a factorisation by MUMPS. Options:
+/// [petsc] options of the case, see petsc_options.hpp.
 template <int n>
 class PetscSolver : public LinearSolver {
  public:
@@ -22,6 +23,7 @@ class PetscSolver : public LinearSolver {
 
   bool ready() const override { return ready_; }
   /// What a failure led to is forgotten here, as by FastSolver.
+  /// \throws InputError for [petsc] options that PETSc does not take, ConvergenceError for other failures of PETSc
   void update() override;
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
   LinearReport try_to_solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;

@@ -19,8 +19,9 @@ class SharedProducts {
   SharedProducts(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout,
                  const SharedLayout<n>& shared, MPI_Comm communicator);
 
-  /// Takes the present values of the blocks, and D of them.
+  /// Takes the present values of the blocks and sets `diagonals` to theirs.
   void fill(MomentumDiagonals<n>& diagonals, bool few_pressures, const Communicator& processes);
+  /// Sets number and relaxation of the sweeps. \param stiffness  MomentumDiagonals::stiffness()
   void set_up(const BlockPreconditionerChoices& choices, double stiffness);
 
   /// y = F x, in the rows of SharedLayout.
@@ -32,7 +33,8 @@ class SharedProducts {
   /// velocities = approximate A^-1 residual, by sweeps over A's columns of this process's own velocities
   void sweep(Vec residual, Vec velocities);
 
-  /// VelocityPressureMatrix::rounding() of the velocities of x, in the rows of all processes. \param x  in the rows of SharedLayout
+  /// VelocityPressureMatrix::rounding() of the velocities of x: one norm over all processes.
+  /// \param x  in the rows of SharedLayout
   double rounding(Vec x);
   const InterfaceShapeDerivatives<n>& shape_derivatives() const { return matrix_.shape_derivatives(); }
   double bytes() const { return static_cast<double>(matrix_.bytes() + sweep_.bytes()); }

@@ -51,7 +51,8 @@ class VelocityPressureSystem {
   std::unique_ptr<WallMomentum> make_wall_momentum() const;
   void fill_wall_momentum(WallMomentum& wall);
 
-  /// x's part of velocities and of pressures, for as long as these live.
+  /// Puts the array of x under the views `velocities` and `pressures` (velocity_view(), pressure_view()) for as long as
+  /// this lives. \param writes  the views are written to, and what x held before is not read
   class Parts {
    public:
     Parts(const VelocityPressureSystem& system, Vec velocities, Vec pressures, Vec x, bool writes);

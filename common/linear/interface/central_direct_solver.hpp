@@ -24,7 +24,7 @@ class CentralDirectSolver : public LinearSolver {
  private:
   JacobianBlocks<n> blocks_;
   CentralFactorisation factors_;
-  int gathered_ = -1;  ///< version of the numbering whose factors it holds
+  int gathered_ = -1;  ///< Numbering::version that the matrix was gathered with
   std::vector<double> whole_;
 };
 

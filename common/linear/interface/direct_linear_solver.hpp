@@ -27,9 +27,8 @@ void gather_jacobian_blocks(Builder& builder, const JacobianBlocks<n>& blocks) {
 template <int n>
 GatheredMatrix gather_jacobian(const JacobianBlocks<n>& blocks);
 
-/// `direct`: sparse LU factorisation of the Jacobian. With options for single precision also what `fast` has for small
-/// systems. On the interface it works with one unknown, as the numbering
-/// does.
+/// `direct` on one process: sparse LU factorisation of the Jacobian. `fast` solves small systems by it, with factors in
+/// single precision where the options ask for them.
 template <int n>
 class DirectLinearSolver : public LinearSolver {
  public:
@@ -52,7 +51,7 @@ class DirectLinearSolver : public LinearSolver {
   JacobianBlocks<n> blocks_;
   DirectSolver::Options options_;
   GatheredMatrix matrix_;
-  int gathered_ = 0;  ///< version of the numbering whose factors it holds
+  int gathered_ = 0;  ///< Numbering::version that the matrix was gathered with
   DirectSolver solver_;
 };
 

@@ -28,7 +28,10 @@ class JacobianProduct {
   std::vector<double> fluid_, mesh_, wall_, fluid_rows_, mesh_rows_, wall_rows_;
 };
 
-/// terms += |J| |x|, terms in the equations here. \param x  not negative, with its ghosts
+/// terms += |J| x, |J| having the absolute values of J's entries: the size of the terms that cancel in J x. Frames of
+/// the mesh motion's Laplacian are not applied.
+/// \param x      not negative, with its ghosts
+/// \param terms  of this process's equations
 template <int n>
 void add_absolute_products(const JacobianBlocks<n>& j, const std::vector<double>& x, std::vector<double>& terms);
 

@@ -55,7 +55,7 @@ struct JacobianBlocks {
 struct LinearReport {
   bool converged = true;
   int iterations = 0;            ///< Krylov or multigrid iterations; 0 for a direct solve
-  double relative_residual = 0;  ///< |b - J x| / |b|, of loose tolerances a bound; 0: not computed, by factors
+  double relative_residual = 0;  ///< |b - J x| / |b|, or a bound of it; 0: not computed, since factors solved
   std::string failure;           ///< why it stopped, when it did not converge
 };
 
@@ -72,16 +72,19 @@ class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
   /// The block matrices hold new values: prepare for solving with them.
-  /// \throws ConvergenceError when the matrix is singular to working precision
+  /// \throws ConvergenceError when the matrix is singular to working precision, OutOfMemory when factors do not fit,
+  ///         InputError for [petsc] options that PETSc does not take
   virtual void update() = 0;
-  /// What update() with the values that the blocks now hold is called in the profile.
+  /// The profile's name for update() with the values that the blocks now hold.
   virtual const char* preparation() { return "set-up"; }
-  /// What it decides for each Jacobian by its values, a clause for whoever runs it; empty: nothing.
+  /// For the log: a clause on what the solver decides anew for each Jacobian, by its values; empty: nothing.
   virtual std::string decides() const { return ""; }
   /// update() has been called.
   virtual bool ready() const = 0;
+  /// \param b          Numbering::size entries, of this process's equations
   /// \param tolerance  demanded |b - J x| / |b|; direct solvers solve to rounding
   /// \param x          overwritten: Numbering::columns() entries; those of ghosts are the caller's to update
+  /// \throws ConvergenceError by factors of a matrix that turns out to be singular to working precision
   virtual LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) = 0;
   /// Like solve(), but an iteration that fails never falls back to a factorisation; for callers with a fallback of their own.
   virtual LinearReport try_to_solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
@@ -93,7 +96,7 @@ class LinearSolver {
   virtual double keep_contraction() const { return 0.3; }
   /// What the solver iterates with, as of the last update(); null where it does not.
   virtual MediumPreconditioner* medium_preconditioner() { return nullptr; }
-  /// It iterates by what it is, though these matrices may have been too much for it.
+  /// The solver is set up to iterate. True also where the present Jacobian defeated the iteration and is factorised.
   virtual bool is_iterative() const { return false; }
 };
 

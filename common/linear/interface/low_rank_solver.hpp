@@ -29,7 +29,8 @@ struct OpeningTerm {
 /// Where a flow is given, its row is v^T Y p = v^T z - gap (block elimination).
 /// Y is found with the first solve after an update() and serves as long as what A's solver has prepared. So the matrix
 /// stays as sparse as it was, and Newton's method keeps its convergence. Solutions of iterative solvers are corrected
-/// until the residual of the whole is as small as demanded.
+/// until the residual of the whole is as small as demanded, a few times at most; one of up to twice the tolerance is
+/// accepted. Their relative residual is over |b| + sum |p| |w|, summed over the terms whose flow is given.
 template <int n>
 class LowRankLinearSolver : public LinearSolver {
  public:
@@ -38,7 +39,8 @@ class LowRankLinearSolver : public LinearSolver {
   LowRankLinearSolver(const JacobianBlocks<n>& blocks, std::unique_ptr<LinearSolver> solver,
                       const std::vector<OpeningTerm>& terms);
 
-  /// p of the terms, of the last solution, kPa: of pressures that are unknowns the solution.
+  /// p of the last solve(), kPa, one per term: the change of an opening's pressure, or, where its flow is given, the
+  /// solution for the pressure.
   const std::vector<double>& pressures() const { return pressures_; }
 
   void update() override;
@@ -57,7 +59,7 @@ class LowRankLinearSolver : public LinearSolver {
   struct Term {
     double slope;
     bool given;
-    double answer = 0;                            ///< v^T A^-1 w
+    double answer = 0;                            ///< v^T A^-1 w: the flow of its own unit pressure
     double size = 0;                              ///< |w|, where the flow is given
     std::vector<double> slopes;                   ///< by all flows; empty: by its own alone
     std::vector<double> rows, columns, solution;  ///< w as equations, v as own unknowns; A^-1 w
@@ -68,9 +70,10 @@ class LowRankLinearSolver : public LinearSolver {
   LinearReport prepare(Effort effort);
   /// z - Y p. \param gaps  of the terms whose flow is given \returns p
   std::vector<double> correct(std::vector<double>& z, const std::vector<double>& gaps) const;
-  /// |b - (A + W S V^T) x - W p|, the latter W p of the terms whose flow is given; leaves it in residual_.
+  /// |b - (A + W S V^T) x - W p|, the latter W p of the terms whose flow is given. Leaves the residual in residual_ and
+  /// updates the ghosts in x.
   double residual_norm(const std::vector<double>& b, std::vector<double>& x);
-  /// Of all terms W^T x, summed over processes.
+  /// V^T x: the flow of each term, mm^3/ms, summed over processes.
   std::vector<double> flows(const std::vector<double>& x) const;
   double norm_of(const std::vector<double>& equations) const;
   /// What a term's pressure answers to the flows of all terms.

@@ -25,21 +25,22 @@ class MediumPreconditioner {
   virtual void multiply(Input x, Output y) const = 0;
   /// y is about J^-1 x.
   virtual void apply(Input x, Output y) = 0;
-  /// Besides, product = J y: a cycle may know half of it.
+  /// Also product = J y. Overridden where the preconditioner already knows part of that product.
   virtual void apply(Input x, Output y, Output product) {
     apply(x, y);
     multiply(y, product);
   }
 
-  /// Of a vector of the system, equations or unknowns, those of velocities and pressures.
+  /// Copies the entries of velocities and pressures from a vector of the system, equations or unknowns, to `mine`.
   virtual void gather(const std::vector<double>& of_system, Output mine) const = 0;
-  /// Finds what velocities and pressures are to answer of a residual of the system, and keeps it in double precision.
-  /// \param tolerance  of that answer, relative
-  /// \returns its Euclidean norm
+  /// Restricts a residual of the system to velocities and pressures, and keeps the restricted one in double precision.
+  /// \param tolerance  to which it will be solved for, relative
+  /// \returns the Euclidean norm of the restricted residual
   virtual double restrict_residual(const std::vector<double>& residual, double tolerance) = 0;
-  /// Writes what was found, times a factor.
+  /// Writes the residual of the last restrict_residual() times a factor.
   virtual void write_restricted(double factor, Output right) const = 0;
-  /// A solution times a factor as unknowns of the system, those of the mesh motion with it.
+  /// correction = a solution times a factor, in the unknowns of the system, with the mesh motion that follows from it.
+  /// \param tolerance  relative, as in restrict_residual(); decides how exactly the mesh motion is solved
   virtual void expand(Input x, double factor, double tolerance, std::vector<double>& correction) = 0;
   /// y = J x, all of it, in the unknowns of the system.
   virtual void multiply_whole(const std::vector<double>& x, std::vector<double>& y) = 0;

@@ -68,11 +68,11 @@ class BasicGmres {
     bool finite = true;
     double relative_residual = 1;  ///< estimate
   };
-  /// \param residual_norm  of what stands in the first basis vector once it is scaled
+  /// \param residual_norm  |residual|; residual over it is the first basis vector
   /// \param history        gets the estimates; null: they are not wanted
   Cycle run_cycle(const PreconditionedOperator& both, const Vector& residual, double residual_norm, double norm_b,
                   int directions, double tolerance, std::vector<double>* history);
-  /// Givens' rotations of column k. \returns its length behind them: of its diagonal entry
+  /// Applies the earlier Givens rotations to column k. \returns the diagonal entry that the next rotation will leave
   double rotate(int k);
   /// x += M^-1 V y, y solving the least squares problem.
   void update(const Operator& inverse, int columns, Vector& x);

@@ -6,7 +6,8 @@
 
 namespace fsi {
 
-/// The stationary iteration x += M^-1 (b - A x): a preconditioner, e.g. a multigrid cycle, as a solver of its own.
+/// The stationary iteration x += M^-1 (b - A x): a preconditioner, e.g. a multigrid cycle, as a solver of its own. On
+/// one process: norms are not summed over several.
 class Richardson {
  public:
   /// Arguments as for Gmres::solve, `inverse` required; options.restart is unused. Stops as diverged when the residual

@@ -19,13 +19,14 @@ struct Row {
   int strengthenings;         ///< of an iteration that fails
 };
 
-/// By measurement (docs/guide/solvers.md, docs/archive.md). Factors of a plane graph hardly fill in. Those in space end
-/// somewhere, since their memory grows faster than the mesh.
+/// By measurement (docs/guide/solvers.md, docs/archive.md). Factors of a plane graph hardly fill in. In space
+/// there is always a limit, since the memory of factors grows faster than the mesh.
 /// - Harmonic motion: to three digits both take the same time at 18,000 inner nodes of an even mesh; on a graded one of 12,000
 ///   the factor is three times as quick. Larger meshes were not measured.
-/// - Tangent: where it, with the sixty solves that a driver does with it, is about as quick by iteration, which takes a tenth
-///   of the memory. In space factors of 6700 nodes take 0.6 s, a solve by them 0.02 s, by iteration 0.014 s to 1e-3 and
-///   0.05 s to 1e-12; on the artery's 1900 nodes the drivers lose a tenth to a quarter by it.
+/// - Tangent: the size at which a factorisation and the sixty solves that a driver does with it take about as long as
+///   the iteration, which takes a tenth of the memory. In space factors of 6700 nodes take 0.6 s, a solve by them
+///   0.02 s, by iteration 0.014 s to 1e-3 and 0.05 s to 1e-12; on the artery's 1900 nodes the drivers lose a tenth to a
+///   quarter by iterating.
 /// - Schur complement: in the plane a solve takes half of a cycle's time; where -S is not positive definite a cycle serves.
 ///   On several processes, and by `petsc`, factors halve the iterations of PETSc's cycle, and take no longer.
 constexpr std::array<Row, 6> rows{{

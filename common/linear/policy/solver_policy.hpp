@@ -40,17 +40,19 @@ class SolverPolicy {
   static std::int64_t standard_limit(SolvedSystem system, int dimension);
   /// Sizes below which this system is factorised.
   std::int64_t factorises_below() const;
+  /// \param size  of what SolvedSystem says that this system counts
   SolverDecision decide(std::int64_t size) const;
 
   /// In two dimensions a coupled Jacobian of `wall_decides_from` unknowns or more is iterated all the same where its wall's
   /// stiffness over inertia is less than `wall_iterates_below`: without the seconds and the memory of factors, which a run
-  /// has to earn back by quicker solves (2.7: not in 200 steps; 5.3: in 150; 9: in 50).
+  /// has to earn back by quicker solves (at a ratio of 2.7 not in 200 steps, at 5.3 in 150, at 9 in 50).
   static constexpr std::int64_t wall_decides_from = 10000;
   static constexpr double wall_iterates_below = 4;
-  /// The wall decides about a coupled Jacobian of this size.
+  /// decide_by_wall(), not decide(), holds for a coupled Jacobian of this size.
   bool wall_decides(std::int64_t size) const;
+  /// \param stiffness_over_inertia  MomentumDiagonals::stiffness(), without unit
   SolverDecision decide_by_wall(double stiffness_over_inertia) const;
-  /// A clause for whoever runs a system that the wall decides about.
+  /// For the log: a clause on what decide_by_wall() does.
   static std::string rule_of_wall();
 
   /// How often an iteration that fails is repeated with a stronger preconditioner.

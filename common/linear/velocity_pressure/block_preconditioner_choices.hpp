@@ -23,7 +23,7 @@ struct BlockPreconditionerChoices {
   double added_diagonal = 2;
   double added_from = 39;
 
-  /// Most velocity nodes carry none, as with Taylor-Hood elements.
+  /// Most velocity nodes carry no pressure, as with Taylor-Hood elements.
   static bool has_few_pressures(double pressures, double velocities) { return 2 * pressures < velocities; }
 
   /// \param stiffness  MomentumDiagonals::stiffness()

@@ -14,8 +14,8 @@ namespace fsi {
 
 namespace {
 
-/// Directions of the outer iteration, with their products with the Jacobian, orthonormal by these: the generalised
-/// conjugate residual method [Eisenstat1983]. Each step takes what of the residual lies along the latest.
+/// Directions of the outer iteration and their products with the Jacobian, the products being orthonormal: the
+/// generalised conjugate residual method [Eisenstat1983]. A step projects the residual onto the latest product.
 class OuterDirections {
  public:
   explicit OuterDirections(const Communicator& processes) : processes_(processes) {}
@@ -120,8 +120,8 @@ LinearReport CondensedIteration<n>::solve(const std::vector<double>& b, double t
   OuterDirections directions(*numbering.processes);
   double relative = 1;
   bool first = true;
-  // What an outer iteration leaves of the residual for want of what the inner solver's matrix lacks: shape derivatives, digits.
-  // To solve by it much further is wasted.
+  // `lacking` estimates the share of the residual that an outer iteration leaves however exact the inner solver is,
+  // since the inner matrix has not all shape derivatives and fewer digits. A much smaller inner tolerance is wasted.
   const bool lacks = shape_derivatives_ || inner_shape_derivatives;
   double lacking = shape_derivatives_ ? 0.05 : 0.01;
   while (report.iterations < max_iterations_) {

@@ -22,8 +22,8 @@ class CondensedIteration {
  public:
   struct InnerReport {
     int iterations = 0;
-    /// Over |right|, by the inner solver's own estimate, rounding of its matrix with it; infinite: it has none. To three digits
-    /// it is to be that of F, which holds `inner_shape_derivatives`.
+    /// Over |right|, by the inner solver's own estimate, rounding of its matrix with it; infinite: it has none. For
+    /// tolerances of 1e-3 and more it must be the residual of an F that has the `inner_shape_derivatives` of solve().
     double relative_residual = std::numeric_limits<double>::infinity();
   };
   /// solution = approximate F^-1 right in the order of the layout, places of ghosts as they are; `scale` is |right| > 0.
@@ -52,12 +52,14 @@ class CondensedIteration {
   LinearReport solve(const std::vector<double>& b, double tolerance, const InnerSolver& inner_solver,
                      std::vector<double>& x, const InterfaceShapeDerivatives<n>* inner_shape_derivatives = nullptr);
 
-  /// What a single correction leaves of b, over |b|: for want of shape derivatives, where the inner solver is exact.
+  /// |b - J x| / |b| after a single correction from x = 0. With an exact inner solver this is the effect of the shape
+  /// derivatives that its matrix has not.
   double left_by_a_correction(const std::vector<double>& b, const InnerSolver& inner_solver);
 
-  /// The steps of a correction, for an iteration over several systems: what velocities and pressures are to answer of a
-  /// residual, and what becomes of their answer, in the order of the layout, the mesh with it.
-  /// \param tolerance  of that answer
+  /// The two steps of a correction around the inner solver, for an iteration over several systems. restrict_residual()
+  /// sets `right` to the right-hand side of velocities and pressures in the order of the layout. expand() turns their
+  /// solution into a correction of the system's unknowns, with ghosts and the mesh motion that follows.
+  /// \param tolerance  relative, of the solution for velocities and pressures
   void restrict_residual(const std::vector<double>& residual, double tolerance, std::vector<double>& right);
   void expand(const std::vector<double>& solution, double tolerance, std::vector<double>& correction);
   /// y = J x
@@ -69,8 +71,9 @@ class CondensedIteration {
   /// Of the mesh motion that the mesh equations' own residual asks for: it enters the flow's right-hand side only, and
   /// what it leaves comes back in the next residual.
   static constexpr double mesh_rows_tolerance = 1e-3;
-  /// Of a correction's mesh motion, over that of its velocities and pressures, and at most. What it leaves is a residual
-  /// of the mesh equations, and the next correction's. So a solution of Newton's method holds them as well as the others.
+  /// Tolerance of a correction's mesh motion: over that of its velocities and pressures, and its largest value. What it
+  /// leaves is a residual of the mesh equations, and the next correction's. So a solution of Newton's method holds them
+  /// as well as the others.
   static constexpr double extension_share = 0.01, loosest_extension = 1e-3;
   /// Of linear solves whose inner residual may be known in single precision.
   static constexpr double estimated_from = 1e-3;

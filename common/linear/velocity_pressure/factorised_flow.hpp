@@ -27,6 +27,7 @@ class FactorisedFlow {
   /// \param right      of the equations, in the order of the layout
   /// \param tolerance  residual over |right|
   /// \param solution   overwritten: velocities and pressures, in the order of the layout
+  /// \throws ConvergenceError as DirectSolver::solve()
   void solve(const std::vector<double>& right, double tolerance, std::vector<double>& solution);
 
   void discard() { solver_.discard(); }
@@ -39,7 +40,7 @@ class FactorisedFlow {
   const VelocityPressureLayout<n>& layout_;
   DirectSolver::Options options_;
   GatheredMatrix matrix_;
-  int gathered_ = 0;  ///< version of the numbering whose factors it holds
+  int gathered_ = 0;  ///< Numbering::version that the matrix was gathered with
   DirectSolver solver_;
   std::vector<double> scale_;  ///< the system's unknown over that of the layout
 };

@@ -13,7 +13,8 @@
 
 namespace fsi {
 
-/// What FastSolver makes by others where several processes share a scene; empty: what one process takes.
+/// Makers of what FastSolver needs where several processes share a scene. Empty ones: FastSolver makes what serves on
+/// one process.
 template <int n>
 struct FastParts {
   using MakeSolver = std::function<std::unique_ptr<LinearSolver>(const JacobianBlocks<n>&)>;
@@ -24,13 +25,13 @@ struct FastParts {
 };
 
 /// `fast`: the linear solver that a user should run. What is known exactly is eliminated: the numbering holds one
-/// velocity on the interface, and the mesh displacement follows from it by a harmonic extension whose matrix is
-/// factorised once. An outer iteration computes residuals of the whole system in double precision; corrections come
-/// from GMRES in single precision for velocities and pressures of both media without shape derivatives,
-/// preconditioned by a FlowPreconditioner. The shape derivatives, small against the rest, come back through
-/// the residual. Small systems are factorised; so is one that defeats the iteration, and a larger one in two dimensions
-/// whose wall is stiff. On several processes the same iteration runs on all of them together, each with the rows of its own
-/// unknowns.
+/// velocity on the interface, and the mesh displacement follows from it by an extension (MeshExtension), whose matrix
+/// is set up anew only when it changes. An outer iteration computes residuals of the whole system in double precision;
+/// corrections come from GMRES in single precision for velocities and pressures of both media, preconditioned by a
+/// FlowPreconditioner. Of the shape derivatives their matrix has those of InterfaceShapeDerivatives. The others, small
+/// against the rest, come back through the residual. Small systems are factorised; so is one that defeats the
+/// iteration, and a larger one in two dimensions whose wall is stiff. On several processes the same iteration runs on
+/// all of them together, each with the rows of its own unknowns.
 template <int n>
 class FastSolver : public LinearSolver {
  public:
@@ -59,7 +60,7 @@ class FastSolver : public LinearSolver {
   MediumPreconditioner* medium_preconditioner() override;
   bool is_iterative() const override { return iterative_ != nullptr; }
 
-  /// The Jacobian is factorised: the system is small, or the iteration failed on it.
+  /// The Jacobian is factorised: the system is small, its wall is stiff in two dimensions, or the iteration failed.
   bool uses_factorisation() const { return direct_ || factorised_; }
 
  private:

@@ -27,7 +27,8 @@ class FlowPreconditioner {
   virtual void set_up(const BlockPreconditionerChoices& choices) = 0;
   /// z = P^-1 r, both of the matrix's size; ghosts in r are zero, those in z get the owners' values.
   virtual void apply(VectorView<const float> r, VectorView<float> z) = 0;
-  /// Besides, product = F z, ghosts zero where they were: one may know part of it.
+  /// Also product = F z, its ghosts left as they are. Overridden where the preconditioner already knows part of that
+  /// product.
   virtual void apply(VectorView<const float> r, VectorView<float> z, VectorView<float> product) {
     apply(r, z);
     matrix_.multiply(z, product);

@@ -48,8 +48,9 @@ class FlowSchurComplement {
                     !policy.decide(processes.sum(std::int64_t{layout_.own_pressures})).iterates);
   }
 
-  /// p = S^-1 (r - B v), up to the rows' scale; ghosts get their values.
-  /// \param r  of the pressures \param v  of the matrix's velocity_size(), ghosts with their values
+  /// p = approximate S^-1 (r - B v). The rows of S and of r - B v are scaled alike (row_scale()), p is not. Ghosts in p
+  /// get the owners' values.
+  /// \param r  of own pressures \param v  of the matrix's velocity_size(), with its ghosts
   void apply(const float* r, const std::vector<float>& v, std::vector<float>& p) {
     parallel_for(layout_.own_pressures, layout_.own_pressures > 500, [&](int row) {
       residual_[row] =

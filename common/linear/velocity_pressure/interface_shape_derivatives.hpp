@@ -43,7 +43,8 @@ class InterfaceShapeDerivatives {
     for (auto c = row.first; c != row.second; ++c)
       for_numbers(*c, [&](int i, int k, double value, double factor) { add(c->u, i, k, factor * value); });
   }
-  /// rows += their product with a displacement of the mesh, n numbers a fluid node and a velocity node.
+  /// rows += their product with a displacement of the mesh.
+  /// \param mesh  n numbers a fluid node \param rows  n numbers a velocity node
   void add_product(const std::vector<double>& mesh, std::vector<double>& rows) const {
     for (const Coupling& c : couplings_)
       for_numbers(c, [&](int i, int k, double value, double /*factor*/) {

@@ -26,8 +26,8 @@ class JacobianPolicy {
                                     {options.direct_below, options_of_iteration, blocks.numbering.processes->size()}),
                        blocks.numbering.whole_size(), blocks.coupled(), nullptr) {}
 
-  /// Of one medium, which is solved as a system of both would be: one that iterates beside one that is factorised is solved
-  /// for each datum by itself, which takes longer than either.
+  /// Of one medium of a coupled scene, decided as for the system of both. A medium that iterates beside a factorised
+  /// one would be solved for each interface datum by itself, which takes longer than to iterate or to factorise both.
   /// \param size_of_both  unknowns, the mesh's included
   /// \param of_wall       where the wall's policy leaves its decision for the fluid's; the wall's Jacobian is made first
   JacobianPolicy(const JacobianBlocks<n>& blocks, const FastOptions& options, std::int64_t size_of_both,
@@ -37,9 +37,9 @@ class JacobianPolicy {
 
   /// The decision depends on the Jacobian's values.
   bool wall_decides() const { return wall_decides_; }
-  /// A clause for whoever runs it, of what is decided for each Jacobian; empty: nothing is.
+  /// For the log: a clause on what is decided anew for each Jacobian; empty: nothing is.
   std::string rule() const { return wall_decides_ ? SolverPolicy::rule_of_wall() : ""; }
-  /// On the values that the blocks hold.
+  /// On the values that the blocks hold. By all processes together.
   const SolverDecision& decision() {
     if (!decision_) decision_ = decide();
     return *decision_;

@@ -60,7 +60,8 @@ class MomentumDiagonals {
   std::vector<double>& inverse() {
     return inverse_;
   }
-  /// Diagonal over lumped diagonal of the wall's momentum: how far stiffness exceeds inertia.
+  /// Diagonal over lumped diagonal of the wall's momentum: how far stiffness exceeds inertia. Without unit; 1 without a
+  /// wall.
   double stiffness() const {
     return stiffness_;
   }

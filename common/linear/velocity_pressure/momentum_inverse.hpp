@@ -57,7 +57,7 @@ class MomentumInverse {
   bool has_few_pressures() const { return few_pressures_; }
   /// D^-1, n numbers a velocity node.
   const std::vector<double>& inverse_diagonal() const { return diagonals_.inverse(); }
-  /// The same in the order of the matrix, `lanes` numbers a node.
+  /// The same in the order of the matrix, `lanes` numbers a node; zero at ghosts.
   const std::vector<float>& single_inverse_diagonal() const { return inverse_lumped_; }
 
   /// x = approximate A^-1 b: symmetric sweeps within each process, and where the wall is stiff its coarse correction and

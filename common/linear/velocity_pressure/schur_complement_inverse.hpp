@@ -22,7 +22,8 @@ class SchurComplementInverse {
  public:
   /// Takes present values. By all processes together.
   /// \param share      of rows and columns
-  /// \param factorise  where -S is positive definite; else, and where it is not, by multigrid
+  /// \param factorise  try a Cholesky factor; multigrid serves where -S is not positive definite or the factor does not
+  ///                   fit
   void set_up(const CsrMatrix<double>& s, const ShareOfNumbers& share, const ScalarMultigrid::Options& options,
               bool factorise) {
     processes_ = share.processes;

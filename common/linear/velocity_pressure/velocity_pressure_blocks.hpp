@@ -31,6 +31,7 @@ class VelocityPressureBlocks {
   void for_blocks_of(int velocity, Visit visit) const {
     layout_.for_nodes_of(velocity, [&](const auto& of) { for_blocks_of_node(of.wall, of.node, visit); });
   }
+  /// The same for the rows of one node. \param wall  the node is the wall's, else the fluid's
   template <class Visit>
   void for_blocks_of_node(bool wall, int node, Visit visit) const {
     const auto& matrix = wall ? *blocks_.wall : *blocks_.fluid;

@@ -30,7 +30,7 @@ class VelocityPressureLayout {
   std::vector<int> fluid_of_velocity, wall_of_velocity;  ///< per velocity node, the first of its nodes; -1: none
   std::vector<int> node_of_pressure;                     ///< per pressure, node of its part
   std::vector<char> wall_pressure;                       ///< per pressure: it is the wall's
-  double wall_factor = 1;                                ///< d = wall_factor v, as of the last update()
+  double wall_factor = 1;                                ///< ms: d = wall_factor v, as of the last update()
 
   explicit VelocityPressureLayout(const JacobianBlocks<n>& blocks) : numbering_(blocks.numbering) {
     struct Node {
@@ -137,8 +137,8 @@ class VelocityPressureLayout {
   /// Component k of a velocity node is an unknown, in one medium at least.
   bool is_free(int velocity, int k) const { return entries_[VectorLayout<n>::vector(velocity, k)].unknown >= 0; }
 
-  /// Of the row of a pressure: the wall's volume condition is divided by dt, so that the Schur complement is symmetric
-  /// where the Jacobian is.
+  /// Factor of a pressure's row: the wall's volume condition is divided by wall_factor, so that the Schur complement is
+  /// symmetric where the Jacobian is.
   double row_scale(int pressure) const { return wall_pressure[pressure] ? 1 / wall_factor : 1; }
 
   std::size_t velocity_size() const { return static_cast<std::size_t>(velocities) * n; }
@@ -153,7 +153,8 @@ class VelocityPressureLayout {
     for (std::size_t i = 0; i < velocity_size(); ++i) mine[i] = equation(entries_[i].unknown);
     for (int p = 0; p < pressures; ++p) mine[velocity_size() + p] = equation(pressure_unknown_[p]);
   }
-  /// Writes velocities and pressures as the system's unknowns.
+  /// Writes velocities and pressures, of size(), as the system's unknowns, of Numbering::columns(). Other unknowns
+  /// stay.
   void give(const std::vector<double>& mine, std::vector<double>& system) const {
     for (std::size_t i = 0; i < velocity_size(); ++i)
       if (entries_[i].unknown >= 0) system[entries_[i].unknown] = velocity_scale_[i] * mine[i];

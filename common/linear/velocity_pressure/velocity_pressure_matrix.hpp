@@ -46,8 +46,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   std::size_t velocity_size() const { return static_cast<std::size_t>(layout_.velocities) * lanes; }
   std::size_t size() const { return velocity_size() + layout_.pressures; }
 
-  /// The same unknowns in double precision, not padded, and back.
-  /// \param to  of size()
+  /// to = factor * from. \param from  in double precision, in the order of the layout \param to  of size(), padded
   void take(const std::vector<double>& from, double factor, VectorView<float> to) const {
     parallel_for(layout_.velocities, layout_.velocities > 2000, [&](int v) {
       for (int i = 0; i < lanes; ++i)
@@ -57,6 +56,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     for (int p = 0; p < layout_.pressures; ++p)
       to[velocity_size() + p] = static_cast<float>(factor * from[layout_.velocity_size() + p]);
   }
+  /// The reverse: to = factor * from, `to` resized to the size of the layout.
   void give(VectorView<const float> from, double factor, std::vector<double>& to) const {
     to.resize(layout_.size());
     parallel_for(layout_.velocities, layout_.velocities > 2000, [&](int v) {
@@ -81,7 +81,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     });
     multiply_continuity(x, y);
   }
-  /// The pressures' rows of it.
+  /// The pressures' rows of y = F x.
   void multiply_continuity(VectorView<const float> x, VectorView<float> y) const {
     const float* pressure = x.data() + velocity_size();
     float* rows = y.data() + velocity_size();
@@ -117,7 +117,8 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     return even + odd;
   }
 
-  /// The norm of what rounding of A's numbers may do to F x (SplitBlocks::rounding_squared).
+  /// An estimate of the norm of F x's error by the rounding of A's numbers (SplitBlocks::rounding_squared), over all
+  /// processes. By all of them together. \param x  velocities first
   double rounding(const std::vector<float>& x) const {
     double sum = 0;
     for (int v = 0; v < layout_.own_velocities; ++v)

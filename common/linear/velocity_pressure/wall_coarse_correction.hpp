@@ -69,7 +69,8 @@ class WallCoarseCorrection {
     multigrid_.set_up(stiffness_, share_, points_, options, fixed_);
   }
 
-  /// velocity += correction for `residual`.
+  /// velocity += correction for `residual`, at own velocity nodes of the wall; ghosts stay as they are. Both have
+  /// `lanes` floats a velocity node. By all processes together.
   void add(const std::vector<float>& residual, std::vector<float>& velocity) {
     for (std::size_t i = 0; i < nodes_.size(); ++i)
       store<n>(load<n>(residual.data() + static_cast<std::size_t>(nodes_[i]) * lanes), residual_.data() + i * lanes);

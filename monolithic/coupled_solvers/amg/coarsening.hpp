@@ -45,23 +45,28 @@ Coarsening extend_interface(const NodeGraph& strong, const NodeMarks& marks, con
 /// Coarsens a volume on its own. Where it has an interface, that is coarsened first, on its own subgraph.
 Coarsening coarsen(const NodeGraph& strong, const NodeMarks& marks, const CoarseningOptions& options);
 
-/// The graph of strong couplings: |A_ij|^2 > threshold^2 |A_ii| |A_jj| with Frobenius norms of the vector parts
-/// (leading Vector x Vector entries), made symmetric; threshold 0 keeps all couplings.
+/// The graph of strong couplings: |A_ij|^2 > threshold^2 |A_ii| |A_jj| with Frobenius norms of the vector parts, made
+/// symmetric.
+/// \param vector     the vector part is the leading `vector` x `vector` entries of a block
+/// \param threshold  0 keeps all couplings
 template <int Size>
 NodeGraph strong_graph(const BlockMatrix<Size, Size>& a, int vector, double threshold);
 
-/// Prolongation smoothing by one damped Jacobi step, P <- (I - omega D^-1 A_F) P, A_F being A without the couplings
-/// that `marks` forbids, its row sums kept; [Vanek1996]. The weights of all Numbers share one average.
+/// Prolongation smoothing by one damped Jacobi step, P <- (I - omega D^-1 A_F) P; [Vanek1996]. A_F is A with its
+/// couplings to interface nodes lumped on the diagonal, unless options.interior_from_interface. Rows of prescribed and
+/// of interface nodes stay as they are. Components share their weights: A is averaged over its Numbers.
+/// \param tentative  P before
 template <int Numbers>
 NodeTransfer smoothed(const BlockMatrix<1, Numbers>& a, const NodeMarks& marks, const NodeTransfer& tentative,
                       const CoarseningOptions& options, double omega);
 
-/// Colours the rows of a symmetric graph so that no two coupled rows share a colour; greedy in row order.
+/// Rows of a graph by colour; no two coupled rows share a colour.
 struct RowColours {
   std::vector<int> offsets;  ///< colours + 1
   std::vector<int> rows;     ///< by colour, ascending within
   int colours() const { return static_cast<int>(offsets.size()) - 1; }
 };
+/// Colours the rows of a symmetric graph, greedily in row order.
 RowColours colour_rows(const NodeGraph& graph);
 
 }  // namespace fsi

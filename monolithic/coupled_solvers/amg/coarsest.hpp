@@ -12,13 +12,14 @@ namespace fsi {
 template <int Size>
 class CoarsestSolver {
  public:
-  /// Factorises; the pattern of the first call stays.
-  /// \throws ConvergenceError when the matrix is singular to working precision
+  /// Factorises; the pattern must be that of the first call.
+  /// \throws ConvergenceError where a pivot is zero or not finite, OutOfMemory
   void update(const BlockMatrix<Size, Size>& a) {
     if (matrix_.offsets.empty()) make_pattern(*a.graph);
     for (std::size_t k = 0; k < source_.size(); ++k) matrix_.values[k] = a.values[source_[k]];
     solver_.factorise(matrix_);
   }
+  /// x = A^-1 b. \throws ConvergenceError where the matrix is singular to working precision
   void solve(const std::vector<double>& b, std::vector<double>& x) const { solver_.solve(matrix_, b, x); }
   std::size_t bytes() const {
     return 16 * static_cast<std::size_t>(solver_.factor_nonzeros()) + matrix_.values.size() * 24;

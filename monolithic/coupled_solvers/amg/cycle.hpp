@@ -35,7 +35,8 @@ class MultigridCycle {
   /// Kind and steps may change between cycles.
   void set_cycle(CycleKind kind, int pre_smoothing, int post_smoothing);
 
-  /// One cycle for A_level x = b, from x = 0 or from the given x. Sizes must fit; does not allocate.
+  /// One cycle for A_level x = b, from x = 0 or from the given x; on the coarsest level the direct solution. Sizes must
+  /// fit; does not allocate. \throws ConvergenceError where the coarsest matrix is singular to working precision
   void cycle(int level, const std::vector<double>& b, std::vector<double>& x, bool from_zero = true);
   /// y = A_level x
   void multiply(int level, const std::vector<double>& x, std::vector<double>& y) const { apply(level, x, y); }

@@ -27,7 +27,8 @@ struct EllipticAmgOptions {
 };
 
 /// Multigrid for an elliptic problem whose `Components` components do not couple: mesh motion. Gauss-Seidel, forwards
-/// before and backwards after the coarse correction, so that a V-cycle is symmetric where the matrix is.
+/// before and backwards after the coarse correction, so that a V-cycle with as many steps before as after is symmetric
+/// where the matrix is.
 /// \tparam Numbers  numbers a node pair: 1 for all components, or one for each (axisymmetric)
 template <int Components, int Numbers = 1>
 class EllipticAmg : public MultigridCycle {
@@ -78,6 +79,8 @@ class EllipticAmg : public MultigridCycle {
   }
 
   /// The matrix (all matrices, if given from outside) holds new values on the same pattern.
+  /// \throws ConvergenceError, as build() does, where a pivot of the coarsest matrix is zero; a matrix that is singular
+  /// to working precision throws in cycle()
   void update() {
     for (std::size_t l = 0; l < products_.size(); ++l) {
       products_[l].compute(*matrices_[l], *own_[l]);

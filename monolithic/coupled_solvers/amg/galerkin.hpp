@@ -25,7 +25,7 @@ class GalerkinProduct {
   using Matrix = BlockMatrix<Rows, Columns>;
 
   GalerkinProduct() = default;
-  /// The transfers must outlive the product.
+  /// \param fine  the fine graph, read by the constructor alone; the product shares the transfers
   GalerkinProduct(const NodeGraph& fine, std::shared_ptr<const NodeTransfer> left,
                   std::shared_ptr<const NodeTransfer> right)
       : left_(std::move(left)),

@@ -93,7 +93,8 @@ class SaddleAmg : public MultigridCycle {
   }
 
   /// The matrix (all matrices, if given from outside) holds new values on the same pattern.
-  /// \throws ConvergenceError when the coarsest matrix is singular to working precision
+  /// \throws ConvergenceError, as build() does, where a pivot of the coarsest matrix is zero; a matrix that is singular
+  /// to working precision throws in cycle()
   void update() {
     for (std::size_t l = 0; l < products_.size(); ++l) compute_level(l);
     for (std::size_t l = 0; l < smoothers_.size(); ++l) smoothers_[l]->update(*matrices_[l]);

@@ -18,6 +18,7 @@ class SaddleSmoother {
   /// The matrix holds new values on the same pattern.
   virtual void update(const Matrix& a) = 0;
   /// `steps` smoothing steps on x.
+  /// \param a          the matrix of the last update()
   /// \param backward   unknowns in reverse order: for post-smoothing
   /// \param from_zero  x is zero
   virtual void smooth(const Matrix& a, const std::vector<double>& b, std::vector<double>& x, int steps, bool backward,

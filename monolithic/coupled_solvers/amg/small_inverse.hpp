@@ -5,9 +5,10 @@
 
 namespace fsi {
 
-/// Inverts a dense row-major matrix in place by Gauss-Jordan elimination with row pivoting. Returns false when it is
-/// singular to working precision.
+/// Inverts a dense row-major matrix of `size` rows in place by Gauss-Jordan elimination with row pivoting.
 /// \param pivots  room for `size` numbers
+/// \returns false where a pivot is below 1e-300 or not a number, `a` then being overwritten in part. A matrix that is
+/// singular to rounding may pass
 inline bool invert_in_place(double* a, int size, int* pivots) {
   for (int k = 0; k < size; ++k) {
     int pivot = k;

@@ -9,8 +9,8 @@ namespace fsi {
 /// table): one V-cycle gains about a digit on the coarse and intermediate mesh.
 
 /// Blood: mass-dominated, and its stabilisation time is half the time step whatever the mesh, so that the Galerkin
-/// stabilisation is right on coarse levels as it is. The factor 1.2 damps the pressure step where the diagonal
-/// underestimates A.
+/// stabilisation is right on coarse levels as it is. The factor 1.2 makes up for diagonal blocks that underestimate A:
+/// it lowers Ahat^-1, in the Schur complement and in the velocity correction.
 inline SaddleAmgOptions fluid_amg_options() {
   SaddleAmgOptions options;
   options.stabilisation_growth = 0;
@@ -26,7 +26,7 @@ inline SaddleAmgOptions fluid_amg_options() {
 inline SaddleAmgOptions wall_amg_options(SaddleSmootherKind smoother = SaddleSmootherKind::braess_sarazin) {
   SaddleAmgOptions options;
   options.smoother = smoother;
-  // Vanka cannot be told to solve the pressure better: the coarse correction has to be milder.
+  // Vanka has no sweeps for the pressure alone, so coarse corrections of the pressure are damped more.
   options.scalar_correction = smoother == SaddleSmootherKind::vanka ? 0.5 : 0.7;
   options.interior_from_interface = false;
   options.stabilisation_growth = 1.0 / 3.0;

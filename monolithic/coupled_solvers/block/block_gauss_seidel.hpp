@@ -15,7 +15,8 @@ struct BlockDamping {
 /// Damped block Gauss-Seidel iteration, the smoother of the coupled system ([Langer2018], algorithm 2):
 ///   d_m += omega_m A~m^-1 (r_m - Am d_m - Ams u_s)
 ///   u_f += omega_f A~f^-1 (r_f - Afm d_m - Af u_f - Afs u_s)
-///   u_s += omega_s A~s^-1 (r_s - Asf u_f - As u_s), each with the newest values.
+///   u_s += omega_s A~s^-1 (r_s - Asf u_f - As u_s), each with the newest values,
+/// u_f being (u, p_f) and u_s (d_s, p_s).
 template <int n>
 class BlockGaussSeidel {
  public:

@@ -10,11 +10,11 @@
 
 namespace fsi {
 
-/// A linear approximation of K^-1.
+/// An approximation of K^-1. Linear, as GMRES needs it, but for CoupledCycle of kinds k and amli.
 class CoupledPreconditioner {
  public:
   virtual ~CoupledPreconditioner() = default;
-  /// x = P~^-1 b
+  /// x = P~^-1 b; all parts of b and x have their sizes.
   virtual void apply(const CoupledVector& b, CoupledVector& x) = 0;
 };
 

@@ -17,11 +17,12 @@ namespace fsi {
 ///
 ///       [ Am   0    Ams ]   mesh motion:  d_m per fluid node; boundary: identity rows; interface: d_m - d_s = 0
 ///   K = [ Afm  Af   Afs ]   flow:         (u, p_f) per fluid node; momentum rows of the interface sum fluid and wall
-///       [ 0    Asf  As  ]   wall:         (d_s, p_s) per wall node; -u + d_s / dt = 0 on the interface
+///       [ 0    Asf  As  ]   wall:         (d_s, p_s) per wall node; -u + d_s / period = 0 on the interface
 ///
 /// Entries without unknown (Dirichlet) have identity rows and zero columns. The interface conditions tie all components
-/// of two vectors alike, so Ams and Asf hold one number per pair of nodes: -1 on the finest level. The blocks live
-/// elsewhere: the diagonal ones of coarse levels in the multigrid hierarchies of the sub-problems.
+/// of two vectors alike, so Ams and Asf hold one number per pair of nodes: -1 on the finest level. `period` is that of
+/// InterfaceKinematics. The blocks are not owned and must outlive this: on the finest level CoupledSystem has them, on
+/// coarse levels CoupledMultigrid and the hierarchies of its sub-problems.
 template <int n>
 struct CoupledMatrix {
   const BlockMatrix<1, n>* mesh = nullptr;                              ///< Am, one number per component

@@ -27,8 +27,8 @@ std::vector<char> whole_nodes(const std::vector<char>& components) {
   return nodes;
 }
 
-/// The paper's K x = b made from the Jacobian of a scene, which numbers one unknown on the interface: matrix, and the
-/// ways of right-hand sides and solutions to and fro. Fluid and wall must both be there.
+/// The paper's K x = b made from the Jacobian of a scene, whose numbering has one unknown on the interface: the matrix,
+/// and the conversion of right-hand sides and solutions. Fluid and wall must both be there.
 template <int n>
 class CoupledSystem {
  public:
@@ -48,10 +48,11 @@ class CoupledSystem {
   /// Takes over the mesh motion's operator alone.
   void update_mesh_motion();
 
-  /// b of K from b of the numbering: mesh, flow and wall equations to their rows; identity rows are zero.
+  /// b of K from b of the numbering: mesh, flow and wall equations to their rows. Identity rows are zero, and so are
+  /// the wall's rows on the interface, whose equations are in the flow's rows.
   void expand(const std::vector<double>& condensed, CoupledVector& b) const;
 
-  /// x of the numbering from x of K: on the interface the wall's displacement.
+  /// x of the numbering, `numbering.size` entries, from x of K: on the interface the wall's displacement.
   void compress(const CoupledVector& x, std::vector<double>& condensed) const;
 
  private:

@@ -18,9 +18,11 @@ struct CoupledNodes {
 
 /// Transfers diag(P_m, P_f, P_s) from each level to the next. The interface is coarsened once, and its weights are the
 /// same in all three fields: P_m = P_f = P_s there, so that the coarse conditions are again d_m = d_s and
-/// u = d(d_s)/dt. Nodes of mesh and wall off the interface do not interpolate from it: its rows are conditions there,
-/// not equations of the sub-problem, and restriction must not add the two up. The flow's rows on it are momentum
+/// u = d_s / period. Nodes of mesh and wall off the interface do not interpolate from it: its rows are conditions
+/// there, not equations of the sub-problem, and restriction must not add the two up. The flow's rows on it are momentum
 /// equations as all others.
+/// \returns one entry per coarse level; none where the finest level has at most options.coarsest_nodes fluid and wall
+/// nodes
 std::vector<CoupledTransfer> coarsen_coupled(CoupledNodes nodes, const CoupledCoarseningOptions& options);
 
 }  // namespace fsi

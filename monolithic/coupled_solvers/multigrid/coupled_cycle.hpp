@@ -57,7 +57,8 @@ class CoupledCycle : public CoupledPreconditioner {
   /// \param levels  finest first; must outlive the cycle
   CoupledCycle(Levels& levels, const CoupledCycleOptions& options) : levels_(levels), options_(options) {}
 
-  /// The coarsest matrix has new values.
+  /// Factorises the coarsest matrix with the values that it holds now; to be called before the first cycle.
+  /// \throws ConvergenceError when it is singular, OutOfMemory
   void factorise_coarsest() {
     coarsest_matrix_ = sparse_matrix(levels_.back()->k);
     coarsest_ = {};  // entries that vanish are left out, so the pattern may differ
@@ -69,7 +70,7 @@ class CoupledCycle : public CoupledPreconditioner {
     iterate(0, b, x);
   }
 
-  /// x <- AMG(K_l, x, b)
+  /// One cycle from x, x <- AMG(K_l, x, b); on the coarsest level x <- K_l^-1 b. All parts of x have their sizes.
   void iterate(std::size_t l, const CoupledVector& b, CoupledVector& x) {
     auto& level = *levels_[l];
     if (l + 1 == levels_.size()) {
@@ -105,7 +106,7 @@ class CoupledCycle : public CoupledPreconditioner {
   }
 
  private:
-  /// The coarse level's own approximate solution of its K x = b.
+  /// Solves K x = b of a coarse level approximately, from x = 0, as the kind of the cycle asks.
   void correct(std::size_t l) {
     auto& level = *levels_[l];
     const bool coarsest = l + 1 == levels_.size();

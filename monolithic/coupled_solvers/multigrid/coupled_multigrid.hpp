@@ -31,7 +31,7 @@ class AmgSubSolver : public SubSolver {
 /// With one level the sub-solvers are factorisations.
 struct CoupledMultigridOptions {
   CoupledCoarseningOptions coarsening;
-  EllipticAmgOptions mesh = mesh_amg_options();  ///< of these three: cycle, smoother; the coarsening is the coupled one
+  EllipticAmgOptions mesh = mesh_amg_options();  ///< options of coarsening in these three have no effect
   SaddleAmgOptions fluid = fluid_amg_options(), wall = wall_amg_options();
 };
 
@@ -65,7 +65,7 @@ class CoupledMultigrid {
   /// The mesh motion's operator alone was assembled again.
   void update_mesh_motion() { mesh_.update(); }
 
-  /// Lays down the smoothing steps of all levels for the present values.
+  /// Sets smoothing steps and damping of all levels but the coarsest for the values that the matrices hold now.
   void set_smoothing(const CoupledSmoothingOptions& options);
 
   Levels& levels() { return levels_; }
@@ -122,8 +122,9 @@ class CoupledMultigrid {
 
   void make_levels();
 
-  /// By power iterations x <- S(x, 0) from a fixed start, so that a restarted run gets the same number. Three estimates
-  /// on the way, which approach the eigenvalue like a geometric sequence, are extrapolated to its limit (Aitken).
+  /// Modulus of the largest eigenvalue of the undamped smoother S, by power iterations x <- S(x, 0) from a fixed start,
+  /// so that a restarted run gets the same number. Three estimates on the way, which approach it like a geometric
+  /// sequence, are extrapolated to its limit (Aitken). \returns 0 where the iteration vanishes
   double largest_eigenvalue(CoupledLevel<n>& level, int iterations) const;
 
   template <class Count>

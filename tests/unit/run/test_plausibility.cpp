@@ -54,6 +54,19 @@ TEST(Plausibility, NamesUnitsOfFlowsAndTimes) {
   expect_named(warning_of(tube(25, 80, 0.8)), "times in s");
 }
 
+TEST(Plausibility, NamesPressuresWhereTheyDriveTheFlow) {
+  DerivedNumbers numbers = tube(1.2, 1);
+  OpeningFlow& flow = numbers.flows.front();
+  flow.drive = {100, 100, 800, 1.06, 4e-3};  // 100 mmHg taken for kPa: viscosity allows least
+  flow.velocity = driven_velocity(*flow.drive, flow.diameter);
+  EXPECT_NEAR(flow.velocity, 11.25, 1e-12);
+  flow.reynolds = 1.06 * flow.velocity * 1.2 / 4e-3;
+  const std::string said = warning_of(numbers);
+  expect_named(said, "at most about 11.2 m/s in the mean, Reynolds number 3.58e+03");
+  expect_named(said, "pressures in mmHg");
+  EXPECT_EQ(said.find("flows in"), std::string::npos) << said;
+}
+
 TEST(Plausibility, AsksTheWall) {
   DerivedNumbers numbers = tube(25, 400);
   numbers.wave_speed = 5;
