@@ -33,6 +33,11 @@ LARGEST_TEXT = 600_000
 STEPS = 20_000
 INCLUDE = re.compile(r"\s*#\s*include\s*(\S+)")
 UNNAMED = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.MULTILINE | re.DOTALL)
+# A comment, the group; or what may look like one inside: strings and characters.
+COMMENT = re.compile(
+    r"""(//[^\n]*|/\*.*?\*/)|R"(?P<mark>[^(]*)\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"|(?<!\w)'(?:\\.|[^'\\\n])+'""",
+    re.DOTALL,
+)
 # What a line without indent defines: a class, a type, what stands before a value, or before parameters, which are a part of
 # a function's name.
 DEFINED = re.compile(
@@ -93,8 +98,14 @@ def sources_of(root: Path, flags: dict[str, list[str]]) -> list[Path]:
     return sorted(path for path in found if str(path) in flags)
 
 
+def code_of(text: str) -> list[str]:
+    """What a source says to the compiler and to clang-tidy: without comments, but for those that silence a finding."""
+    kept = COMMENT.sub(lambda found: " " if found[1] and "NOLINT" not in found[1] else found[0], text)
+    return kept.split()
+
+
 def changed_since(root: Path, record: Path) -> set[Path] | None:
-    """Files that are not as they were at the commit that the record names; None: that cannot be told."""
+    """Files whose code is not as it was at the commit that the record names; None: that cannot be told."""
     commit = record.read_text().split()[0]
     git = ["git", "-C", str(root)]
     done = subprocess.run(
@@ -103,7 +114,17 @@ def changed_since(root: Path, record: Path) -> set[Path] | None:
     new = subprocess.run([*git, "ls-files", "--others", "--exclude-standard"], stdout=subprocess.PIPE, text=True)
     if done.returncode != 0 or new.returncode != 0:
         return None
-    changed = {root / name for name in (*done.stdout.splitlines(), *new.stdout.splitlines())}
+
+    def differs(name: str) -> bool:
+        path = root / name
+        if path.suffix not in (".cpp", ".hpp") or not path.exists():
+            return True
+        old = subprocess.run(
+            [*git, "show", f"{commit}:{name}"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
+        return old.returncode != 0 or code_of(old.stdout) != code_of(path.read_text())
+
+    changed = {root / name for name in (*filter(differs, done.stdout.splitlines()), *new.stdout.splitlines())}
     return None if root / ".clang-tidy" in changed else changed
 
 

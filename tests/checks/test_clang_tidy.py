@@ -10,6 +10,7 @@ from pathlib import Path
 
 from clang_tidy import (
     changed_since,
+    code_of,
     compiler_flags,
     groups,
     jobs,
@@ -67,6 +68,13 @@ class ClangTidy(unittest.TestCase):
     def test_nothing_is_found_in_a_clean_tree(self) -> None:
         self.assertEqual(self.found(a=GOOD, b=GOOD.replace("one", "other")), "")
 
+    def test_comments_are_no_code(self) -> None:
+        self.assertEqual(code_of('a("//"); // b\nc /* d */ e'), ['a("//");', "c", "e"])
+        self.assertEqual(code_of("x = '\"'; // b"), ["x", "=", "'\"';"])
+        self.assertEqual(code_of('R"x(// a)" )x" // b'), ['R"x(//', 'a)"', ')x"'])
+        self.assertEqual(code_of("1'000 // a\n+ 2'000"), ["1'000", "+", "2'000"])
+        self.assertNotEqual(code_of("a // NOLINT(x)"), code_of("a // b"))
+
     def test_what_has_changed_since_a_commit(self) -> None:
         def git(*words: str) -> str:
             who = ["-c", "user.name=a", "-c", "user.email=a@b"]
@@ -85,6 +93,10 @@ class ClangTidy(unittest.TestCase):
             return [source.stem for source in touched(self.root, sources, changed or set())]
 
         self.assertEqual(names(), [])
+        (self.root / "common/mesh/b.cpp").write_text("/* Both\n of them. */\nint\ntwo();  // said at last\n")
+        self.assertEqual(names(), [], "comments and line breaks alone")
+        (self.root / "common/mesh/b.cpp").write_text("int two();  // NOLINT\n")
+        self.assertEqual(names(), ["b"], "a comment that silences a finding")
         (self.root / "common/mesh/b.cpp").write_text("int two(int);\n")
         self.assertEqual(names(), ["b"])
         (self.root / "common/mesh/header.hpp").write_text(HEADER + "inline int thrice(int x) { return 3 * x; }\n")
