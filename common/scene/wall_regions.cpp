@@ -76,8 +76,7 @@ void cut_out_regions(const Case& setup, SimplexMesh<Dim, Order>& mesh, std::vect
     const int index = mesh.region_index(name);
     if (std::find(mesh.cell_region.begin(), mesh.cell_region.end(), index) != mesh.cell_region.end()) continue;
     if (layer.part_of.empty() && index < 0) continue;  // reported where layers are looked up
-    throw InputError(setup.path.string(), "structure.region",
-                     fmt::format("later regions leave no element to {}", name),
+    throw InputError(setup.path.string(), "structure.region", fmt::format("later regions leave no element to {}", name),
                      layer.part_of.empty() ? "leave some, or give the volume as a layer the constants that it has"
                                            : "remove that region, or give it a higher order");
   }
