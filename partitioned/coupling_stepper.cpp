@@ -248,7 +248,8 @@ double CouplingStepper<n>::size_of(const Pass& pass) const {
 
 template <int n>
 void CouplingStepper<n>::measure(const Pass& pass) {
-  coupling_.displacement_gap = space_.norm(pass.residual);
+  const std::vector<double> gap = pass.gap();
+  coupling_.displacement_gap = space_.norm(gap);
   double size = size_of(pass);
   if (scene_.initial_load)  // displacements count from a loaded shape, and may all be next to zero
     if (const auto numbers = space_.size(pass.displacement); numbers > 0)
@@ -260,8 +261,8 @@ void CouplingStepper<n>::measure(const Pass& pass) {
   // The force residual costs an assembly of the fluid. Where nothing is demanded of it and passes are cheap, it is
   // measured in accept() alone.
   if (refines() || options_.force_tolerance > 0) coupling_.force_residual = problem_->force_residual();
-  coupling_.pressure_residual = problem_->pressure_residual(pass.residual);
-  coupling_.gap_pressure = problem_->gap_pressure(pass.residual);
+  coupling_.pressure_residual = problem_->pressure_residual(gap);
+  coupling_.gap_pressure = problem_->gap_pressure(gap);
   coupling_.traction_gap = problem_->traction_gap();
 }
 

@@ -34,6 +34,7 @@ RobinStiffness robin_stiffness(const Case& setup, const Scene<n>& scene) {
   constexpr double in_short_steps = 1, in_long_steps = 10, in_the_fluid = 1e4;
   if (wetted_sides_of(scene).stands_in_the_fluid())
     return {in_the_fluid, "the wall stands in the fluid, and is no tube around it"};
+  if (!setup.time) return {in_short_steps, "a static case has no steps"};
   const auto steps = steps_over_answer(setup, scene);
   if (!steps) return {in_short_steps, "adaptive steps are mostly short against the time within which the wall answers"};
   const double limit = steps->adaptive ? long_adaptive_step : long_step;

@@ -506,7 +506,7 @@ double HarmonicExtension<n>::memory_mib() const {
   for (const Group& group : groups_)
     bytes += group.solver.bytes() +
              static_cast<double>(group.followers.bytes() + group.matrix.bytes() + group.multigrid.bytes());
-  return bytes / (1 << 20);
+  return bytes / (1 << 20) + (rescue_ ? rescue_->memory_mib() : 0);
 }
 
 template class HarmonicExtension<2>;

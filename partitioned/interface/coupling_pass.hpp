@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "algebra/vector_operations.hpp"
 #include "base/error.hpp"
 #include "case/case.hpp"
 #include "linear/choice/general_solvers.hpp"
@@ -22,8 +23,16 @@ namespace fsi {
 /// The result of a pass. Interface vectors (interface_space.hpp) hold n numbers per interface node, ghosts behind the
 /// nodes of this process; zero where the wall is clamped.
 struct Pass {
-  std::vector<double> residual;      ///< r(x) = x~ - x in mm: the gap between the wall's and the fluid's displacement
+  std::vector<double> residual;      ///< r(x) = x~ - x, mm
   std::vector<double> displacement;  ///< d~, the wall's displacement, mm
+  double gap_part = 1;               ///< gap / r(x)
+
+  /// The wall's displacement less the fluid's, mm.
+  std::vector<double> gap() const {
+    std::vector<double> gap = residual;
+    scale(gap_part, gap);
+    return gap;
+  }
 };
 
 /// How well the sub-problems are solved in a pass.
@@ -101,14 +110,14 @@ class CouplingPass {
   virtual double pressure_per_gap() const { return push_stiffness(); }
   /// The pressure, kPa, that moves the wall by its own thickness within the stage.
   double pressure_of_thickness() const { return push_stiffness() * membrane_.thickness; }
-  /// The pressure that would close the gap r(x), relative to the force between fluid and wall
+  /// The pressure that would close a gap (Pass::gap()), relative to the force between fluid and wall
   /// (relative_gap_pressure()).
-  virtual double pressure_residual(const std::vector<double>& residual) const {
-    return relative_gap_pressure(scene_, membrane_, wall_.numbering(), *data_, residual);
+  virtual double pressure_residual(const std::vector<double>& gap) const {
+    return relative_gap_pressure(scene_, membrane_, wall_.numbering(), *data_, gap);
   }
   /// The same in kPa, root mean square over the interface.
-  double gap_pressure(const std::vector<double>& residual) const {
-    return mean_gap_pressure(scene_, membrane_, wall_.numbering(), pressure_per_gap(), residual);
+  double gap_pressure(const std::vector<double>& gap) const {
+    return mean_gap_pressure(scene_, membrane_, wall_.numbering(), pressure_per_gap(), gap);
   }
   /// Difference between the fluid's traction and the wall's load in the last pass, kPa, root mean square over the
   /// interface. 0 where the wall is loaded with the fluid's own momentum rows.

@@ -108,8 +108,8 @@ class RobinRobin : private RobinSides, public CouplingPass<n> {
   /// A gap between u and w goes with a change of the traction by alpha times it within a step: alpha / period, kPa/mm.
   double pressure_per_gap() const override { return alpha_ * data_->rates.interface.rate(); }
   /// Relative to the larger of the tractions of fluid and wall: in the first step the wall may bear nothing yet.
-  double pressure_residual(const std::vector<double>& residual) const override {
-    return traction_size_ > 0 ? Base::gap_pressure(residual) / traction_size_ : 0.0;
+  double pressure_residual(const std::vector<double>& gap) const override {
+    return traction_size_ > 0 ? Base::gap_pressure(gap) / traction_size_ : 0.0;
   }
   double traction_gap() const override { return traction_gap_; }
 
@@ -217,6 +217,7 @@ class RobinRobin : private RobinSides, public CouplingPass<n> {
     answer_of_fluid(velocity_of_wall(d), load_, accuracy);
     Pass pass = finished_pass(d);
     scale(-2, pass.residual);
+    pass.gap_part = -0.5;
     return pass;
   }
 

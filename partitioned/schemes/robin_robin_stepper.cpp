@@ -61,7 +61,7 @@ void RobinRobinStepper<n>::finish_stage(State&, const StepData&) {
 template <int n>
 double RobinRobinStepper<n>::size_of(const Pass& pass) const {
   std::vector<double> of_fluid = pass.displacement;  // in the first step it may move alone
-  axpy(-1, pass.residual, of_fluid);
+  axpy(-1, pass.gap(), of_fluid);
   return std::max(Base::size_of(pass), Base::space().norm(of_fluid));
 }
 

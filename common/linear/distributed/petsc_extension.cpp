@@ -297,6 +297,7 @@ void PetscExtension<n>::solve_by_petsc(double tolerance) {
   petsc_check(VecGetArray(x_, &x));
   std::copy(right_.begin(), right_.end(), b);
   std::copy(solution_.begin(), solution_.end(), x);
+  iterations_ = 0;
   petsc_check(VecRestoreArray(b_, &b));
   petsc_check(VecRestoreArray(x_, &x));
   if (factorised_ || !iterate(tolerance)) {
