@@ -38,7 +38,6 @@ struct AdaptRequest {
   MeshOutput output;
 };
 
-/// How many nodes the mesh may get.
 std::size_t most_nodes(const AdaptRequest& request, std::size_t there) {
   const double most = request.nodes > 0 ? request.nodes : 2.0 * static_cast<double>(there);
   if (most <= static_cast<double>(there))
@@ -56,7 +55,7 @@ std::size_t nodes_of(const AnyMesh& mesh) {
   return std::visit([](const auto& any) { return any.nodes.size(); }, mesh);
 }
 
-/// Something else than the sizes decides how many nodes there are, as counts of cells in the script do.
+/// Warns where the script decides the number of nodes otherwise than by sizes, as by counts of cells.
 void warn_of_missed_nodes(const AdaptRequest& request, std::size_t made, std::size_t most) {
   constexpr double far = 0.2;
   if (request.output.quiet || std::abs(static_cast<double>(made) / static_cast<double>(most) - 1) <= far) return;

@@ -12,7 +12,7 @@ namespace fsi {
 
 /// What the options of `fsi-mesh artery` ask for.
 struct ArteryRequest {
-  ArteryOptions sizes;  ///< dimensions and element sizes, those of the level unless given
+  ArteryOptions sizes;  ///< dimensions and element sizes
 
   // Numbers of cells; what is not given follows from the sizes, or from the mesh recommended for an element.
   std::optional<int> lumen_cells, media_cells, adventitia_cells, around, axial_cells;
@@ -24,7 +24,7 @@ struct ArteryRequest {
   bool mirrored = false;  ///< the sector and its images, the whole tube
 
   std::string for_element;                                  ///< empty: no recommendation asked for
-  std::optional<std::string> error;                         ///< percentage, 3% unless given
+  std::optional<std::string> error;                         ///< with its sign; 3% unless given
   std::string waves = wave_kinds().name_of(Waves::damped);  ///< for which error holds
 };
 

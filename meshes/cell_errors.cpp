@@ -27,7 +27,8 @@ std::array<double, Dim> coordinates_of(const Point& x) {
     return {x[0], x[1] + x[2]};
 }
 
-/// Finds cells of the mesh by the places of their vertices, which a run keeps to the last bit, though not their numbers.
+/// Finds cells of the mesh by the places of their vertices, which a run keeps to the last bit, though not their
+/// numbers.
 template <int Dim, int Order>
 class CellFinder {
  public:

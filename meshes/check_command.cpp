@@ -62,18 +62,18 @@ class Findings {
     text_ += "stops " + who + ": " + ended(text, remedy);
     ++stops_;
   }
-  /// What an error says of the file, without its name.
+  /// The text of an error without the file's name.
   void stop_by(const std::string& who, std::string error, const std::string& remedy) {
     for (const auto& name : {copy_, file_})
       if (!name.empty() && error.rfind(name + ": ", 0) == 0) error.erase(0, name.size() + 2);
     stop(who, error, remedy);
   }
 
-  /// What an import needs to name the parts as they are taken here, with a blank before it.
+  /// Options by which an import names the parts as they are taken here, with a blank before them.
   void import_needs(const std::string& options) { options_ = options; }
   const std::string& import_options() const { return options_; }
 
-  /// Errors speak of this file then, made of the user's.
+  /// Errors name this file then, which is made of the user's.
   void look_at_copy(const std::string& copy) { copy_ = copy; }
 
   const std::string& file() const { return file_; }
@@ -96,7 +96,7 @@ std::string import_with(const Findings& findings, const std::string& options) {
                      options);
 }
 
-/// What mends a fault; empty where what it says itself is all there is to be done.
+/// The command that mends a fault; empty where there is none.
 std::string remedy_of(MeshFault::Kind kind, const Findings& findings) {
   using Kind = MeshFault::Kind;
   if (kind == Kind::unused_nodes || kind == Kind::inverted_cells) return import_with(findings, "") + " mends it";
@@ -277,7 +277,7 @@ class MeshDoctor {
   void quality() {
     const auto measured = measure_quality(mesh_);
     for (const auto& line : warnings_of(measured)) {
-      // Quadratic cells bear to be long and thin, and recommended meshes are made of them (docs/guide/meshes.md).
+      // Quadratic cells may be long and thin, as those of recommended meshes are (docs/guide/meshes.md).
       if (Order == 2 && measured.min_jacobian >= poor_jacobian)
         findings_.note(line);
       else
@@ -337,7 +337,8 @@ void examine_layout(const std::string& file, const MeshLayout& layout, Findings&
   findings = found;
 }
 
-/// What fsi-compare finds, which knows all formats: units, gaps, doubled points. \param into  a file for the mesh, or empty
+/// What fsi-compare finds, which knows all formats: units, gaps, doubled points. \param into  a file for the mesh, or
+/// empty
 void examine_places(const CheckOptions& options, const std::string& into, Findings& findings) {
   std::vector<std::string> words{"convert-mesh", "--examine", "--scale", fmt::format("{}", options.scale)};
   if (!into.empty()) words.insert(words.end(), {"-o", into});

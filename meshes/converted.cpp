@@ -16,7 +16,7 @@ void refuse_file(const std::string& file, const std::string& said_of, std::strin
 
 namespace {
 
-/// Those of fsi-compare, as this program's.
+/// Repeats the warnings of fsi-compare as this program's.
 void repeat_warnings(const std::string& errors) {
   const std::string mark = "fsi-compare: warning: ";
   std::istringstream lines(errors);

@@ -9,12 +9,12 @@
 
 namespace fsi {
 
-/// What a user is told behind a report.
+/// Warnings that follow a report.
 using MeshWarnings = std::vector<std::string>;
 
-/// The curved edges of a lumen of straight ones: those of its surface, as its nodes show it (mesher/surface/smooth_edges.hpp), and
-/// those below in layers along it (mesher/curved_columns.hpp). Where cells would fold they are left straight.
-/// \param on        the surface; empty: what no named one holds
+/// The curved edges of a lumen of straight ones: those of its surface (mesher/surface/smooth_edges.hpp), and those
+/// below in layers along it (mesher/curved_columns.hpp). Where cells would fold they are left straight.
+/// \param on        the surface, as WallGrowth::on
 /// \param layers    of columns that end on the surface; none where it is empty
 /// \param said      gets sentences, each a line
 /// \param warnings  gets where edges are left straight
@@ -27,7 +27,7 @@ void add_straightened(const std::vector<Point>& middles, const std::string& whos
 /// The sentence on how the shape of the lumen changed, ended by a newline.
 std::string changed_volume(const std::string& before_text, double before, const std::string& after_text, double after);
 
-/// Of its cells, mm^3.
+/// The volume of the straight cells, mm^3.
 double straight_volume(const TetrahedralMesh& lumen);
 
 }  // namespace fsi

@@ -25,7 +25,7 @@
 
 namespace {
 
-/// The command that the command line names, to look it up in a message.
+/// Where help is to be found on the command that the command line names, for messages.
 std::string help_of(const std::vector<fsi::MeshCommand>& commands) {
   std::string named = "artery";
   for (const auto& command : commands)

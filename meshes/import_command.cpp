@@ -45,7 +45,7 @@ std::string named(const ImportRequest& request) {
   return fmt::format("{}", fmt::join(request.files, " "));
 }
 
-/// The readers are Python's, so fsi-compare reads the files. Returns what it printed.
+/// Converts the files by fsi-compare, whose readers are Python's. Returns what it printed.
 std::string convert(const ImportRequest& request, const std::vector<std::string>& more) {
   std::vector<std::string> words{"convert-mesh", "--scale", fmt::format("{}", request.scale)};
   if (request.join != 0) words.insert(words.end(), {"--join", fmt::format("{}", request.join)});
@@ -63,7 +63,7 @@ AnyMesh read_mesh(const std::filesystem::path& file) {
   return read_gmsh<Dim, Order>(file, gmsh_regions(file, Dim), TriangleGeometry::plane);
 }
 
-/// \param said  sentences on what was named are added to it
+/// The converted mesh, named as the options ask. \param said  sentences on what was named are added to it
 AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file, std::string& said) {
   const auto openings = flat_parts_of(request.openings);
   const int dimension = gmsh_dimension(file);
@@ -140,7 +140,7 @@ class TemporaryFolder {
   RemovedOnSignal on_signal_;
 };
 
-/// As a path without the slash that a shell leaves behind a folder's name.
+/// The path without the slash that a shell leaves behind a folder's name.
 std::filesystem::path folder_of(const std::string& given) {
   std::filesystem::path folder(given);
   return folder.has_filename() ? folder : folder.parent_path();

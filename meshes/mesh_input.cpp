@@ -19,7 +19,7 @@ namespace fsi {
 
 namespace {
 
-/// A script says how its shape is meshed, so there is nothing to cut.
+/// Refuses scripts: their shape can be meshed again.
 void require_mesh(const std::string& file) {
   if (std::filesystem::path(file).extension() == ".geo")
     throw InputError(file, "", "is a script, no mesh",

@@ -31,7 +31,7 @@ SimplexMesh<Dim, Order> read_again(const SimplexMesh<Dim, Order>& made, const st
   return read_gmsh<Dim, Order>(file, made.regions, plane);
 }
 
-/// Nobody needs to read to the end; but a report that is to be kept and cannot be is an error.
+/// Readers may stop reading; a report that cannot be stored is an error.
 void print_report(const std::string& text, const std::string& file) {
   if (const int error = try_to_print(text); error != 0 && !nobody_reads(error))
     throw InputError(
@@ -40,7 +40,8 @@ void print_report(const std::string& text, const std::string& file) {
         "give -q, or let it go to a disk with space");
 }
 
-/// Which cells the elements need, as measured on a bend and a bifurcation (docs/evidence/evidence.md). Empty for other meshes.
+/// How many cells across the elements need, measured on a bend and a bifurcation (docs/evidence/evidence.md). Empty for
+/// triangles and where cells_across() is.
 template <int Dim, int Order>
 std::string advice_on(const SimplexMesh<Dim, Order>& mesh) {
   if constexpr (Dim == 3) {
@@ -54,7 +55,7 @@ std::string advice_on(const SimplexMesh<Dim, Order>& mesh) {
   return {};
 }
 
-/// What the Taylor-Hood element cannot have of a mesh, and a mesh without it; empty: there is nothing of the kind.
+/// A mesh whose corner cells are divided, and a sentence on them; empty if it has none.
 struct Mended {
   std::optional<AnyMesh> mesh;
   std::string said;

@@ -10,7 +10,7 @@
 
 namespace fsi {
 
-/// Of options --opening NAME=X,Y,Z. \throws InputError
+/// The values of options --opening NAME=X,Y,Z. \throws InputError
 std::vector<FlatPart> flat_parts_of(const std::vector<std::string>& options);
 
 /// The points X,Y,Z of an option that is given any number of times, mm. \throws InputError
@@ -22,7 +22,7 @@ OpeningChoice opening_choice_of(const std::string& text);
 /// NUMBER or X,Y,Z of an option --closed. \throws InputError
 OpeningChoice closed_choice_of(const std::string& text);
 
-/// Of options NAME=LENGTH, each length positive. \throws InputError, also for a name twice
+/// The values of options NAME=LENGTH, positive lengths below 1e6. \throws InputError, also for a name twice
 std::vector<std::pair<std::string, double>> lengths_of(const std::string& option,
                                                        const std::vector<std::string>& given);
 

@@ -34,7 +34,7 @@ constexpr const char* other_sizes =
     "sizes "
     "of fsi-mesh artery and thicken";
 
-/// What the mesh was, and what became of its worst cell.
+/// Counts and qualities of the mesh, and how the qualities changed.
 std::string before_and_after(const RefineRequest& request, const MeshQuality& before, const MeshQuality& after) {
   const bool solid = before.dimension == 3;
   const auto cells = solid ? "tetrahedra" : "triangles";

@@ -12,7 +12,7 @@ namespace fsi {
 /// Units of length of a surface's file, in mm.
 extern const std::map<std::string, double> surface_units;
 
-/// For a surface that bounds no lumen with openings.
+/// The remedy for what not_a_lumen() finds.
 inline constexpr const char* lumen_remedy =
     "give the inner face alone, its ends open or cut flat; fsi-mesh import takes meshes of volumes";
 
@@ -26,8 +26,9 @@ struct SurfaceInput {
 /// Its triangles, mm, as the file holds them. \throws InputError
 TriangleSurface triangles_of_file(const SurfaceInput& input);
 
-/// The surface made sound, without its caps, and its openings. \param done  sentences on what was mended are added to it
-/// \throws InputError for a surface that bounds no lumen, and for openings no vessel has in mm where no unit is given
+/// The repaired surface without its caps, and its openings. Warns of openings that no vessel has in the unit given.
+/// \param done  set to sentences on what was repaired
+/// \throws InputError for what sound_surface() refuses, and for openings no vessel has in mm where no unit is given
 OpenedLumen read_lumen_surface(const SurfaceInput& input, std::vector<std::string>& done);
 
 }  // namespace fsi

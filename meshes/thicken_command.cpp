@@ -45,7 +45,7 @@ struct Lumen {
   std::optional<EdgeCurves> curves;  ///< of its mesh, where that is quadratic
 };
 
-/// NAME=THICKNESS or NAME=THICKNESS:ELEMENTS. \param share  the thickness is one of a wall that varies, SHARE%
+/// NAME=THICKNESS or NAME=THICKNESS:ELEMENTS. \param share  the thickness is SHARE%, of a wall that varies
 GrownLayer layer_of(const std::string& text, bool share) {
   const std::string remedy =
       share ? "the wall's thickness varies: write, for one, --layer media=67%:2, for two thirds of it, of two elements"

@@ -25,7 +25,7 @@ struct ThicknessOptions {
 void add_thickness_options(CLI::App& command, ThicknessOptions& options);
 
 /// The whole wall's thickness at each node that it grows on, mm; empty where it does not vary.
-/// \throws InputError for layers that are no shares of it, and for what is missing in the file
+/// \throws InputError for shares of layers that do not add up to 1, and for what is missing in the file
 std::map<int, double> total_thickness(const TetrahedralMesh& lumen, const WallGrowth& growth,
                                       const ThicknessOptions& options);
 

@@ -8,7 +8,7 @@
 
 namespace fsi {
 
-/// A sparse matrix of dense Rows x Columns blocks on a node graph, blocks row-major, in the order of the graph.
+/// A sparse matrix of dense Rows x Columns blocks on a node graph: blocks row-major, in the order of the graph.
 template <int Rows, int Columns>
 struct BlockMatrix {
   static constexpr int rows = Rows, columns = Columns, block_size = Rows * Columns;

@@ -41,7 +41,7 @@ inline void for_each_block_row(const BlockMatrix<Rows, Columns>& a, const double
   for_each_block_row<Rows, Columns>(*a.graph, a.values.data(), x, store);
 }
 
-/// The same for a matrix with `Numbers` numbers a node pair, one for each of `Components` components or one for all.
+/// The same for a matrix with `Numbers` numbers per node pair: one for each of `Components` components, or one for all.
 template <int Components, int Numbers, class Store>
 inline void for_each_component_row(const NodeGraph& graph, const double* values, const double* x, Store store) {
   static_assert(Numbers == 1 || Numbers == Components, "one number for all components or one for each");
@@ -63,7 +63,7 @@ inline void for_each_component_row(const BlockMatrix<1, Numbers>& a, const doubl
 
 }  // namespace detail
 
-/// y = A x; `y` has Rows entries a row of nodes. Neither vector is resized.
+/// y = A x; y has `Rows` entries per node and is not resized.
 template <int Rows, int Columns>
 void multiply(const BlockMatrix<Rows, Columns>& a, const std::vector<double>& x, std::vector<double>& y) {
   detail::for_each_block_row(a, x.data(), [&](int row, const double* sum) {
@@ -98,8 +98,8 @@ void residual(const BlockMatrix<Rows, Columns>& a, const std::vector<double>& b,
   });
 }
 
-/// y = A x for a matrix that does not couple components: vectors have `Components` entries a node, the matrix one
-/// number a node pair for all of them (Numbers = 1) or one for each.
+/// y = A x for a matrix that does not couple components: vectors have `Components` entries per node, the matrix one
+/// number per node pair for all of them (Numbers = 1) or one for each.
 template <int Components, int Numbers>
 void multiply_components(const BlockMatrix<1, Numbers>& a, const std::vector<double>& x, std::vector<double>& y) {
   detail::for_each_component_row<Components>(a, x.data(), [&](int row, const double* sum) {
@@ -128,8 +128,7 @@ void residual_components(const BlockMatrix<1, Numbers>& a, const std::vector<dou
   });
 }
 
-/// A B for sparse matrices of dense blocks; the pattern is made on the way. Rows in parallel, each entry is summed in a
-/// fixed order.
+/// A B for sparse matrices of dense blocks, with its pattern. Rows in parallel, each entry is summed in a fixed order.
 /// \param columns  block columns of B
 template <int R, int M, int C>
 BlockMatrix<R, C> block_product(const BlockMatrix<R, M>& a, const BlockMatrix<M, C>& b, int columns) {

@@ -27,6 +27,7 @@ CsrMatrix<To> converted(const CsrMatrix<From>& a) {
   return {a.columns, a.offsets, a.indices, std::vector<To>(a.values.begin(), a.values.end())};
 }
 
+/// A^T.
 template <class Real>
 CsrMatrix<Real> transposed(const CsrMatrix<Real>& a) {
   CsrMatrix<Real> t;
@@ -49,8 +50,8 @@ CsrMatrix<Real> transposed(const CsrMatrix<Real>& a) {
 /// A B [Gustavson1978], rows in parallel; each entry is summed in a fixed order.
 CsrMatrix<double> product(const CsrMatrix<double>& a, const CsrMatrix<double>& b);
 
-/// Sum of a stretch of a row times x, in an order that does not depend on the machine. Four partial sums: rows are short, so
-/// that wider registers lose more in adding up their lanes and in what is left over than they gain.
+/// Entries begin ... end - 1, of one row, times x, in an order that does not depend on the machine. Four partial sums:
+/// rows are short, so that wider registers lose more by summing their lanes and by the remainder than they gain.
 template <class Real>
 inline Real row_product(const CsrMatrix<Real>& a, int begin, int end, const Real* x) {
   const Real* values = a.values.data();
@@ -65,7 +66,7 @@ inline Real row_product(const CsrMatrix<Real>& a, int begin, int end, const Real
   return rest + sum_of_lanes(sums);
 }
 
-/// y = A x, rows in parallel.
+/// y = A x, rows in parallel; y is not resized.
 template <class Real>
 void multiply(const CsrMatrix<Real>& a, const std::vector<Real>& x, std::vector<Real>& y) {
   parallel_for(a.rows(), a.nonzeros() > 50000,

@@ -10,7 +10,7 @@ namespace fsi {
 namespace {
 
 constexpr int widest_panel = 64;
-constexpr double stored_zeros = 0.2;  // of a panel's entries, at most: they cost less than another panel does
+constexpr double stored_zeros = 0.2;  // share of a panel's entries, at most: zeros cost less than another panel
 
 /// Rows of column j behind `last`.
 void rows_behind(const CompactColumns<float>& columns, int j, int last, std::vector<int>& rows) {

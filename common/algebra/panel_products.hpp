@@ -6,10 +6,10 @@
 
 namespace fsi {
 
-/// Products with dense columns of some ten to a hundred rows, as sparse factors consist of. Registers and the order of sums
-/// are named: loops that a compiler turns into sums of sixteen lanes add these up one by one, at the end of each short column.
+/// Products with dense columns of some ten to a hundred rows, as in sparse factors. Explicit SIMD accumulation with a
+/// fixed order of sums: compilers make sums of sixteen lanes, which they add up one by one at each short column's end.
 
-/// to -= columns times the numbers at x.
+/// to -= columns times x: `rows` numbers at `to`, `width` numbers at x.
 /// \param columns  the first number of `width` columns of `rows` numbers
 /// \param pitch    from a column's number to the next column's
 inline void subtract_combination(const float* columns, int pitch, int rows, int width, const float* x, float* to) {
@@ -39,7 +39,7 @@ inline void subtract_combination(const float* columns, int pitch, int rows, int 
   }
 }
 
-/// y -= the columns, each times the numbers at x.
+/// y -= columns^T x: `width` numbers at y, `rows` numbers at x. Other parameters as above.
 inline void subtract_products(const float* columns, int pitch, int rows, int width, const float* x, float* y) {
   int j = 0;
   for (; j + 4 <= width; j += 4) {
@@ -78,8 +78,8 @@ inline void subtract_products(const float* columns, int pitch, int rows, int wid
   }
 }
 
-/// y = L^-1 y, L being unit lower triangular; its columns have `width` numbers, those on and above the diagonal unused. Four
-/// columns at a time, what they do to the rows below at once.
+/// y = L^-1 y, L being unit lower triangular; its columns have `width` numbers, those on and above the diagonal unused.
+/// Four columns at a time, whose rows below are updated together.
 inline void solve_unit_lower(const float* triangle, int width, float* y) {
   for (int first = 0; first < width; first += 4) {
     const int end = first + 4 < width ? first + 4 : width;

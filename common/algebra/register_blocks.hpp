@@ -8,7 +8,7 @@
 
 namespace fsi {
 
-/// A dense block times a vector, columns of padded<R> numbers. One accumulator a column keeps the chains short.
+/// A dense block times a vector; columns of padded<R> numbers.
 template <int R, int C>
 inline Register<R> block_times(const float* block, const float* x) {
   Register<R> sum{};
@@ -17,10 +17,10 @@ inline Register<R> block_times(const float* block, const float* x) {
 }
 
 /// A sparse matrix of dense R x C blocks in single precision, arranged so that products run over whole registers:
-/// columns of a block padded. Vectors hold padded<R> or padded<C> floats a node.
+/// columns of a block are padded. Vectors hold padded<R> or padded<C> floats per node.
 template <int R, int C>
 struct RegisterBlocks {
-  static constexpr int stride = C * padded<R>;  ///< floats a block
+  static constexpr int stride = C * padded<R>;  ///< floats per block
 
   std::vector<int> offsets{0}, columns;
   std::vector<float> values;
@@ -37,7 +37,7 @@ struct RegisterBlocks {
   int rows() const { return static_cast<int>(offsets.size()) - 1; }
   std::size_t bytes() const { return values.size() * sizeof(float) + (columns.size() + offsets.size()) * sizeof(int); }
 
-  /// Blocks begin ... end - 1 times x. One accumulator a column keeps the chains of additions short.
+  /// Blocks begin ... end - 1, of one row, times x. One accumulator per column keeps the chains of additions short.
   Register<R> product(int begin, int end, const float* x) const {
     if constexpr (R == 2 && C == 2) return product_of_small(begin, end, x);
     Register<R> parts[C] = {};
@@ -51,7 +51,7 @@ struct RegisterBlocks {
     for (int k = 1; k < C; ++k) sum += parts[k];
     return sum;
   }
-  /// The same of 2 x 2 blocks, each a register by itself; every second one has an accumulator of its own.
+  /// The same for 2 x 2 blocks, each of which fills a register; even and odd ones have an accumulator each.
   Register<2> product_of_small(int begin, int end, const float* x) const {
     const float* a = values.data() + static_cast<std::size_t>(begin) * 4;
     const auto by_columns = [&](int at) {

@@ -26,13 +26,13 @@ struct Lanes<double, 4> {
 
 }  // namespace detail
 
-/// Numbers of a vector of `size`, padded so that it fills a register.
+/// Length of a vector of `size` numbers padded to fill a register.
 template <int size>
 constexpr int padded = size <= 2   ? 2
                        : size <= 4 ? 4
                                    : 8;
 
-/// From numbers in use to those that are prefetched meanwhile, in bytes. By themselves not all processors prefetch as far
+/// How far software prefetch runs ahead, in bytes. Not all processors prefetch as far by themselves
 /// (docs/guide/solvers.md#speed).
 inline constexpr int prefetch_distance = 4096;
 
@@ -51,7 +51,7 @@ inline void store(Register<size> x, float* to) {
   __builtin_memcpy(to, &x, sizeof x);
 }
 
-/// Sums of the lanes' pairs, in half as many lanes.
+/// Lane i plus lane i + 4.
 inline Register<4> folded(Register<8> x) {
   return __builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7);
 }
@@ -60,7 +60,7 @@ template <class Four>
 inline auto sum_of_lanes(Four x) {
   return (x[0] + x[2]) + (x[1] + x[3]);
 }
-/// Of four registers, one lane each.
+/// Sums of the lanes of four registers, one in each lane.
 inline Register<4> sums_of_lanes(Register<4> a, Register<4> b, Register<4> c, Register<4> d) {
   const Register<4> ab = __builtin_shufflevector(a, b, 0, 4, 1, 5) + __builtin_shufflevector(a, b, 2, 6, 3, 7);
   const Register<4> cd = __builtin_shufflevector(c, d, 0, 4, 1, 5) + __builtin_shufflevector(c, d, 2, 6, 3, 7);

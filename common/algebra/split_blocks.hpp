@@ -11,25 +11,26 @@
 
 namespace fsi {
 
-/// A sparse matrix of dense n x n blocks as the diagonal, what lies below and what lies above, the latter's rows from the last
-/// to the first: either half of a symmetric Gauss-Seidel sweep reads one triangle from its beginning to its end. Of whole rows
-/// it would need a half each, while the processor prefetches what follows, the other half; and towards lower addresses not
-/// all processors prefetch as well (docs/guide/solvers.md#speed).
+/// A sparse matrix of dense n x n blocks, stored as diagonal, lower and upper triangle, the rows of the latter from the
+/// last to the first: either half of a symmetric Gauss-Seidel sweep reads one triangle from its beginning to its end.
+/// With whole rows it would use half of each, and the processor would prefetch the other half. Besides, not all
+/// processors prefetch as well towards lower addresses (docs/guide/solvers.md#speed).
 ///
-/// The triangles are in 16 bits: a number is a whole one of -32767 to 32767 times a scale that the row of a triangle has for
-/// each component. The diagonal is in single precision and gets what rounding takes from its row, so that sums over a row stay
-/// as they are: of smooth vectors, for which most of a row cancels, rounding is hardly felt. Products are in single precision.
+/// The triangles are in 16 bits: a number is an integer of -32767 to 32767 times a scale, one per row of a triangle and
+/// component. The diagonal is in single precision and gets what rounding takes from its row. So sums over a row stay as
+/// they are, and rounding hardly affects products with smooth vectors, for which most of a row cancels. Products are in
+/// single precision.
 template <int n>
 class SplitBlocks {
  public:
   static constexpr int lanes = padded<n>;
-  static constexpr int stride = n * lanes;  ///< numbers a block: n columns of `lanes`
+  static constexpr int stride = n * lanes;  ///< numbers per block: n columns of `lanes`
 
   /// A triangle.
   struct Half {
     std::vector<int> offsets{0}, columns;
     std::vector<std::int16_t> values;
-    std::vector<float> scales;  ///< `lanes` a row
+    std::vector<float> scales;  ///< `lanes` per row
 
     std::size_t bytes() const {
       return values.size() * sizeof(std::int16_t) + scales.size() * sizeof(float) +
@@ -38,7 +39,7 @@ class SplitBlocks {
   };
   Half lower;                    ///< below the diagonal
   Half upper;                    ///< above it; its row k is that of node rows() - 1 - k
-  std::vector<float> diagonals;  ///< `stride` numbers a row
+  std::vector<float> diagonals;  ///< `stride` numbers per row
 
   SplitBlocks() = default;
   /// \param rows  columns of each row, ascending, the diagonal among them
@@ -59,16 +60,16 @@ class SplitBlocks {
   int upper_begin(int v) const { return upper.offsets[upper_row(v)]; }
   int upper_end(int v) const { return upper.offsets[upper_row(v) + 1]; }
 
-  /// Blocks of a row.
+  /// Number of blocks in a row.
   int count(int v) const { return below(v) + 1 + upper_end(v) - upper_begin(v); }
-  /// Where among them, columns ascending, a column's block is. It must be there.
+  /// Place of a column's block among those of its row, columns ascending. The block must exist.
   int place(int row, int column) const {
     if (column < row) return find(lower, lower_begin(row), lower_end(row), column);
     return below(row) + (column == row ? 0 : 1 + find(upper, upper_begin(row), upper_end(row), column));
   }
 
-  /// Row v = the nearest to `blocks`, of count(v) times `stride` numbers, columns ascending. Where one of them is not finite
-  /// products with the row are not.
+  /// Sets row v to `blocks`, rounded. \param blocks  count(v) times `stride` numbers, columns ascending. If a number is
+  /// not finite, neither are products with the row.
   void set_row(int v, const float* blocks) {
     const float* diagonal = blocks + static_cast<std::size_t>(below(v)) * stride;
     float* to = diagonals.data() + static_cast<std::size_t>(v) * stride;
@@ -76,7 +77,7 @@ class SplitBlocks {
     round(lower, v, blocks, to);
     round(upper, upper_row(v), diagonal + stride, to);
   }
-  /// Calls visit(column, block) for the blocks of a row as they are, columns ascending: n columns of `lanes` numbers.
+  /// Calls visit(column, block) for the blocks of a row as stored, columns ascending: n columns of `lanes` numbers.
   template <class Visit>
   void for_row(int v, Visit visit) const {
     const auto visit_half = [&](const Half& half, int row) {
@@ -111,8 +112,8 @@ class SplitBlocks {
     return lower_product(v, lower_begin(v), lower_end(v), x) + diagonal_product(v, x) +
            upper_product(v, upper_begin(v), upper_end(v), x);
   }
-  /// What rounding of row v's numbers may do to its product with x, squared, were x as large all over and without any pattern:
-  /// errors of even distribution, up to half a unit, at each neighbour and on the diagonal.
+  /// Expected square of the error that rounding makes in row v's product with a vector as large as x at all nodes and
+  /// without pattern: errors uniformly distributed up to half a unit, at each neighbour and on the diagonal.
   double rounding_squared(int v, const Register<n>& x) const {
     double units = 0, size = 0;
     const auto add = [&](const Half& half, int row) {
@@ -130,7 +131,7 @@ class SplitBlocks {
   static_assert(n == 2 || n == 3);
   using Columns = std::vector<int>::const_iterator;
   static constexpr float largest = 32767;
-  /// Numbers that a product may read behind the last block.
+  /// Numbers that a product may read past the last block.
   static constexpr std::size_t read_beyond = 16;
 
   int below(int v) const { return lower_end(v) - lower_begin(v); }
@@ -142,7 +143,7 @@ class SplitBlocks {
     to.columns.insert(to.columns.end(), begin, end);
     to.offsets.push_back(static_cast<int>(to.columns.size()));
   }
-  /// From `begin` on.
+  /// The column's place, counted from `begin`.
   static int find(const Half& half, int begin, int end, int column) {
     const auto from = half.columns.begin() + begin;
     return static_cast<int>(std::lower_bound(from, half.columns.begin() + end, column) - from);
@@ -153,7 +154,7 @@ class SplitBlocks {
     const int count = half.offsets[row + 1] - half.offsets[row];
     std::int16_t* to = half.values.data() + static_cast<std::size_t>(half.offsets[row]) * stride;
     for (int i = 0; i < lanes; ++i) {
-      float most = 0, zero = 0;  // `zero` is no number where one is not finite
+      float most = 0, zero = 0;  // `zero` becomes NaN where a number is not finite
       for (int at = i; at < count * stride; at += lanes) {
         most = std::max(most, std::abs(from[at]));
         zero += 0 * from[at];
@@ -170,7 +171,7 @@ class SplitBlocks {
     }
   }
 
-  /// Eight whole numbers in a register of floats.
+  /// Eight integers as a register of floats.
   static Register<8> floats(const std::int16_t* from) {
     using Short = std::int16_t __attribute__((vector_size(16)));
     using Long = std::int32_t __attribute__((vector_size(32)));
@@ -178,7 +179,7 @@ class SplitBlocks {
     __builtin_memcpy(&x, from, sizeof x);
     return __builtin_convertvector(__builtin_convertvector(x, Long), Register<8>);
   }
-  /// Two blocks at a time: their numbers fill whole registers. Behind an odd last one others' numbers, or zeros, meet zeros.
+  /// Two blocks at a time, whose numbers fill whole registers. What is read past an odd last block is multiplied by 0.
   static Register<n> product(const Half& half, int row, int begin, int end, const float* x) {
     const std::int16_t* a = half.values.data() + static_cast<std::size_t>(begin) * stride;
     const int* columns = half.columns.data();
@@ -214,7 +215,7 @@ class SplitBlocks {
     }
     return sum * load<n>(half.scales.data() + static_cast<std::size_t>(row) * lanes);
   }
-  /// Each two floats, moved as one number: put together float by float they take several times as long.
+  /// Two pairs of floats, each moved as one double: moved float by float they take several times as long.
   static Register<4> two_nodes(const float* first, const float* second) {
     using Two = double __attribute__((vector_size(16)));
     double f, s;

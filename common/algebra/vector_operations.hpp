@@ -11,7 +11,7 @@ namespace fsi {
 
 /// Entries per partial sum of a reduction. Fixed, so that sums do not depend on the number of threads.
 constexpr std::size_t reduction_chunk = 4096;
-/// Loops over fewer entries than this are not worth waking threads for.
+/// Loops over fewer entries than this run on one thread.
 constexpr std::size_t serial_entries = 16384;
 
 /// x . y, summed by chunks of fixed size and then over the chunks in order: the same bits for any number of threads.

@@ -6,8 +6,8 @@
 
 namespace fsi {
 
-/// Consecutive numbers of a vector that somebody else owns, as C++20's std::span: what works on a whole vector works on a
-/// part of one in place. A view of const numbers reads, another one writes too.
+/// Consecutive numbers of a vector owned elsewhere, as C++20's std::span: code for whole vectors works on a part of one
+/// in place. A view of const numbers is read-only.
 template <class T>
 class VectorView {
   using Value = std::remove_const_t<T>;

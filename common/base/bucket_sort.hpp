@@ -6,8 +6,8 @@
 
 namespace fsi {
 
-/// Sorts by key(entry), a number from 0 to buckets - 1, and entries of one key by `less`. Linear where few have one key,
-/// as the facets at a node.
+/// Sorts by key(entry), a number from 0 to buckets - 1, and entries of one key by `less`. Takes linear time where few
+/// entries share a key, as the facets at a node.
 template <class Entry, class Key, class Less>
 void bucket_sort(std::vector<Entry>& entries, std::size_t buckets, Key key, Less less) {
   std::vector<std::size_t> begin(buckets + 1, 0);

@@ -6,10 +6,10 @@ namespace fsi {
 
 namespace {
 
-// Characters of a message that each part may take. What a user handed over is in the first three; a remedy is the
-// program's own words, in which a command is meant to be pasted.
+// Characters of a message that each part may take. The first three may hold what the user handed over; a remedy is the
+// program's own words, perhaps with a command to paste.
 constexpr std::size_t file_limit = 200, key_limit = 200, problem_limit = 600, remedy_limit = 2000;
-constexpr std::size_t failure_limit = 10000;  // a solver's, which ends with the command that goes on
+constexpr std::size_t failure_limit = 10000;  // a solver's message, which ends with the command to continue
 
 std::string joined(const std::string& file, const std::string& key, const std::string& problem,
                    const std::string& remedy) {

@@ -17,7 +17,7 @@ class InputError : public std::runtime_error {
 };
 
 /// A solver that gave up. Programs save the last good state, print what() and exit with code 2.
-/// what() is one printable line `PROBLEM; try REMEDY`.
+/// what() is one printable line `PROBLEM; try REMEDY`, without a remedy `PROBLEM`.
 class ConvergenceError : public std::runtime_error {
  public:
   ConvergenceError(const std::string& problem, const std::string& remedy);

@@ -7,9 +7,9 @@ namespace fsi {
 
 /// What a program expects of a file that a user names.
 struct InputFileKind {
-  const char* missing;                 ///< said where there is nothing: "no such file"
+  const char* missing;                 ///< problem where there is nothing: "no such file"
   const char* missing_remedy;          ///< "give the path of a case file"
-  const char* remedy;                  ///< where there is something else than a file
+  const char* remedy;                  ///< for anything but a regular file, and for one that is too large
   std::uint64_t largest = UINT64_MAX;  ///< bytes; no file of the kind has more
 };
 

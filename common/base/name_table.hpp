@@ -10,7 +10,7 @@
 
 namespace fsi {
 
-/// What the names of a choice stand for: factories, kinds or switches. Rows keep the order in which they are given.
+/// Maps the names of a choice to what they stand for: factories, kinds or switches. Rows keep their order.
 template <class Value>
 class NameTable {
  public:
@@ -49,8 +49,8 @@ class NameTable {
   std::vector<Row> rows_;
 };
 
-/// Names that one place owns and another gives a meaning: `static_assert(names_match(names, rows))` beside the rows
-/// keeps the two together. Rows have a member `name`.
+/// Whether rows, which have a member `name`, stand for these names in this order. `static_assert(names_match(...))`
+/// beside the rows keeps them together with a list of names that another file owns.
 template <std::size_t count, class Rows>
 constexpr bool names_match(const std::array<std::string_view, count>& names, const Rows& rows) {
   if (rows.size() != count) return false;

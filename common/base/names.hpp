@@ -16,10 +16,10 @@ std::string one_of(const std::vector<std::string>& candidates);
 
 bool contains(const std::vector<std::string>& names, const std::string& name);
 
-/// What to do about a name that is none of `names`: "did you mean b? There are a, b or c".
+/// Remedy for a name that is none of `names`: "did you mean b? There are a, b or c"; "give a" if there is only one.
 std::string name_remedy(const std::string& name, const std::vector<std::string>& names);
 
-/// \throws InputError, always: `name` is none of the `names` of the choice `what`
+/// Refuses a name that is none of the `names` of the choice `what`. \throws InputError always
 [[noreturn]] void refuse_name(const std::string& what, const std::string& name, const std::vector<std::string>& names);
 
 }  // namespace fsi

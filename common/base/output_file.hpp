@@ -4,10 +4,10 @@
 
 namespace fsi {
 
-/// Programs write regular files only: what is anything else (folder, device, pipe, socket) is never replaced.
+// Programs write regular files only: anything else (folder, device, pipe, socket) is never replaced.
 
-/// The file that is to be written under a name, before anything is computed for it. A symbolic link stays and the
-/// regular file that it leads to is written.
+/// The file that is to be written under a name, checked before anything is computed for it. A symbolic link stays; the
+/// regular file that it leads to is returned.
 /// \throws InputError when there is something other than a regular file, or when the folder is missing or cannot be
 ///         written
 std::filesystem::path regular_output_file(const std::filesystem::path& file);

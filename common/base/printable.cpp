@@ -39,7 +39,7 @@ Character character_at(const std::string& text, std::size_t at) {
 struct Range {
   std::uint32_t first, last;
 };
-/// Unicode's controls, formats, separators other than the space, private use, and what is no character.
+/// Unicode's controls, formats, separators other than the space, private use, noncharacters, unassigned planes.
 constexpr std::array<Range, 30> hidden = {
     {{0x0, 0x1f},        {0x7f, 0xa0},       {0xad, 0xad},       {0x600, 0x605},     {0x61c, 0x61c},
      {0x6dd, 0x6dd},     {0x70f, 0x70f},     {0x890, 0x891},     {0x8e2, 0x8e2},     {0x1680, 0x1680},

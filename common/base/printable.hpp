@@ -6,8 +6,8 @@
 namespace fsi {
 
 /// Text that can be shown on a terminal in one line: control characters, bytes that are no UTF-8, and characters that
-/// show nothing or turn the direction of writing are replaced by their escapes (\n, \x1b, \u202e). What is printable
-/// stays as it is, so that doing it twice changes nothing.
+/// show nothing or change the direction of writing are replaced by escapes (\n, \x1b, \u202e). Idempotent: what is
+/// printable stays as it is, backslashes too.
 std::string printable(const std::string& text);
 
 /// Printable text of at most `limit` characters: the middle of a longer one is replaced by "...".

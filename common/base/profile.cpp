@@ -9,7 +9,7 @@ namespace fsi {
 
 double peak_memory_mib() {
   constexpr double kib_per_mib = 1024;
-  // getrusage() counts what the launcher held when it started this program, too; the kernel's own mark does not.
+  // getrusage() also counts what the launcher held when it started this program; VmHWM does not.
   std::ifstream status("/proc/self/status");
   for (std::string key; status >> key; status.ignore(1000, '\n')) {
     double kib = 0;

@@ -17,7 +17,7 @@ struct Phase {
 /// are entered outside parallel regions.
 class Profile {
  public:
-  /// Measures from construction to destruction and adds to the phase, but for what inner scopes measured.
+  /// Adds the seconds from construction to destruction to the phase, without those of inner scopes, and one call.
   class Scope {
    public:
     Scope(Phase& phase, Scope*& innermost)

@@ -31,9 +31,9 @@ std::optional<UnitSlip> unit_slip(const Quantity& quantity, double value) {
   return std::nullopt;
 }
 
-// The values come from blood and tissue: density 0.9 to 1.5 mg/mm^3, viscosity 2e-3 to 6e-3 kPa ms, pressure up to 40
-// kPa, shear stiffness 100 to 10,000 kPa, compression as that of water. Poise is missing on purpose: blood's 0.035 P
-// would be a fluid ten times as viscous, which is merely unusual.
+// The limits are those of blood and tissue: density 0.7 to 1.5 mg/mm^3 (wall 2), viscosity 2e-3 to 6e-3 kPa ms,
+// pressure up to 50 kPa, stiffness 100 to 10,000 kPa, bulk modulus to twice that of water. Poise is missing on purpose:
+// blood's 0.035 P would be a fluid ten times as viscous, which is merely unusual.
 namespace quantity {
 
 const Quantity& number() {

@@ -5,7 +5,7 @@
 
 namespace fsi {
 
-/// Sorts values and leaves each once.
+/// Sorts the values and removes duplicates.
 template <class T>
 void sort_unique(std::vector<T>& values) {
   std::sort(values.begin(), values.end());

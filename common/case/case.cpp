@@ -30,7 +30,7 @@ std::vector<double> output_times(const Case& setup) {
   if (!setup.output.interval && !of_its_own) return times;
   const double interval = setup.output.interval.value_or(end / 12);
   const int count = static_cast<int>(std::ceil(end / interval - 1e-9));
-  // To twelve digits, as the ends of steps.
+  // Rounded to twelve digits, as the ends of steps are.
   for (int k = 0; k < count; ++k) times.push_back(std::strtod(fmt::format("{:.12g}", k * interval).c_str(), nullptr));
   times.push_back(end);
   const auto intervals = static_cast<std::ptrdiff_t>(times.size());

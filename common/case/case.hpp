@@ -34,8 +34,8 @@ struct NetworkData;  // case/network_data.hpp
 struct SupportData {
   double spring = 0, normal_spring = 0;   ///< kPa/mm, of the displacement and of its part along the normal at rest
   double damper = 0, normal_damper = 0;   ///< kPa ms/mm, of the velocity likewise
-  std::optional<PressureTable> pressure;  ///< from outside, follows the surface
-  std::vector<PressureTable> traction;    ///< kPa of area at rest, a table per direction of the scene; empty: none
+  std::optional<PressureTable> pressure;  ///< kPa, from outside, follows the surface
+  std::vector<PressureTable> traction;    ///< kPa per area at rest, a table per direction of the scene; empty: none
   std::optional<std::vector<std::string>> fixed;  ///< components that do not move: "x", "y", "z", "r" or "normal"
 
   bool holds() const { return spring > 0 || normal_spring > 0 || (fixed && !fixed->empty()); }
@@ -48,7 +48,7 @@ struct PrestressData {
   std::filesystem::path file;  ///< of an earlier run, read in place of finding it again; empty: none
 };
 
-/// [mesh]: `file`, or `level` made on demand beside the case file.
+/// [mesh]: `file`, or an artery mesh made on demand by `level` or `error`.
 struct MeshData {
   std::filesystem::path file;  ///< absolute, or relative to the working directory once read
   std::string level;           ///< "coarse", "intermediate", "fine", or empty
@@ -65,29 +65,29 @@ struct ViscosityData {
 /// [fluid]
 struct FluidData {
   double density = 0;     ///< mg/mm^3
-  double viscosity = 0;   ///< kPa ms; where there is a model, one that stands for it (docs/theory.md, section 3.9)
-  bool outlet = true;     ///< whether there is a surface `outlet`, free of traction
+  double viscosity = 0;   ///< kPa ms; with a model the one that stands for it (docs/theory.md, section 3.9)
+  bool outlet = true;     ///< whether a surface `outlet` is open, free of traction unless [[opening]] names it
   bool grad_div = false;  ///< grad-div stabilisation; damps the wave on coarse meshes (docs/theory.md, section 3.3)
-  /// Surfaces that nothing passes although they have a name. Given at all, a case may be without openings.
+  /// Named surfaces that are no openings. Where it is given, even empty, a case may be without openings.
   std::optional<std::vector<std::string>> closed{};
   std::optional<ViscosityData> viscosity_model{};  ///< empty: the viscosity is constant
 };
 
-/// A constant of a layer that a file gives from place to place.
+/// A constant of a layer that varies in space, given by a file.
 struct ConstantField {
   std::filesystem::path file;
   std::string field;                            ///< its name there
   double within = 0;                            ///< mm, as PointField takes it
-  std::shared_ptr<const FieldSamples> samples;  ///< read and checked
-  std::string hash;                             ///< of them
+  std::shared_ptr<const FieldSamples> samples;  ///< read, checked, in mm and the constant's unit
+  std::string hash;                             ///< of the samples
   std::string key{};                            ///< of the case, for messages; empty: that of the layer's constant
 };
 
-/// Constants towards which those of a layer go over in a region.
+/// Constants into which those of a layer change over in a region.
 struct ConstantBlend {
   std::size_t region;                             ///< of StructureData::regions
   ParameterValues values;                         ///< by the constant's key, `viscosity` among them
-  std::map<std::string, ConstantField> fields{};  ///< of those that vary there; `values` then hold what stands for them
+  std::map<std::string, ConstantField> fields{};  ///< of those that vary there; `values` then hold stand_in() of them
 };
 
 /// [structure.layers.NAME]
@@ -97,11 +97,11 @@ struct MaterialData {
   std::string material;                  ///< a name of materials()
   ParameterValues values;                ///< its parameters, for make_material()
   double viscosity = 0;                  ///< eta of a layer that resists the rate of its strain, kPa ms; 0: elastic
-  std::vector<MaxwellBranch> maxwell{};  ///< spring and dashpot in series beside the material; none: that alone
-  /// Constants that vary, by key; `values` and `viscosity` then hold what stands for them until the scene is built.
+  std::vector<MaxwellBranch> maxwell{};  ///< springs and dashpots in series, parallel to the material; may be empty
+  /// Constants that vary, by key; `values` and `viscosity` then hold stand_in() of them until the scene is built.
   std::map<std::string, ConstantField> fields{};
-  std::vector<ConstantBlend> blends{};  ///< in their order, each on what those before it make
-  /// The layer that it is cut out of by a region, and that region; empty: a volume of the mesh.
+  std::vector<ConstantBlend> blends{};  ///< applied in this order
+  /// The layer that a region has cut this part out of, and the region's index; empty: a volume of the mesh.
   std::string part_of{};
   std::size_t region = 0;
 
@@ -113,10 +113,10 @@ struct RegionData {
   std::string name;
   std::vector<std::string> layers;  ///< that it is in
   RegionShape shape;
-  double transition = 0;  ///< mm, width in which constants go over; 0: whole elements
-  std::string hash;       ///< of what its file holds; empty: it has none
+  double transition = 0;  ///< mm, width in which constants change over; 0: whole elements
+  std::string hash;       ///< of its file's contents; empty: it has no file
   ParameterValues values;
-  std::map<std::string, ConstantField> fields{};  ///< of those that vary there; `values` then hold what stands for them
+  std::map<std::string, ConstantField> fields{};  ///< of those that vary there; `values` then hold stand_in() of them
   std::string material;                           ///< in place of the layers'; empty: theirs
 };
 
@@ -132,7 +132,7 @@ struct StructureData {
   Point gravity{0, 0, 0};                      ///< mm/ms^2, acceleration of all its mass, a load that does not change
   Point axis_origin{0, 0, 0};                  ///< mm; a point on the axis of the fibres' cylindrical frame
   Point axis_direction{0, 0, 1};               ///< need not be normalised
-  bool axis_is_named = false;                  ///< by the case, one of these two
+  bool axis_is_named = false;                  ///< whether the case gives one of these two
   std::map<std::string, MaterialData> layers;  ///< with the parts that regions cut out of them, NAME/REGION
   std::vector<RegionData> regions{};           ///< in their order
 };
@@ -148,13 +148,14 @@ struct TimeData {
   bool adaptive = false;                          ///< steps by an estimate of their error
   double tolerance = 0.01;                        ///< of adaptive steps, relative to the solution
   std::optional<double> first_step{}, smallest_step{}, largest_step{};  ///< ms, of adaptive ones; empty: from the scene
-  /// Largest change from one period to the next with which the run ends, of the range within a period; empty: at `end`.
+  /// The run ends when the change from one period to the next, over the range within a period, is at most this; empty:
+  /// at `end`.
   std::optional<double> periodic_change{};
-  std::optional<double> period{};                  ///< ms, of that; known once the case is read
+  std::optional<double> period{};                  ///< ms, of these and of the lumped start
   StartOfOpenings start = StartOfOpenings::given;  ///< what Windkessels begin with
   int retries = 4;  ///< times that a step which found no solution is halved before the run gives up
 
-  int steps() const;  ///< number of fixed steps; `end` is hit exactly, by shorter last ones where it has to be
+  int steps() const;  ///< number of fixed steps, without those that jumps and output times add
 };
 
 /// [static]: a wall without inertia, the load raised in equal steps
@@ -172,13 +173,13 @@ struct MultigridData {
   SubProblemCycleOptions sub_problems;
 };
 
-/// What [newton] leaves out.
+/// Defaults of [newton].
 struct NewtonStandards {
-  /// Of error_tolerance in a run of fixed steps that names neither this nor tolerance: leaves a tenth of the
-  /// discretisation's error at most (docs/evidence/evidence.md).
+  /// error_tolerance in runs of fixed steps that give neither it nor tolerance: adds at most a tenth of the
+  /// discretisation's error (docs/evidence/evidence.md).
   static constexpr double error_tolerance = 3e-3;
-  static constexpr double error_tolerance_of_wall = 3e-4;  ///< the same of a wall without fluid
-  /// Elsewhere.
+  static constexpr double error_tolerance_of_wall = 3e-4;  ///< the same for a wall without fluid
+  /// In all other runs.
   static NewtonOptions options() {
     NewtonOptions options;
     options.tolerance = 1e-3;
@@ -186,7 +187,7 @@ struct NewtonStandards {
   }
 };
 
-/// [linear]; its tolerance is one of Newton's method, NewtonOptions::linear_tolerance
+/// [linear]; its tolerance is NewtonOptions::linear_tolerance
 struct LinearData {
   FastOptions fast;      ///< of the whole system, or of the sub-problems
   KrylovOptions krylov;  ///< of the coupled solvers; their tolerance comes with each solve
@@ -201,20 +202,20 @@ struct MonolithicData {
 /// [partitioned]
 struct PartitionedData {
   std::optional<std::string> scheme;  ///< one of coupling_scheme_names(); empty: by the scene
-  /// ||d~ - d|| <= tolerance ||d~|| on the interface; of robin-neumann-inexact and block-newton
-  /// the error of a step that is demanded, in place of what [newton] demands
+  /// ||d~ - d|| <= tolerance ||d~|| on the interface (docs/coupling.md); with robin-neumann-inexact and block-newton
+  /// the largest error of a step, in place of what [newton] demands; empty: gap_tolerance(), or what [newton] demands
   std::optional<double> tolerance;
-  static constexpr double standard_tolerance = 1e-6;  ///< of the gap
+  static constexpr double standard_tolerance = 1e-6;  ///< of the gap ||d~ - d||
   ToleranceOf tolerance_of = ToleranceOf::pressure;   ///< pressure: also for the pressure that would close the gap
-  double absolute_tolerance = 0;                      ///< or ||d~ - d|| <= this, mm; 0: no size in mm is small
+  double absolute_tolerance = 0;                      ///< or ||d~ - d|| <= this, mm; 0: not used
   double force_tolerance = 0;  ///< further demand: force residual relative to the interface force; 0: none
-  double velocity_gap = 0.5;   ///< `explicit`: that fluid and wall may keep, relative to the largest velocity
-  std::optional<double> robin_coefficient;  ///< of robin-robin, kPa/(mm/ms); empty: from the scene
+  double velocity_gap = 0.5;   ///< `explicit`: largest gap of fluid and wall velocity, relative to the largest velocity
+  std::optional<double> robin_coefficient;  ///< of schemes robin-robin..., kPa/(mm/ms); empty: from the scene
   std::optional<double> relaxation;         ///< constant factor, or the first of the scheme; empty: the scheme chooses
   int max_iterations = 200;
   QuasiNewtonOptions quasi_newton;     ///< but for relaxation and mixing, which the scheme chooses
   std::string linear_solver = "fast";  ///< of the sub-problems, one of general_solver_names()
-  FastOptions fast;  ///< LinearData::fast, which the reader copies: solvers of a sub-problem have no other
+  FastOptions fast;  ///< LinearData::fast, copied by the reader: solvers of a sub-problem see this section alone
 
   double gap_tolerance() const { return tolerance.value_or(standard_tolerance); }
 };
@@ -238,7 +239,7 @@ struct OutputData {
   SampleRequests samples;  ///< [output.points], [output.lines.NAME], [output.planes.NAME]
 };
 
-/// [economy]: savings switched off to measure what they save. Results stay the same.
+/// [economy]: savings that can be switched off to measure them. Results stay the same.
 struct EconomyData {
   bool keep_constant_operators = true;  ///< false: the mesh motion's is assembled and set up at each use
 };
@@ -270,15 +271,15 @@ struct Case {
   OutputData output;
   EconomyData economy;
   std::vector<std::string> warnings;  ///< what the reader found strange but did not refuse, one line each
-  std::vector<std::string> remarks;   ///< what else it did with what the case says, for the log
+  std::vector<std::string> remarks;   ///< what else it did, such as conversions of units, for the log
 };
 
 /// alpha of the stabilisation of a case's wall: as given, or the standard of its kind (docs/theory.md, section 4.2).
 double wall_stabilisation(const Case& setup);
 
-/// Times of entries of fields.h5 at which steps end, ms: multiples of output.interval from 0 on, output.times and the end.
-/// With adaptive steps a twelfth of the run stands for an interval that is not given. Empty where entries are counted in
-/// steps.
+/// Times of entries of fields.h5 at which steps end, ms, ascending: multiples of output.interval from 0 on,
+/// output.times and the end. With adaptive steps the default interval is a twelfth of the run. Empty where entries are
+/// counted in steps, and in statics.
 std::vector<double> output_times(const Case& setup);
 
 }  // namespace fsi

@@ -1,6 +1,6 @@
 #pragma once
 
-// Shared by the files that read cases; nothing else should need TOML.
+// Entries of a case file. Shared by the files that read cases; nothing else should need TOML.
 
 #include <toml++/toml.h>
 
@@ -13,10 +13,10 @@
 
 namespace fsi {
 
-/// Text from the user as part of a one-line message: without line breaks and other control characters.
+/// Text from the user as part of a one-line message: control characters are replaced by blanks.
 std::string one_line(std::string text);
 
-/// Sizes of numbers in any unit that anyone measures in. Beyond them squares and quotients are not numbers any more.
+/// Limits of a number's size, wide enough for any unit. Beyond them squares and quotients overflow or vanish.
 constexpr double smallest_size = 1e-100, largest_size = 1e100;
 
 /// A value that seems to be in a wrong unit unless the wall is stiff enough to bear it (case/pressure_doubts.hpp).
@@ -30,11 +30,11 @@ struct UnitDoubt {
 struct CaseSource {
   std::string file;                  ///< as the user wrote it
   std::set<std::string> overridden;  ///< key paths that --set has put in place; all below them counts as well
-  /// What looks wrong without being refused. Collected while entries are read, which only look at their source.
+  /// What looks wrong but is not refused. Mutable, since entries have a const source.
   mutable std::vector<std::string> warnings;
-  mutable std::vector<UnitDoubt> doubts{};     ///< warnings that the whole case decides about
-  mutable std::vector<std::string> remarks{};  ///< what was done with what is given, for the log
-  /// By its present name what the case calls a key, where that is a name of an earlier version (case/renamed_keys.hpp).
+  mutable std::vector<UnitDoubt> doubts{};     ///< warnings that depend on the whole case
+  mutable std::vector<std::string> remarks{};  ///< what the reader did, such as conversions of units, for the log
+  /// Present key path to the name of an earlier version that the case uses (case/renamed_keys.hpp).
   std::map<std::string, std::string> former_of{};
 
   std::string name_in_case(const std::string& key) const;
@@ -55,17 +55,20 @@ class CaseEntry {
   const CaseSource& source() const { return *source_; }
   /// \throws InputError that names place, key, problem and remedy
   [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) const;
-  /// As refuse; the value is put before the problem, "-1 is not positive", and what the entry means behind the remedy.
+  /// As refuse, with the value before the problem, "-1 is not positive", and the entry's meaning behind the remedy.
   [[noreturn]] void refuse_value(const std::string& problem, const std::string& remedy) const;
 
-  /// As refuse_value, without what the entry means: for a choice, where the remedy says it all.
+  /// As refuse_value, without the entry's meaning: for choices, where the remedy says it all.
   [[noreturn]] void refuse_name(const std::string& problem, const std::string& remedy) const;
   /// For a key that is missing in this section: placed at the section's header.
   [[noreturn]] void refuse_missing(const std::string& name, const std::string& remedy) const;
 
+  /// Adds a warning with place and key to the source.
   void warn(const std::string& problem, const std::string& remedy) const;
+  /// Adds a remark with the key to the source.
   void remark(const std::string& text) const;
-  /// Warns when the value seems to be in a wrong unit; of what a wall bears once the wall is known. \return whether it seems so
+  /// Warns when the value seems to be in a wrong unit; for loads of the wall this waits until the whole case is read.
+  /// \return whether it seems so
   bool warn_of_unit(const Quantity& quantity, double value) const;
 
   // Conversions; each throws InputError when the entry is of another type.
@@ -83,7 +86,7 @@ class CaseEntry {
 
   /// Entries of a section in the order of the file. \throws InputError when this is no section
   std::vector<CaseEntry> children() const;
-  /// The child of this name; this section itself, for want of a better place, when there is none.
+  /// The child of this name; if there is none this section itself, as the best place for messages.
   CaseEntry child(const std::string& name, const std::string& about = "") const;
   bool has(const std::string& name) const;
 

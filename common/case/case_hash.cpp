@@ -19,7 +19,7 @@ bool is_read(const std::string& key, const Case& scene) {
   return key != "stabilisation" && key != "fluid.grad_div" && key != "structure.stabilisation";
 }
 
-/// `change(value)` stands for each value.
+/// One `key = change(value)` per line.
 template <class Change>
 std::string dump(const Case& scene, Change change) {
   std::string lines;

@@ -1,7 +1,6 @@
 #pragma once
 
-// The tables of keys: each key is stated once, and from it come reading, `--help-keys`, defaults in messages and the
-// case's hash.
+// The tables of keys. Each key is stated once; reading, `--help-keys`, defaults in messages and the case's hash follow.
 
 #include <functional>
 #include <string>
@@ -13,10 +12,10 @@
 
 namespace fsi {
 
-/// What a change of a key's value changes.
+/// Whether a key belongs to the case's hash (case_hash.hpp).
 enum class KeyRole {
-  physics,  ///< the equations: part of the case's hash
-  running   ///< nothing of them: names, files, steps, solvers, output, the end of the run
+  physics,  ///< it does: the equations depend on it
+  running   ///< it does not: names, files, steps, solvers, output, the end of the run
 };
 
 /// An effective value of a case, default or given, as canonical text: numbers with round-trip precision.
@@ -38,8 +37,8 @@ template <class Target>
 struct KeyValue {
   std::function<void(const CaseEntry&, Target&)> read;
   std::function<std::string(const Target&)> write;
-  std::string standard = {};  ///< stands for {} in what a key is about: the default, or names with the default marked
-  std::string unit = {};      ///< stands for {unit}
+  std::string standard = {};  ///< replaces {} in `about`: the default, or the names with the default marked
+  std::string unit = {};      ///< replaces {unit}
 };
 
 /// A key of a section.
@@ -47,7 +46,7 @@ template <class Target>
 struct CaseKey {
   std::string name;
   bool required;
-  std::string about;  ///< meaning, unit and default
+  std::string about;  ///< meaning, unit and default, for help and messages
   std::function<void(const CaseEntry&, Target&)> read;
   std::function<void(const Target&, const std::string& path, std::vector<CaseValue>&)> list;  ///< its effective values
   KeyRole role = KeyRole::physics;  ///< of a section: running makes all below it running
@@ -57,12 +56,12 @@ struct CaseKey {
 /// `text` with every `mark` replaced.
 std::string replaced(std::string text, const std::string& mark, const std::string& by);
 
-/// Whether a key must be given, for leaf() and its like; each file takes what it names by `using`.
+/// Whether a key must be given, for leaf() and section().
 namespace presence {
 inline constexpr bool required = true, optional = false;
 }
 
-/// A key that is no section.
+/// A key that is no section. \param about  {unit} and {} in it are replaced, see KeyValue
 template <class Target>
 CaseKey<Target> leaf(const std::string& name, bool required, const std::string& about, KeyValue<Target> value,
                      KeyRole role = KeyRole::physics) {
@@ -76,7 +75,8 @@ CaseKey<Target> leaf(const std::string& name, bool required, const std::string& 
           role};
 }
 
-/// Reads a section by its table of keys: misspelt ones first, since they explain missing ones.
+/// Reads a section by its table of keys. Refuses unknown keys first, since a misspelt one explains a missing one.
+/// \throws InputError
 template <class Target>
 void read_keys(const CaseEntry& section, const std::vector<CaseKey<Target>>& keys, Target& target) {
   std::vector<std::string> known;
@@ -98,8 +98,9 @@ void list_keys(const std::vector<CaseKey<Target>>& keys, const Target& target, c
 }
 
 /// A section of a Parent: its keys are read into the Target that `make` finds or makes.
-/// \param find   the Target when it is there
-/// \param check  looks at the whole of it; may be empty
+/// \param find   the Target; null: it is not there
+/// \param role   running: for all its keys
+/// \param check  checks the section as a whole; may be empty
 template <class Target, class Parent>
 CaseKey<Parent> section(const std::string& name, bool required, const std::string& about,
                         const std::vector<CaseKey<Target>>& keys, std::function<Target&(Parent&)> make,
@@ -129,12 +130,12 @@ CaseKey<Parent> section(const std::string& name, bool required, const std::strin
 
 // The tables.
 const std::vector<CaseKey<Case>>& case_keys();
-std::vector<CaseKey<Case>> physics_keys();  ///< top-level keys of fluid, structure, loads and time
+std::vector<CaseKey<Case>> physics_keys();  ///< of scene, mesh, media, loads and time
 CaseKey<Case> mesh_motion_section();        ///< [mesh_motion]
 CaseKey<Case> petsc_section();              ///< [petsc]
 std::vector<CaseKey<Case>> solver_keys();   ///< of solvers, output and economy
 
-/// All effective values of a case, in the order of the tables. Sections that it leaves out have none.
+/// All effective values of a case, in the order of the tables. Sections without defaults that it leaves out have none.
 std::vector<CaseValue> values_of_case(const Case& scene);
 
 }  // namespace fsi

@@ -16,7 +16,7 @@ struct Rivals {
   const char* section;
   const char* key;
   const char* rival;
-  bool only_array;  ///< only an array excludes the other one
+  bool only_array;  ///< only an array as the value of `key` excludes the rival
 };
 constexpr std::array<Rivals, 10> rivals = {{{"mesh", "file", "level", false},
                                             {"mesh", "file", "error", false},

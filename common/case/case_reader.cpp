@@ -32,7 +32,7 @@ namespace fsi {
 
 namespace {
 
-/// What sections must be there, or must not, given the others.
+/// A rule on which sections must be there, or must not, given the others.
 struct SceneRule {
   bool broken;
   const char* section;  ///< at fault; "" when one is missing
@@ -93,7 +93,7 @@ void check_gravity(const CaseEntry& whole_case, const Case& scene) {
     structure.child("gravity").refuse("points out of the plane of the scene", "give [g_x, g_y, 0]");
 }
 
-/// Each time of output ends a step, so that there can be no more of them than steps.
+/// Each output time ends a step, so that there can be no more of them than steps.
 constexpr double most_output_times = 1e6;
 
 /// Named times lie in the run, and no closer together than its steps may be.
@@ -135,7 +135,7 @@ void warn_of_stabilisation(const CaseEntry& whole_case, const Case& scene) {
     warn(whole_case.child("structure").child("stabilisation"));
 }
 
-/// Steps of second order that are short keep waves which longer ones, and those of first order, let die.
+/// Short steps of second order keep waves that longer steps and those of first order damp.
 bool keeps_short_waves(const Case& scene) {
   constexpr double short_step = 0.1;  // ms: the recommended meshes' two kinds are for 1/8 and for 1/32 or less
   if (!scene.time) return false;
@@ -143,7 +143,7 @@ bool keeps_short_waves(const Case& scene) {
   return scene.time->adaptive || scene.time->step <= short_step;
 }
 
-/// mesh.error holds for one kind of waves: that which the case's own steps leave, unless it names one.
+/// mesh.error holds for one kind of waves: the one that the case's steps leave, unless mesh.waves names it.
 void choose_waves(const CaseEntry& whole_case, Case& scene) {
   if (scene.mesh.error == 0 || !keeps_short_waves(scene)) return;
   const CaseEntry mesh = whole_case.child("mesh");
@@ -159,17 +159,17 @@ void choose_waves(const CaseEntry& whole_case, Case& scene) {
       "taken for resolved waves, which short steps of second order keep; waves = \"damped\" takes a coarser mesh");
 }
 
-/// A wall a thousand times denser than a fluid in the right unit is meant so, to see what the added mass does. Without
-/// such a fluid it is not.
+/// Beside a fluid in the right unit, a wall a thousand times denser is intended, as in studies of the added mass.
+/// Without such a fluid it is a wrong unit.
 void warn_of_wall_density(const CaseEntry& whole_case, const Case& scene) {
   if (!scene.structure) return;
   if (scene.fluid && !unit_slip(quantity::fluid_density(), scene.fluid->density)) return;
   whole_case.child("structure").child("density").warn_of_unit(quantity::wall_density(), scene.structure->density);
 }
 
-/// Steps of a given length forgive what the solver leaves of one, as long as it is little beside what they change: the next
-/// ones see it. A wall alone swings undamped, so that what its steps leave adds up. A load step's state is the result, and where
-/// errors choose the steps, the solver's must not be seen.
+/// Default stopping criterion of Newton's method. With fixed steps an error that is small beside the step's change is
+/// corrected by the next steps; a wall alone swings undamped, so that its errors add up. Load steps are results
+/// themselves, and adaptive steps must not see the solver's error: there the increment decides.
 void choose_newton_stop(const CaseEntry& whole_case, Case& scene) {
   if (!scene.time || scene.time->adaptive) return;
   const CaseEntry newton = whole_case.child("newton");
@@ -183,7 +183,7 @@ std::string contents_of(const std::filesystem::path& file) {
   constexpr const char* remedy = "give the path of a case file";
   require_regular_file(file, {"no such file", remedy, remedy, largest});
   std::ifstream stream(file, std::ios::binary);
-  // By read(), which reports what a device says by its state; iterators would let the library's exceptions through.
+  // read() reports errors of a device by the stream's state; iterators would let the library's exceptions through.
   std::string text, block(1 << 16, '\0');
   while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) && text.size() <= largest) text += block;
   text.append(block, 0, static_cast<std::size_t>(stream.gcount()));

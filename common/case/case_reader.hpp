@@ -16,7 +16,7 @@ namespace fsi {
 /// \throws InputError with file and line (or `--set`), key path, offending value and remedy: syntax errors, unknown or
 ///         misspelt keys (with the nearest valid one), wrong types, missing or unphysical values, contradictory
 ///         sections
-/// \return the case; its `warnings` hold what seems to be in a wrong unit, each with file and line, key, value and the
+/// \return the case; its `warnings` hold what seems wrong, mostly units: each with file and line, key, value and the
 ///         value that was probably meant
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 

@@ -11,8 +11,8 @@
 
 namespace fsi {
 
-// Names that a case file can use for what lies above this folder. They are owned here; the tables that give them a
-// meaning are checked against them when they are compiled, see names_match().
+// The choices of a case file. Names of what lies in higher folders are owned here; the tables that give them a meaning
+// are checked against them at compile time, see names_match().
 
 /// partitioned.linear_solver, and the first of monolithic.linear_solver: solvers for any scene and sub-problem. Their
 /// factories: linear/choice/general_solvers.hpp.
@@ -48,7 +48,7 @@ inline constexpr std::array<std::string_view, 15> coupling_scheme_list{"aitken",
 inline constexpr std::array<std::string_view, 10> output_field_list{
     "displacement",     "velocity",         "pressure",     "wall_shear_stress", "cauchy_stress",
     "principal_stress", "von_mises_stress", "fibre_stress", "constants",         "thickness"};
-/// Those of its beginning that a case has unless it names others: the solution itself.
+/// The first so many are the default: the solution itself.
 inline constexpr std::size_t standard_fields = 3;
 
 /// element: the fields' shape functions.
@@ -61,7 +61,7 @@ enum class Geometry { three_dimensional, axisymmetric, plane };
 /// time.start: what Windkessels begin with.
 enum class StartOfOpenings {
   given,  ///< their initial_pressure
-  lumped  ///< that of the periodic state of what lies behind the openings alone
+  lumped  ///< that of the periodic state of the laws behind the openings alone (openings/lumped_start.hpp)
 };
 /// structure.layer_pressure: the wall's pressure where layers meet.
 enum class LayerPressure {
@@ -75,10 +75,10 @@ enum class FibreFrame {
   laplace    ///< of potentials between the wall's surfaces, for a wall of any shape
 };
 
-/// partitioned.tolerance_of: what the tolerance of the interface is meant for (docs/coupling.md).
+/// partitioned.tolerance_of: what the tolerance of the interface applies to (docs/coupling.md).
 enum class ToleranceOf {
-  displacement,  ///< the gap between fluid and wall, relative to the displacement, as the paper has it
-  pressure       ///< besides, the pressure that would close the gap in one step, relative to that between them
+  displacement,  ///< the gap between fluid and wall, relative to the displacement, as in the paper
+  pressure       ///< also the pressure that would close the gap in one step, relative to that on the interface
 };
 
 /// The velocity over an opening whose flow is given.
@@ -101,7 +101,7 @@ std::vector<std::string> standard_output_fields();
 
 /// Kinds of stabilisation of equal-order elements (docs/theory.md, sections 3.2 and 4.2).
 enum class Stabilisation {
-  projected,  ///< of the fluid's pressure: does not fade as the step falls, since it knows the scene's wave speed
+  projected,  ///< of the fluid's pressure: does not fade with the step, since it depends on the scene's wave speed
   paper       ///< PSPG with the step in tau
 };
 

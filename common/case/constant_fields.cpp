@@ -32,7 +32,7 @@ double middle_of(std::vector<double> values) {
   return *middle;
 }
 
-/// What decides of the field: places, values and cells, not the file's name.
+/// Hash of places, values and cells, not of the file's name.
 std::string hash_of(const FieldSamples& samples) {
   Fnv1a hash;
   const auto add = [&](const auto& numbers) { hash.add(numbers.data(), numbers.size() * sizeof(numbers[0])); };
@@ -44,7 +44,7 @@ std::string hash_of(const FieldSamples& samples) {
   return hash.hex();
 }
 
-/// A constant's unit times this is the unit of the word; empty: it is none of this constant.
+/// Factor from the unit that `word` names to the unit `right` of a constant; empty: no unit of such a constant.
 std::optional<double> value_unit(const std::string& right, const std::string& word) {
   static const std::map<std::string, std::vector<std::pair<const char*, double>>> units{
       {"kPa ms",
@@ -106,7 +106,7 @@ std::string apply_units(const CaseEntry& entry, const Parameter& parameter, cons
   return lengths;
 }
 
-/// Values that look like those of another unit. 1e5 may be Pa or dyn/cm^2: the places' unit tells the system, cgs or SI.
+/// Warns of values that look like another unit's. 1e5 may be Pa or dyn/cm^2: the unit of lengths tells SI from cgs.
 void warn_of_values(const CaseEntry& entry, const Quantity& quantity, double middle, const std::string& lengths) {
   constexpr double most_dynes = 1e8;  // 10 MPa, of calcified walls
   const auto slip = unit_slip(quantity, middle);
@@ -177,7 +177,7 @@ ConstantField read_constant_field(const CaseEntry& entry, const Parameter& param
   return field;
 }
 
-/// The mean; of angles one that is neither end of their range, since fibres are turned from it.
+/// The mean; for alpha, an angle in degrees, 45: not an end of its range, since fibres are turned from it.
 double stand_in(const ConstantField& field, const Parameter& parameter) {
   if (parameter.name == "alpha") return 45;
   double sum = 0;

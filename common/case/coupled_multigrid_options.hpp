@@ -5,21 +5,21 @@
 
 namespace fsi {
 
-// Options of the coupled multigrid under monolithic/, here so that case files can set them.
+// Options of the coupled multigrid in monolithic/ ([Langer2018]), here so that case files can set them.
 
 struct CoupledCoarseningOptions {
   CoarseningKind kind = CoarseningKind::colouring;
   int max_levels = 10;
-  int coarsest_nodes = 400;  ///< fluid and wall nodes of a level that needs no coarser one
+  int coarsest_nodes = 400;  ///< fluid and wall nodes, at most, of the level that is solved directly
 };
 
 /// Steps of the coupled smoother and their damping.
 struct CoupledSmoothingOptions {
   int pre_smoothing = 5, post_smoothing = 5;
   double damping = 0;         ///< omega_f = omega_s; 0: damping_for() the estimated largest eigenvalue, level by level
-  double mesh_damping = 1;    ///< omega_m; mesh motion takes no part in the loop that makes the iteration diverge
+  double mesh_damping = 1;    ///< omega_m; mesh motion is not in the loop that makes the iteration diverge
   int power_iterations = 12;  ///< of the estimate
-  double safety = 0.95;       ///< factor on the estimated damping: too large a one does more harm than too small a one
+  double safety = 0.95;       ///< factor on the estimated damping: too large does more harm than too small
 };
 
 /// How the cycle visits the coarse levels.

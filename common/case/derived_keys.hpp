@@ -8,11 +8,11 @@
 
 namespace fsi {
 
-/// Keys of [output] for surfaces, forces and statistics.
+/// Keys of [output] for surfaces, forces, statistics and error indicator.
 std::vector<CaseKey<OutputData>> derived_output_keys();
 
-/// Refuses what the scene cannot have: a field or force of a medium that is not there, statistics without a period.
-/// \throws InputError
+/// Refuses what the scene cannot have: a field of a medium that is not there, statistics without a period. Sets the
+/// statistics' period if the case leaves it out. \throws InputError
 void check_derived_output(const CaseEntry& whole_case, Case& scene);
 
 }  // namespace fsi

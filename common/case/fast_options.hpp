@@ -18,8 +18,8 @@ struct FastOptions {
   int restart = 50;          ///< iterations between two residuals in double precision, at most
   int momentum_sweeps = 1;   ///< symmetric Gauss-Seidel sweeps on the momentum equations
   int strong_sweeps = 8;     ///< the same when the preconditioner is strengthened
-  /// Factors that leave the mesh motion out solve to `exact_to`, as factors of the whole would, whatever is asked for. Set where
-  /// there is a network: increments that are less exact send Newton's method astray among valves that open and close.
+  /// Factors without the mesh motion solve to `exact_to` at least, as factors of the whole would. Set for cases with a
+  /// network: less exact increments mislead Newton's method among valves that open and close.
   bool exact = false;
   static constexpr double exact_to = 1e-6;
 };

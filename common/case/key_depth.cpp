@@ -8,8 +8,8 @@ namespace fsi {
 
 namespace {
 
-/// The place of the last byte of the string that begins at `begin`; of the text's if it has no end, which the parser
-/// will say.
+/// The place of the last byte of the string that begins at `begin`; the text's size if it has no end, which the parser
+/// will refuse.
 std::size_t end_of_string(const std::string& text, std::size_t begin) {
   const char mark = text[begin];
   const bool of_lines = text.compare(begin, 3, std::string(3, mark)) == 0;

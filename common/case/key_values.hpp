@@ -1,6 +1,6 @@
 #pragma once
 
-// The kinds of values that keys have: how each is read with its checks, and written.
+// The kinds of values that keys have: how each is read, checked and written.
 
 #include <fmt/format.h>
 
@@ -35,12 +35,12 @@ Place<Target, Value> at(Part Target::*part, Value Part::*member) {
   return {[=](Target& target) -> Value& { return target.*part.*member; }};
 }
 
-/// Canonical text of a number, its shortest form with round-trip precision; 1e-8, not 1e-08, for people.
+/// Shortest text of a number with round-trip precision, with 1e-8 in place of 1e-08.
 inline std::string text_for_people(double value) {
   return replaced(fmt::format("{}", value), "e-0", "e-");
 }
 
-/// A number in its bounds; one that seems to be in a wrong unit is warned of.
+/// A number in its bounds, with a warning if it seems to be in a wrong unit.
 template <class Target, class Number>  // double, or an optional one
 KeyValue<Target> number(Place<Target, Number> place, const Bounds& bounds,
                         const Quantity& measured = quantity::number()) {
@@ -63,8 +63,8 @@ KeyValue<Target> number(Place<Target, Number> place, const Bounds& bounds,
   return value;
 }
 
-/// A whole number with its limits, both included. The upper one is far above what is of use, and far below where sums
-/// and products of such numbers overflow.
+/// A whole number from low to high. Choose the upper limit far above useful values, and far below where sums and
+/// products of such numbers overflow.
 template <class Target, class Whole>  // an integer, or an optional one
 KeyValue<Target> whole(Place<Target, Whole> place, int low, int high) {
   KeyValue<Target> value;
@@ -95,7 +95,7 @@ KeyValue<Target> any_text(Place<Target, std::string> place) {
           [place](const Target& target) { return place(target); }};
 }
 
-/// \param planned  names that will be valid one day: not misspelt, but refused
+/// \param planned  names of choices not available yet: refused, but not as misspelt \throws InputError
 inline void require_name(const CaseEntry& entry, const std::vector<std::string>& names,
                          const std::vector<std::string>& planned = {}) {
   const auto name = entry.text();
@@ -123,7 +123,7 @@ KeyValue<Target> name_from(Place<Target, std::string> place, const std::vector<s
           [place](const Target& target) { return place(target); }, marked(names, place(Target()))};
 }
 
-/// The same where something else chooses unless the case does.
+/// The same for a choice that the program makes unless the case does.
 template <class Target>
 KeyValue<Target> name_from(Place<Target, std::optional<std::string>> place, const std::vector<std::string>& names) {
   KeyValue<Target> value;
@@ -147,7 +147,7 @@ KeyValue<Target> name_from(Place<Target, Choice> place, const NameTable<Choice>&
           marked(table.names(), table.name_of(place(Target())))};
 }
 
-/// Likewise of a choice that need not be made.
+/// The same for an optional choice.
 template <class Target, class Choice>
 KeyValue<Target> name_from(Place<Target, std::optional<Choice>> place, const NameTable<Choice>& table) {
   return {[place, &table](const CaseEntry& entry, Target& target) {

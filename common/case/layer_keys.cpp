@@ -47,7 +47,7 @@ void read_layer(const CaseEntry& entry, MaterialData& layer, const std::vector<s
   require_name(name, names);
   const MaterialKind& kind = materials().at(name.text());
 
-  // A parameter of another material is no misprint; say what this one takes.
+  // A parameter of another material is no misspelling: the message says what this one takes.
   for (const auto& child : children) {
     const auto key = child.key().substr(entry.key().size() + 1);
     if (key == "material" || key == MaterialData::viscosity_key || key == "maxwell" || kind.find(key) != nullptr ||
@@ -119,7 +119,6 @@ CaseKey<StructureData> layers_key() {
           layers_help()};
 }
 
-/// The structure's bulk modulus is that of layers whose material has none of its own.
 void check_structure(const CaseEntry& entry, const StructureData& structure) {
   const bool needed = std::any_of(structure.layers.begin(), structure.layers.end(), [](const auto& layer) {
     return needs_bulk_modulus(make_material(layer.second.material, layer.second.values));

@@ -24,8 +24,8 @@ void set_lumped_start(const CaseEntry& whole_case, Case& scene) {
   const std::vector<OpeningData> openings = openings_of(scene);
   const PressureTable none;
   std::vector<const PressureTable*> pressures, flows;
-  std::vector<std::string> keeping;  // surfaces whose laws keep a pressure, and
-  std::vector<std::size_t> numbers;  // these among the laws
+  std::vector<std::string> keeping;  // surfaces whose laws keep a pressure
+  std::vector<std::size_t> numbers;  // and the indices of these laws
   for (const OpeningData& opening : openings) {
     if (opening.pressure) pressures.push_back(&*opening.pressure);
     if (opening.is_free() && opening.demanded) pressures.push_back(&none);

@@ -5,8 +5,9 @@
 
 namespace fsi {
 
-/// Gives the Windkessels of a case with time.start = "lumped" the pressures of the periodic state of what lies behind the
-/// openings alone (openings/lumped_start.hpp), and says which. \throws InputError where the case does not determine them
+/// With time.start = "lumped", gives the Windkessels the pressures of the periodic state of the laws behind the
+/// openings alone (openings/lumped_start.hpp), with a remark each. \throws InputError where the case does not determine
+/// them
 void set_lumped_start(const CaseEntry& whole_case, Case& scene);
 
 }  // namespace fsi

@@ -8,7 +8,7 @@ namespace fsi {
 
 namespace {
 
-/// A key of one method beside another is a mistake about what runs.
+/// Refuses keys of another method than the chosen one, which would have no effect.
 void check_mesh_motion(const CaseEntry& entry, MeshMotionOptions& options) {
   using Method = MeshMotionMethod;
   const auto require = [&](const char* key, const std::vector<Method>& methods) {

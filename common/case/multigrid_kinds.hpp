@@ -4,7 +4,7 @@
 
 namespace fsi {
 
-// The choices of a multigrid method, each with the table of its names.
+// Choices of the multigrid methods, each with the table of its names.
 
 /// How coarse nodes and weights are chosen.
 enum class CoarseningKind {
@@ -25,6 +25,7 @@ const NameTable<CycleKind>& cycle_kinds();
 /// "v", "w": cycles that are one linear map, as preconditioners of GMRES must be
 const NameTable<CycleKind>& linear_cycle_kinds();
 
+/// Smoothers of velocity-pressure systems; [Braess1997], [Vanka1986].
 enum class SaddleSmootherKind { braess_sarazin, vanka };
 /// "braess-sarazin", "vanka"
 const NameTable<SaddleSmootherKind>& saddle_smoother_kinds();

@@ -14,9 +14,9 @@ namespace {
 
 /// A list of sections, each with a name.
 struct NamedList {
-  const char *section, *list;   ///< section: "" where the list stands in none
+  const char *section, *list;   ///< section: "" for a list at top level
   const char *key, *about;      ///< of the name
-  const char* order = nullptr;  ///< entry that keeps each one's place in the list; null: none
+  const char* order = nullptr;  ///< key that keeps each entry's place in the list; null: none
 
   std::string path() const { return *section == '\0' ? list : std::string(section) + "." + list; }
 };

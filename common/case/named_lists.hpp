@@ -6,10 +6,10 @@
 
 namespace fsi {
 
-/// Turns the lists of a case, [[opening]], [[support]], [[network.element]] and [[structure.region]], into sections by the name
-/// of the surface that each entry is for, or by its own: what follows reads, checks, overrides and names
-/// `opening.outlet.pressure` as any other key. The key `surface`, or `name`, is taken out; the place in the list of
-/// [[structure.region]] is kept as `order`. A case that already says [opening.outlet] is left as it is.
+/// Turns the lists [[opening]], [[support]], [[network.element]] and [[structure.region]] into sections, so that
+/// `opening.outlet.pressure` is a key like any other. A section is named by the entry's key `surface`, or `name`, which
+/// is taken out. An entry of [[structure.region]] without `order` gets its place in the list, from 1. Sections such as
+/// [opening.outlet] stay as they are.
 /// \throws InputError for an entry without a name, and for two of one name
 void name_lists(toml::table& document, const CaseSource& source);
 

@@ -151,7 +151,7 @@ void list_network(const Case& scene, const std::string& path, std::vector<CaseVa
   }
 }
 
-/// Each key once, with what it is of which kinds.
+/// Each key once, with its meaning for each kind that has it.
 std::vector<KeyHelp> help_of_network() {
   std::vector<KeyHelp> lines{
       {"network.ground_pressure", "of the node \"ground\" in kPa, default 0", optional},
@@ -172,7 +172,7 @@ std::vector<KeyHelp> help_of_network() {
   return lines;
 }
 
-/// Openings become nodes by their names.
+/// Marks the openings that are nodes of the network, by their names.
 void join_openings(const CaseEntry& whole_case, Case& scene) {
   std::vector<std::string> known;
   for (const auto& [surface, conditions] : scene.openings) known.push_back(surface);

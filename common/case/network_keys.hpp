@@ -7,8 +7,8 @@ namespace fsi {
 /// [network]
 CaseKey<Case> network_key();
 
-/// Joins openings by the case's network, if it has one, and says in the log what it is. \throws InputError where it does not
-/// go with the rest of the case, or has not one solution
+/// Joins openings by the case's network, if it has one, with a remark on it for the log.
+/// \throws InputError where it contradicts the rest of the case, or has no unique solution
 void join_network(const CaseEntry& whole_case, Case& scene);
 
 }  // namespace fsi

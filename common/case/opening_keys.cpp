@@ -22,7 +22,7 @@ using presence::optional, presence::required;
 constexpr std::size_t most_jumps = 100'000;  // each ends a step
 constexpr const char* in_place = ", in place of a pressure";
 
-/// What an opening may have one of.
+/// The conditions of which an opening has at most one.
 std::vector<std::string> sources() {
   std::vector<std::string> names{"pressure", "flow_rate"};
   for (const auto& [name, kind] : opening_laws().rows()) names.push_back(name);
@@ -50,10 +50,11 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// Textbooks' letters for the parts of a Windkessel are nearer to other keys than to those that they mean.
+/// By their spelling, textbooks' letters for the parts of a Windkessel are nearer to other keys than to those they
+/// mean.
 void refuse_letters(const CaseEntry& law, const OpeningLawKind& kind) {
   if (!law.is_section()) return;
-  std::string named;  // those that must be given with a letter
+  std::string named;  // all keys, required ones with their letter
   for (const auto& p : kind.parameters) {
     const auto letter =
         std::find_if(kind.letters.begin(), kind.letters.end(), [&](const auto& row) { return row.second == p.name; });
@@ -74,7 +75,7 @@ KeyValue<OpeningInput> table_of(const TableKind& kind) {
           [](const OpeningInput&) { return std::string(); }, "", kind.values.unit};
 }
 
-/// Listed by list_openings(), as they are after reading.
+/// Their values are listed by list_openings().
 std::vector<CaseKey<OpeningInput>> keys_of_opening(Geometry geometry = Geometry::three_dimensional) {
   const auto unlisted = [](const OpeningInput&) { return std::string(); };
   std::vector<CaseKey<OpeningInput>> keys{
@@ -114,7 +115,7 @@ std::vector<CaseKey<OpeningInput>> keys_of_opening(Geometry geometry = Geometry:
   return keys;
 }
 
-/// One source at most, and nothing that belongs to another.
+/// Refuses a second source, and keys of another one.
 void check_sources(const CaseEntry& entry) {
   std::string source;
   for (const std::string& name : sources()) {

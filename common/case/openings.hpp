@@ -12,8 +12,8 @@ namespace fsi {
 /// One surface through which fluid may pass, with what happens there.
 struct OpeningData : OpeningConditions {
   std::string surface;   ///< name of the facet group
-  bool listed = false;   ///< the case has [[opening]], and this is none that [inlet] makes
-  bool demanded = true;  ///< of the mesh; else it may have no such surface
+  bool listed = false;   ///< the case has [[opening]], and this is not the one of [inlet]
+  bool demanded = true;  ///< whether the mesh must have the surface
 };
 
 /// Whether a case says that its fluid has no opening.
@@ -21,9 +21,9 @@ inline bool is_closed(const Case& setup) {
   return setup.fluid && setup.fluid->closed && !setup.inlet && setup.openings.empty();
 }
 
-/// The open boundaries of a case with fluid, in the order in which scenes and loads hold them: `inlet` of a case with
-/// [inlet], those of [[opening]] by name, and `outlet` where none of them is it. With [[opening]], and where the case says
-/// that its fluid is closed, the mesh need not have the latter.
+/// The open boundaries of a case with fluid, in the order in which scenes and loads hold them: `inlet` with [inlet],
+/// those of [[opening]] by name, and with fluid.outlet `outlet` if none of them is it. With [[opening]], or in a fluid
+/// that the case says is closed, the mesh need not have the latter.
 inline std::vector<OpeningData> openings_of(const Case& setup) {
   if (!setup.fluid) return {};
   std::vector<OpeningData> openings;
@@ -34,7 +34,7 @@ inline std::vector<OpeningData> openings_of(const Case& setup) {
   return openings;
 }
 
-/// The tables over time of a case with their keys, in which steps end at jumps.
+/// The tables over time of inlet, load and openings, with their keys. Steps end at their jumps.
 inline std::vector<std::pair<std::string, const PressureTable*>> tables_over_time(const Case& setup) {
   std::vector<std::pair<std::string, const PressureTable*>> tables;
   if (setup.inlet) tables.emplace_back("inlet.pressure", &*setup.inlet);

@@ -7,10 +7,10 @@
 
 namespace fsi {
 
-/// "meaning in unit, default 0"
+/// A parameter for help and messages: "meaning in unit, default 0".
 std::string about(const Parameter& parameter);
 
-/// The key of a law's parameter. \param place  of the law's values in the Target
+/// The key of a law's parameter. \param place  where the Target has the law's values
 template <class Target>
 CaseKey<Target> parameter_key(const Parameter& p, Place<Target, ParameterValues> place) {
   KeyValue<Target> value;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double most_percent = 50;
 
-/// The number of "until 1%".
+/// Reads "until 1%".
 void read_periods(const CaseEntry& entry, TimeData& time) {
   const std::string remedy = "give \"until 1%\", or another share; for a number of periods give time.end";
   if (!entry.is_text()) entry.refuse("is not a text", remedy);

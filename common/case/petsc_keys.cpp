@@ -13,7 +13,8 @@ bool begins_with(const std::string& text, const std::string& beginning) {
   return text.compare(0, beginning.size(), beginning) == 0;
 }
 
-/// PETSc itself sees whether options of ours exist, once there is a solver. Others would reach what is not meant.
+/// Refuses options without our prefix, which could reach other objects of PETSc. Whether one with it exists,
+/// PETSc itself checks once there is a solver.
 void check_petsc(const CaseEntry& entry, PetscData& petsc) {
   std::istringstream words(petsc.options);
   bool first = true;

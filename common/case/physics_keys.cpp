@@ -35,7 +35,7 @@ using presence::optional, presence::required;
 
 // [mesh].
 
-/// Relative to the case file; given by --set, relative to the working directory if the file is there.
+/// Relative to the case file; given by --set, relative to the working directory if the file exists there.
 void read_mesh_file(const CaseEntry& entry, MeshData& mesh) {
   const std::string name = entry.text();
   if (name.empty()) entry.refuse_value("is empty", "give the path of a gmsh file");
@@ -96,7 +96,7 @@ void read_closed(const CaseEntry& entry, FluidData& fluid) {
       element.refuse_value("is named twice", "name each surface once");
     names.push_back(name);
   }
-  // Said of an outlet, it means what fluid.outlet = false means.
+  // Naming the outlet is the same as fluid.outlet = false.
   if (std::find(names.begin(), names.end(), group::outlet) != names.end()) fluid.outlet = false;
 }
 
@@ -122,7 +122,7 @@ std::vector<CaseKey<FluidData>> fluid_keys() {
   };
 }
 
-/// Reads one of the parameters that materials and time schemes list, to its place in a map of them.
+/// Reads one of the parameters that time schemes list into a map of them.
 template <class Row, class Data>
 KeyValue<Data> parameter_value(const Row& p, std::map<std::string, double> Data::*values) {
   KeyValue<Data> value;
@@ -137,8 +137,8 @@ KeyValue<Data> parameter_value(const Row& p, std::map<std::string, double> Data:
 
 // [structure].
 
-/// Where none is named the scene decides, and says what a checkpoint depends on (Scene::fibre_frame); without fibres what
-/// stands here makes no difference.
+/// Without a name the scene chooses the frame, and a run puts it into the case before its hash is taken
+/// (Scene::fibre_frame). Without fibres the value makes no difference.
 KeyValue<StructureData> fibre_frame_value() {
   KeyValue<StructureData> value = name_from(at(&StructureData::fibre_frame), fibre_frames());
   value.write = [](const StructureData& data) {
@@ -264,7 +264,7 @@ void check_adaptive(const CaseEntry& entry, const TimeData& time) {
 }
 
 void check_time(const CaseEntry& entry, TimeData& time) {
-  if (!time.scheme && entry.has("damping")) time.scheme = "midpoint";  // its shift: nothing is left to choose
+  if (!time.scheme && entry.has("damping")) time.scheme = "midpoint";  // the parameter of midpoint alone
   for (const auto& [scheme, row] : time_schemes().rows())
     for (const SchemeParameter& parameter : row.parameters) {
       if (!entry.has(parameter.name) || time.scheme == scheme) continue;

@@ -2,9 +2,9 @@
 
 #include <string_view>
 
-// linear.preconditioner: the preconditioners of `fast` for velocities and pressures, each a row of its name in case files
-// and the function that makes it. The first is the default. A further one is a file in
-// linear/velocity_pressure/preconditioners/ that defines its function, and its row here.
+// linear.preconditioner: the preconditioners of `fast` for velocities and pressures. A row has the name in case files
+// and the function that makes it; the first is the default. To add one: a file in
+// linear/velocity_pressure/preconditioners/ that defines its function, and a row here.
 #define FSI_FLOW_PRECONDITIONERS(ROW)      \
   ROW("block-factors", make_block_factors) \
   ROW("simple", make_simple)

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double radius_over_thickness = 5, strain_of_vessel = 0.5, strain_of_block = 2;
 
-/// Of the stiffest layer, kPa; 0: there is no wall.
+/// Hoop modulus of the stiffest layer, kPa; 0: there is no wall.
 double hoop_modulus_of(const Case& scene) {
   double largest = 0;
   if (scene.structure)

@@ -23,7 +23,7 @@ constexpr double rounding = 1e-12;  // of a period: times this close to its end 
 double PressureTable::integral(double from, double to) const {
   double integral = points.front().second * std::max(0.0, std::min(to, points.front().first) - from) +
                     points.back().second * std::max(0.0, to - std::max(from, points.back().first));
-  // A step needs the segments that it lies in, of however many. The others would add zeros.
+  // Only the segments that the step lies in: a table may have many. The others would add zeros.
   const auto behind = std::upper_bound(points.begin(), points.end(), from,
                                        [](double time, const auto& point) { return time < point.first; });
   integral += 0.0;

@@ -6,19 +6,21 @@
 
 namespace fsi {
 
-/// Pressure over time, or a rate of flow. Between table points linear; before the first point its value, after the last
-/// point its value. A periodic one holds for times from 0 to its period, and again for each period that follows.
+/// Pressure, flow rate or another load over time. Linear between points, constant before the first and after the last.
+/// A periodic table holds for times from 0 to its period, and repeats in each period that follows.
 struct PressureTable {
-  std::vector<std::pair<double, double>> points;  ///< (ms, kPa), times not decreasing; equal times make a jump
+  std::vector<std::pair<double, double>> points;  ///< (ms, kPa, ...), times not decreasing; equal times: a jump
   double period{};                                ///< ms; 0: not periodic. No point lies beyond it
 
-  /// Mean pressure over [from, to] in kPa: the load of a step, so that the impulse does not depend on the time step.
+  /// Mean over [from, to] ms: the load of a step, so that the impulse does not depend on the time step. 0 without
+  /// points.
   double mean(double from, double to) const;
-  /// Value at a time, where it jumps the one before the jump.
+  /// Value at a time; at a jump the one before it. A periodic table has at 0 the value of the period's end.
   double at(double time) const;
-  /// Times at which it jumps, ms, ascending; of a periodic one those up to `until`, the ends of periods among them.
+  /// Times at which it jumps, ms, ascending; of a periodic one those up to `until`, with ends of periods that jump.
+  /// Without `until` those of one period.
   std::vector<double> jumps(double until = std::numeric_limits<double>::infinity()) const;
-  /// Jumps in a period, that at its end counted.
+  /// Number of jumps in a period, the one at its end included.
   std::size_t jumps_in_period() const;
   double at_end() const { return points.empty() ? 0.0 : points.back().second; }
 

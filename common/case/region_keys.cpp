@@ -56,7 +56,7 @@ Place<RegionInput, Value> of_shape(Value RegionShape::*member) {
   return {[=](RegionInput& input) -> Value& { return input.region.shape.*member; }};
 }
 
-/// Keys of the shapes that have them, and of the width. All may be listed: what a shape does not have stays as it is.
+/// Keys of all shapes and those that every region has. keys_of_shape() tells them apart.
 std::vector<CaseKey<RegionInput>> region_keys() {
   using Key = RegionInput;
   const auto length = [](auto place, const Bounds& bounds) { return number(place, bounds, quantity::length()); };
@@ -162,7 +162,7 @@ void read_file(const CaseEntry& region, RegionInput& input) {
   input.region.hash = hash.hex();
 }
 
-/// The layer that a region makes of another: with what the region gives in place of what the layer has.
+/// The layer with the region's constants in place of its own.
 MaterialData replaced_layer(const MaterialData& layer, const RegionData& region) {
   MaterialData part = layer;
   for (const auto& [name, value] : region.values) {

@@ -11,7 +11,7 @@ namespace fsi {
 
 namespace {
 
-/// A key of version 0.2 and the section and name that it has now.
+/// A key as version 0.2 named it, and its present section and name.
 struct Renamed {
   const char *former_section, *former_name, *section, *name;
 

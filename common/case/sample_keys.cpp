@@ -18,7 +18,7 @@ constexpr int most_points = 100'000;  // of a line
 constexpr std::size_t longest_name = 64;
 using presence::optional, presence::required;
 
-/// Names stand in a column of a table.
+/// The name of a sample, which stands in a column of a table. \throws InputError for one that cannot
 std::string sample_name(const CaseEntry& section, const CaseEntry& entry) {
   std::string name = entry.key().substr(section.key().size() + 1);
   const bool plain = !name.empty() && name.size() <= longest_name && std::all_of(name.begin(), name.end(), [](char c) {

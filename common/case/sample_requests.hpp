@@ -23,7 +23,7 @@ struct PlaneRequest {
   Point normal{0, 0, 1};  ///< need not be normalised; flow along it is positive
 };
 
-/// What a case wants to have sampled at each step, by name (docs/evidence/evidence.md).
+/// What a case samples at each step, by name (docs/guide/cases.md#samples).
 struct SampleRequests {
   std::map<std::string, Point> points;  ///< mm
   std::map<std::string, LineRequest> lines;

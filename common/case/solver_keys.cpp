@@ -64,7 +64,7 @@ void check_multigrid(const CaseEntry& entry, MultigridData& multigrid) {
     entry.refuse("neither pre_smoothing nor post_smoothing", "give at least one step");
 }
 
-/// Version 0.1 had another mode, whose estimate of its error missed what comes back in the next steps' pressure.
+/// Refuses the mode of version 0.1: its error estimate missed errors that appear in the pressure of the next steps.
 KeyValue<NewtonOptions> newton_mode() {
   auto mode = name_from(at(&NewtonOptions::mode), newton_modes());
   mode.read = [read = mode.read](const CaseEntry& entry, NewtonOptions& newton) {
@@ -77,7 +77,7 @@ KeyValue<NewtonOptions> newton_mode() {
   return mode;
 }
 
-/// As KeyValue's place of a part, with the defaults of a case in place of the part's own.
+/// The value of a part of the case as a value of the case.
 template <class Part>
 KeyValue<Case> in_case(KeyValue<Part> value, Part Case::*part) {
   return {[read = value.read, part](const CaseEntry& entry, Case& scene) { read(entry, scene.*part); },
@@ -208,7 +208,7 @@ void read_fields(const CaseEntry& entry, OutputData& output) {
   }
 }
 
-/// Ascending; whether they lie in the run is checked with the rest of the case.
+/// Requires ascending times; check_output_times() in case_reader.cpp requires that they lie in the run.
 void read_output_times(const CaseEntry& entry, OutputData& output) {
   output.times.clear();
   for (const CaseEntry& element : entry.elements()) {

@@ -12,10 +12,10 @@ namespace fsi {
 
 namespace {
 
-constexpr double small = 0.02;    // difference over the shear modulus: 6 % of the radius
-constexpr double at_once = 1e12;  // 1/ms: what is stored has no time to change
+constexpr double small = 0.02;    // difference over the shear modulus: widens the tube by 6 % of its radius
+constexpr double at_once = 1e12;  // 1/ms: so short a step that what is stored does not change
 
-/// Of the stiffest layer, kPa.
+/// Shear modulus of the stiffest layer, kPa.
 double stiffest(const StructureData& structure) {
   double modulus = 0;
   for (const auto& [name, layer] : structure.layers)
@@ -51,7 +51,7 @@ void warn_of_start_pressure(const CaseEntry& whole_case, const Case& scene) {
       const auto kept = law->start();
       warn(entry.child(conditions.law->name), law->pressure(at_once, kept.data(), 0), !kept.empty());
     }
-    // A pulse is meant; the course of a beat that begins somewhere is not the start of a vessel without load.
+    // A pulse is intended; a periodic table is a beat that may begin anywhere, which no vessel without load does.
     if (conditions.pressure && conditions.pressure->period > 0)
       warn(entry.child("pressure"), conditions.pressure->at(0), false);
   }

@@ -5,10 +5,10 @@
 
 namespace fsi {
 
-/// Warns of laws of openings, and of tables that repeat themselves, that begin with a pressure which an elastic wall does
-/// not carry then: a vessel at rest begins with that of [prestress], or none. It is filled from behind, by a flow
-/// backwards of the difference over the proximal resistance at most, or emptied. What matters is measured by the wall's
-/// shear modulus: a tube whose wall has a tenth of its radius widens by three times the difference over that.
+/// Warns of opening laws and periodic pressure tables that begin with another pressure than an elastic wall carries at
+/// rest, that of [prestress] or none. The vessel is then filled from behind, by a backward flow of at most the
+/// difference over the proximal resistance, or emptied. The difference is compared with the wall's shear modulus: a
+/// tube whose thickness is a tenth of its radius widens by three times their ratio.
 void warn_of_start_pressure(const CaseEntry& whole_case, const Case& scene);
 
 }  // namespace fsi

@@ -36,7 +36,7 @@ std::vector<std::string> directions(Geometry geometry) {
   return {"x", "y", "z"};
 }
 
-/// Rows of a table: a time, which does not decrease, and as many values in each row.
+/// Reads the rows of a table: times that do not decrease, each with the same number of values.
 void read_rows(const CaseEntry& entry, const std::string& row_form, std::vector<std::vector<double>>& rows) {
   const auto given = entry.elements();
   if (given.size() > most_table_rows)

@@ -5,13 +5,13 @@
 
 namespace fsi {
 
-/// The key `support`: a section for each surface that something holds or loads from outside.
+/// The key `support`: a section for each surface that is held or loaded from outside.
 CaseKey<Case> support_section();
 
 /// The section [prestress].
 CaseKey<Case> prestress_section();
 
-/// Refuses supports, and a prestress, that the rest of the case has no use for. \throws InputError
+/// Checks supports and prestress against the rest of the case. \throws InputError
 void check_supports(const CaseEntry& whole_case, const Case& scene);
 
 }  // namespace fsi

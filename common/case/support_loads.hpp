@@ -7,11 +7,11 @@
 
 namespace fsi {
 
-/// One of the loads on the wall from outside: a number in time on a surface, or on all of the wall.
+/// A load on the wall from outside: a function of time on a surface, or on the whole wall.
 struct SupportLoad {
   std::string surface;   ///< name of the facet group; empty: a force on the wall's volume
   int component = -1;    ///< of a traction or force, a direction of the scene; -1: a pressure that follows the surface
-  PressureTable course;  ///< kPa, of a force on the volume kPa/mm
+  PressureTable course;  ///< kPa; a force on the volume in kPa/mm
 };
 
 /// Axes of space along which the directions of a scene lie.
@@ -37,7 +37,7 @@ inline std::vector<SupportLoad> support_loads_of(const Case& setup) {
   return loads;
 }
 
-/// kPa, with which a run in time begins.
+/// The value with which a run in time begins: behind a jump at 0.
 inline double first_value(const PressureTable& table) {
   double value = table.points.empty() ? 0.0 : table.points.front().second;
   for (const auto& [time, at_time] : table.points)
@@ -45,7 +45,7 @@ inline double first_value(const PressureTable& table) {
   return value;
 }
 
-/// What the supports' loads are while a wall under prestress is at rest: as a run in time begins, the whole in statics.
+/// The loads of support_loads_of() on a wall at rest under prestress: as a run in time begins, in statics the whole.
 inline std::vector<double> support_loads_at_rest(const Case& setup) {
   std::vector<double> loads;
   for (const SupportLoad& load : support_loads_of(setup))

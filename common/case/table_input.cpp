@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char *time_unit_key = "time_unit", *value_unit_key = "value_unit";
 
-/// Sorted by time, two rows at most of one time. \param refuse  says what is wrong with the last row, and what to do
+/// Requires rows sorted by time, at most two of one time. \param refuse  called with problem and remedy
 template <class Refuse>
 void check_last_row(const std::vector<std::pair<double, double>>& points, Refuse refuse) {
   const auto n = points.size();
@@ -37,7 +37,7 @@ std::string_view trimmed(std::string_view text) {
   return first == std::string_view::npos ? std::string_view() : text.substr(first, last - first + 1);
 }
 
-/// A finite number of a sensible size, and nothing else.
+/// A finite number within CaseEntry's limits, and nothing else.
 std::optional<double> number_of(std::string_view text) {
   text = trimmed(text);
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
@@ -56,7 +56,7 @@ std::optional<std::pair<double, double>> row_of(std::string_view line) {
   return std::pair{*time, *value};
 }
 
-/// Relative to the case file; given by --set, relative to the working directory if the file is there.
+/// Relative to the case file; given by --set, relative to the working directory if the file exists there.
 std::filesystem::path path_of(const CaseEntry& entry) {
   const std::string name = entry.line();
   if (name.empty()) entry.refuse_value("is empty", "give the path of a CSV file");
@@ -85,7 +85,7 @@ std::optional<ColumnUnit> unit_of_key(const CaseEntry& entry, const char* key, C
   given.refuse_name(problem, "give " + known_units(kind));
 }
 
-/// What was converted, in words; empty: nothing.
+/// The conversions in words; empty: none.
 std::string text_of_factors(const std::optional<ColumnUnit>& time, const std::optional<ColumnUnit>& value,
                             const TableKind& kind) {
   std::string said;
@@ -96,8 +96,8 @@ std::string text_of_factors(const std::optional<ColumnUnit>& time, const std::op
   return said;
 }
 
-/// \param section  that the file stands in
-/// \param refuse   says what is wrong with the header, and what to do
+/// The factors from the units that header and keys name. \param section  of the key `file`
+/// \param refuse  called with problem and remedy
 template <class Refuse>
 ColumnFactors factors_of(std::string_view header, const CaseEntry& section, const TableKind& kind, Refuse refuse) {
   const auto comma = header.find_first_of(",;");
@@ -171,7 +171,7 @@ void read_file(const CaseEntry& section, const TableKind& kind, TableInput& inpu
   if (points.empty()) entry.refuse(fmt::format("\"{}\" has no row below its header", file.string()), remedy);
 }
 
-/// Rows of the case file itself. \param factors  of their units
+/// Reads rows of the case file itself. \param factors  from their units
 void read_rows(const CaseEntry& entry, const TableKind& kind, const ColumnFactors& factors, TableInput& input) {
   bool warned_of_time = factors.time_named, warned_of_value = factors.value_named;  // once is enough
   auto& points = input.table.points;
@@ -191,7 +191,7 @@ void read_rows(const CaseEntry& entry, const TableKind& kind, const ColumnFactor
   if (points.empty()) entry.refuse_name("is empty", fmt::format("give at least one row [time, {}]", kind.key));
 }
 
-/// { file = NAME } or { rows = [...] }, with the words for units where the numbers are not in ms and the kind's unit.
+/// Reads { file = NAME } or { rows = [...] }, with time_unit and value_unit if the numbers are in other units.
 void read_section(const CaseEntry& entry, const TableKind& kind, TableInput& input) {
   refuse_unknown_keys(entry, {"file", "rows", time_unit_key, value_unit_key});
   input.is_table = true;

@@ -17,30 +17,30 @@ inline constexpr std::size_t most_table_rows = 100'000;  ///< of a table in a ca
 struct TableKind {
   const char* key;         ///< "pressure"
   const char* plural;      ///< "pressures"
-  const Quantity& values;  ///< their unit
-  ColumnKind column;       ///< what units the header of a file may name
+  const Quantity& values;  ///< with their unit
+  ColumnKind column;       ///< which units the header of a file may name
 };
 const TableKind& pressure_kind();
-/// \param plane  of a scene in which flows are those through 1 mm of thickness
+/// \param plane  for plane scenes, where flows are those through 1 mm of thickness
 const TableKind& flow_rate_kind(bool plane = false);
 
 /// A value over time as it stands in a case file.
 struct TableInput {
   PressureTable table;
-  bool is_table = false;  ///< rows, of the case file or of a CSV file
-  std::optional<double> until;
-  std::optional<double> period;
+  bool is_table = false;         ///< has rows, of the case file or of a CSV file
+  std::optional<double> until;   ///< ms
+  std::optional<double> period;  ///< ms
 };
 
-/// Reads a number, a table of [time, value], { file = "NAME.csv" }, two columns below a header line, or { rows = [...] }.
-/// A unit that the header, time_unit or value_unit beside it name (case/table_units.hpp) is converted, with a remark.
+/// Reads a number, a table of [time, value], { file = "NAME.csv" } with two columns below a header, or { rows = [...]
+/// }. Units that the header, time_unit or value_unit name (case/table_units.hpp) are converted, with a remark.
 /// \throws InputError that names the row, or file and line
-/// \param with_file  whether a section is allowed
+/// \param with_file  whether the last two forms are allowed
 void read_table(const CaseEntry& entry, const TableKind& kind, bool with_file, TableInput& input);
 void read_until(const CaseEntry& entry, TableInput& input);
 void read_period(const CaseEntry& entry, TableInput& input);
-/// Makes the table whole once all of it is read.
-/// \param entry  the section that `until` and `period` stand in
+/// Applies `until` and `period` to the table once all keys are read.
+/// \param entry  the section of `until` and `period` \throws InputError where they contradict the table
 void finish_table(const CaseEntry& entry, const TableKind& kind, TableInput& input);
 
 /// The rows as canonical text.

@@ -23,7 +23,7 @@ struct NamedTable {
   const PressureTable* table;
 };
 
-/// All tables over time of a case. \return those of whose key the case has an entry
+/// All tables over time of a case, with their entries.
 std::vector<NamedTable> tables_of(const CaseEntry& whole_case, const Case& scene) {
   std::vector<NamedTable> tables;
   if (scene.inlet) tables.push_back({whole_case.child("inlet").child("pressure"), &*scene.inlet});
@@ -45,7 +45,7 @@ std::vector<NamedTable> tables_of(const CaseEntry& whole_case, const Case& scene
   return tables;
 }
 
-/// What gives away that a table's times are in seconds; empty: nothing does.
+/// The sign that a table's times are in seconds; empty: there is none.
 std::string sign_of_seconds(const PressureTable& table, const TimeData& time) {
   const double last = table.points.back().first;
   if (!(last > 0)) return "";

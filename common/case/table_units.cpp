@@ -87,11 +87,11 @@ std::string normal_spelling(std::string text) {
   return text;
 }
 
-/// The unit of this spelling; another size of its letters is one where that leaves no doubt (mPa, MPa).
+/// The unit of this spelling. Upper and lower case do not matter but for mPa, which is not MPa.
 const Unit* unit_of(const std::string& text) {
   const auto exact = std::find_if(units.begin(), units.end(), [&](const Unit& unit) { return unit.name == text; });
   if (exact != units.end()) return &*exact;
-  if (text == "mPa") return nullptr;  // a thousandth of what its letters are in another size
+  if (text == "mPa") return nullptr;  // not MPa
   const auto alike =
       std::find_if(units.begin(), units.end(), [&](const Unit& unit) { return lower(unit.name) == lower(text); });
   return alike == units.end() ? nullptr : &*alike;
@@ -101,7 +101,7 @@ bool is_velocity(const std::string& text) {
   return std::find(velocities.begin(), velocities.end(), text) != velocities.end();
 }
 
-/// Whether something behind a name can only be meant as a unit.
+/// Whether text behind a name can only be a unit.
 bool looks_like_unit(const std::string& text) {
   return text.find('/') != std::string::npos || text == "mPa";
 }
@@ -113,7 +113,7 @@ const char* word_of(ColumnKind kind) {
                                          : "flow rate";
 }
 
-/// Of a plane scene the flow is that through 1 mm of thickness: mm^3/ms is mm^2/ms there.
+/// The flow of a plane scene is that through 1 mm of thickness: mm^3/ms is mm^2/ms there.
 bool fits(ColumnKind unit, ColumnKind wanted) {
   return unit == wanted || (unit == ColumnKind::flow_rate && wanted == ColumnKind::flow_rate_of_depth);
 }

@@ -17,13 +17,13 @@ namespace {
 using presence::optional, presence::required;
 constexpr const char* newtonian = "newtonian";
 
-/// eta of the wall: a thousand to a million times that of blood, and no other unit gives itself away.
+/// eta of the wall, a thousand to a million times that of blood: no value gives a wrong unit away.
 const Quantity& wall_viscosity() {
   static const Quantity q{"kPa ms", {}};
   return q;
 }
 
-/// The laws, and before them that of a constant viscosity.
+/// The names of the laws, after that of a constant viscosity.
 std::vector<std::string> model_names() {
   std::vector<std::string> names{newtonian};
   for (const auto& name : viscosity_laws().names()) names.push_back(name);
@@ -41,7 +41,7 @@ std::vector<CaseKey<ViscosityData>> keys_of_model(const ViscosityKind& kind) {
   return keys;
 }
 
-/// A parameter of another law is no misprint; say what this one takes.
+/// A parameter of another law is no misspelling: the message says what this one takes.
 void refuse_others(const CaseEntry& entry, const std::string& name, const ViscosityKind* kind) {
   for (const auto& child : entry.children()) {
     const auto key = child.key().substr(entry.key().size() + 1);

@@ -13,12 +13,12 @@ namespace fsi {
 
 namespace {
 
-constexpr double kilopascal = 0.133322;  // of a mmHg: of a mmHg s/ml in kPa ms/mm^3, too, since 1 ml/s is 1 mm^3/ms
-constexpr double millilitres = 1e3 / kilopascal;  // of a ml/mmHg in mm^3/kPa
+constexpr double kilopascal = 0.133322;  // 1 mmHg in kPa, and 1 mmHg s/ml in kPa ms/mm^3, since 1 ml/s is 1 mm^3/ms
+constexpr double millilitres = 1e3 / kilopascal;  // 1 ml/mmHg in mm^3/kPa
 
 constexpr double unusual = 20;  // kPa: more than is found in arteries at rest
 
-/// The largest pressure that the case gives for what is behind its openings, kPa.
+/// The largest initial pressure that the case gives for prestress and laws, kPa.
 double given_pressure(const Case& scene) {
   double pressure = scene.prestress ? scene.prestress->pressure : 0;
   for (const auto& [surface, conditions] : scene.openings) {
@@ -29,7 +29,7 @@ double given_pressure(const Case& scene) {
   return pressure;
 }
 
-/// Too high for a vessel, or beside what the case says itself, by about what a mmHg is in kPa.
+/// Too high for a vessel, or higher than what the case gives by about the ratio of kPa to mmHg.
 bool too_high(double pressure, double given) {
   if (const auto slip = unit_slip(quantity::pressure(), pressure); slip && std::string(slip->unit) == "mmHg")
     return true;
@@ -41,13 +41,13 @@ bool too_short(double time_constant, double beat) {
   return time_constant < 0.01 * beat && 1e3 * time_constant > 0.1 * beat;
 }
 
-/// What the time constant is measured by, ms, and its name.
+/// What the time constant is compared with, ms, and its name.
 struct Beat {
   double length;
   const char* name;
 };
 
-/// The longest period; without any the run, which says less: not where the pressure shows already that all is well.
+/// The longest period; without any the run. That says less, so that it does not count if the pressure is plausible.
 std::optional<Beat> beat_of(const Case& scene, bool pressure_is_right) {
   double period = 0;
   for (const auto& [key, table] : tables_over_time(scene)) period = std::max(period, table->period);

@@ -17,14 +17,14 @@
 
 namespace fsi {
 
-/// The error indicator of a medium's cells, if it is wanted, and its mean over the run, of scenes in time.
+/// The error indicator of a medium's cells, if the case asks for it, and its mean over the run; no mean in statics.
 template <int n>
 struct MediumErrors {
   std::unique_ptr<ErrorIndicator<n>> indicator;
   std::optional<MeanErrors> mean{};
 };
 
-/// What a case asks for beyond the solution. Null, or empty, where it does not: then nothing of it is made or computed.
+/// Quantities beyond the solution that a case asks for. Null, or empty, where it does not.
 template <int n>
 struct DerivedQuantities {
   std::unique_ptr<WallShearStress<n>> shear;
@@ -32,7 +32,7 @@ struct DerivedQuantities {
   std::unique_ptr<SurfaceForces<n>> forces;
   std::optional<PeriodStatistics> statistics{};
   MediumErrors<n> fluid_errors{}, wall_errors{};
-  std::vector<double> thickness{};  ///< of the wall at rest, mm, per node of it here
+  std::vector<double> thickness{};  ///< of the wall at rest, mm, per wall node here
 
   bool has_errors() const { return fluid_errors.indicator || wall_errors.indicator; }
   bool means_errors() const { return fluid_errors.mean || wall_errors.mean; }
@@ -40,12 +40,12 @@ struct DerivedQuantities {
 
 namespace detail {
 
-/// Names of fields that are found on the whole mesh.
+/// Names of fields that are prepared on the whole mesh.
 inline constexpr std::array<const char*, 1> shear_fields{"wall_shear_stress"}, thickness_fields{"thickness"};
 inline constexpr std::array<const char*, 4> stress_fields{"cauchy_stress", "principal_stress", "von_mises_stress",
                                                           "fibre_stress"};
 
-/// The case writes one of these fields.
+/// Whether the case writes one of these fields.
 template <class Names>
 bool wants(const Case& setup, const Names& names) {
   const auto& fields = setup.output.fields;
@@ -55,7 +55,7 @@ bool wants(const Case& setup, const Names& names) {
 
 }  // namespace detail
 
-/// Whether any of it is found on the whole mesh of a scene that processes share out.
+/// Whether a derived quantity of the case needs the whole mesh of a scene that processes share.
 inline bool derived_from_mesh(const Case& setup) {
   const auto& output = setup.output;
   return output.derived.statistics || output.derived.error_indicator || !output.derived.surfaces.empty() ||
@@ -63,10 +63,11 @@ inline bool derived_from_mesh(const Case& setup) {
          detail::wants(setup, detail::stress_fields) || detail::wants(setup, detail::thickness_fields);
 }
 
-/// \param mesh   that the scene was built on; it is not looked at unless derived_from_mesh()
+/// Makes what the case asks for. Collective over the processes that share the scene.
+/// \param mesh   that the scene was built on; not read unless derived_from_mesh()
 /// \param scene  must outlive what is made
-/// \param whole  parts of a mesh that is shared out; empty: the scene has them
-/// \throws InputError for surfaces that the fluid does not have
+/// \param whole  whole parts of a mesh that processes share; empty: the scene has them
+/// \throws InputError for forces on surfaces that do not bound the fluid, or in a case without fluid
 template <class Element>
 DerivedQuantities<Element::components> make_derived_quantities(const Case& setup, const MeshOf<Element>& mesh,
                                                                const Scene<Element::components>& scene,

@@ -21,7 +21,7 @@ namespace fsi {
 
 namespace {
 
-/// Cells on which a field is smooth, and its gradients recovered at their nodes.
+/// Cells on which a field is smooth, with recovered gradients at their nodes.
 struct SmoothCells {
   std::vector<int> cells;                     ///< here
   GradientRecovery vectors;                   ///< at own nodes of the cells
@@ -44,8 +44,8 @@ class IndicatorOf : public ErrorIndicator<Element::components> {
   using Mixed = MixedLayout<n>;
   using Part = PartOf<Element>;
 
-  /// \param here     of the medium; it must outlive this
-  /// \param whole    the same where it is whole
+  /// \param here     this process's part of the medium; must outlive this
+  /// \param whole    the whole of it
   /// \param regions  of the mesh: on the cells of each the fields are smooth
   IndicatorOf(const MeshOf<Element>& mesh, const Part& here, const Part& whole, const PartRestriction* restriction,
               const std::vector<int>& regions)
@@ -118,7 +118,7 @@ class IndicatorOf : public ErrorIndicator<Element::components> {
     return gradients;
   }
 
-  /// Recovered gradients at the nodes of some cells, those of other processes too; zero elsewhere.
+  /// Recovered gradients at the nodes of these cells, ghosts too; zero at other nodes.
   std::vector<double> nodal(const SmoothCells& smooth, const std::vector<double>& field) const {
     std::vector<double> gradients(static_cast<std::size_t>(part_.node_count()) * numbers_per_node, 0.0);
     std::vector<double> buffer;

@@ -12,13 +12,13 @@
 
 namespace fsi {
 
-/// What the cells of a medium leave of a level's fields, a number per cell here.
+/// Errors of a level's fields in the cells of a medium: a number per cell here.
 struct CellErrors {
-  std::vector<double> vectors;   ///< of the fluid's velocity, mm/ms, or the wall's displacement, mm
+  std::vector<double> vectors;   ///< of the fluid's velocity, mm/ms, or of the wall's displacement, mm
   std::vector<double> pressure;  ///< kPa
 };
 
-/// The same for the gradients themselves: per mm.
+/// The same for the gradients, in these units per mm.
 struct CellGradientErrors {
   CellErrors errors;
   std::vector<double> measure;  ///< of the cells, mm^3; mm^2 in plane scenes, the ring's volume in bodies of revolution
@@ -28,18 +28,18 @@ struct CellGradientErrors {
 /// (derived/gradient_recovery.hpp), interpolated from the nodes by the element's shape functions, against that of the
 /// finite-element function (docs/theory.md, section 11a.5),
 ///   delta = G u_h - grad u_h,     eta_K^2 = 1/|K| int_K |delta (x - x_K)|^2,
-/// x_K being the mean of the cell's vertices: what the gradient's error makes of the quantity across the cell, in the
-/// quantity's unit, long and thin cells included. Gradients are with respect to the mesh as it was read, since it is this
-/// mesh that is to be refined. Lengths and angles alone count: a body that is turned has the same indicator.
+/// x_K being the mean of the cell's vertices: the change of the quantity's error across the cell, in the quantity's
+/// unit, also in long and thin cells. Gradients are with respect to the mesh as it was read, since it is this mesh that
+/// is to be refined. The indicator of a rotated body is the same.
 ///
-/// All processes that share the medium ask together.
+/// Functions of fields are collective over the processes that share the medium.
 template <int n>
 class ErrorIndicator {
  public:
   virtual ~ErrorIndicator() = default;
-  /// Cells of the medium here.
+  /// Number of the medium's cells here.
   virtual std::size_t cells() const = 0;
-  /// How processes share them out; null: all are here.
+  /// Order of the cells in the whole medium; null: all are here.
   virtual const WholeOrder* order() const = 0;
   /// eta_K. \param field  (vectors, pressure) of the medium, mixed layout
   virtual CellErrors of_cells(const std::vector<double>& field) const = 0;
@@ -49,13 +49,14 @@ class ErrorIndicator {
 
 /// Of the fluid's velocity and pressure; null where the scene has no fluid.
 /// \param mesh   that the scene was built on
-/// \param whole  parts of a mesh that is shared out; empty: the scene has them
+/// \param scene  must outlive what is made
+/// \param whole  whole parts of a mesh that processes share; empty: the scene has them
 template <class Element>
 std::unique_ptr<ErrorIndicator<Element::components>> make_fluid_indicator(const MeshOf<Element>& mesh,
                                                                           const Scene<Element::components>& scene,
                                                                           const WholeParts<Element>& whole = {});
 
-/// Of the wall's displacement and pressure, layer by layer, since gradients jump between them.
+/// Of the wall's displacement and pressure, layer by layer, since gradients jump between layers; null without wall.
 template <class Element>
 std::unique_ptr<ErrorIndicator<Element::components>> make_wall_indicator(const Case& setup, const MeshOf<Element>& mesh,
                                                                          const Scene<Element::components>& scene,

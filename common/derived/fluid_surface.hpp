@@ -33,7 +33,7 @@ struct FluidSurface {
 
   std::vector<Facet> facets;
   std::vector<FluidFacetKind> kinds;
-  std::map<Key, int> place;  ///< of a facet
+  std::map<Key, int> place;  ///< number of a facet in `facets`
 
   static Key key(const Facet& facet) {
     Key key;
@@ -41,7 +41,7 @@ struct FluidSurface {
     std::sort(key.begin(), key.end());
     return key;
   }
-  /// Places of those facets of the mesh that are on this surface.
+  /// Places (numbers in `facets`) of those facets of the mesh that are on this surface.
   std::vector<int> places(const std::vector<Facet>& of_mesh) const {
     std::vector<int> found;
     for (const auto& facet : of_mesh)
@@ -64,6 +64,7 @@ struct FluidSurface {
   }
 };
 
+/// The boundary of the fluid; openings and planes of symmetry are those of the case and the mesh.
 /// \param fluid  the whole fluid
 template <class Element>
 FluidSurface<Element> fluid_surface(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& fluid) {
@@ -85,12 +86,12 @@ FluidSurface<Element> fluid_surface(const Case& setup, const MeshOf<Element>& me
   return surface;
 }
 
-/// The fluid's part of the mesh here. \pre the scene has a fluid, discretised by this element
+/// This process's part of the fluid. \pre the scene has a fluid, discretised by this element
 template <class Element>
 const PartOf<Element>& fluid_part(const Scene<Element::components>& scene) {
   return static_cast<const FluidProblem<Element>&>(*scene.fluid).part();
 }
-/// The whole of it.
+/// The whole fluid.
 template <class Element>
 const PartOf<Element>& whole_fluid(const Scene<Element::components>& scene, const WholeParts<Element>& whole) {
   return whole.fluid ? *whole.fluid : fluid_part<Element>(scene);
@@ -99,8 +100,8 @@ const PartOf<Element>& whole_fluid(const Scene<Element::components>& scene, cons
 /// Gradients of the fluid's fields at some of its nodes.
 /// \param mesh  with its planes of symmetry
 /// \param part  the whole fluid
-/// \param at    nodes of it that are here
-/// \param here  what of the fluid this process has; null: all
+/// \param at    nodes of the whole fluid that are here
+/// \param here  restriction of the fluid to this process; null: all of it is here
 template <class Element>
 GradientRecovery fluid_gradients(const MeshOf<Element>& mesh, const PartOf<Element>& part, std::vector<int> at,
                                  const PartRestriction* here) {
@@ -116,8 +117,8 @@ GradientRecovery fluid_gradients(const MeshOf<Element>& mesh, const PartOf<Eleme
 
 /// The viscous stress mu (grad u + grad u^T) in the current configuration at entry i of the recovered nodes, kPa. Where
 /// the viscosity follows a law it is that of the recovered gradient.
-/// \param mesh  displacement of the domain, vector layout; empty where it is rigid. As GradientRecovery::reach() has it
-/// \param flow  (u, p), mixed layout, likewise
+/// \param mesh  displacement of the domain, vector layout, from GradientRecovery::reach(); empty where it is rigid
+/// \param flow  (u, p), mixed layout, from reach()
 template <int n>
 Mat3<double> viscous_stress(const GradientRecovery& gradients, std::size_t i, const AleFluid& fluid,
                             const std::vector<double>& mesh, const std::vector<double>& flow) {
@@ -136,7 +137,7 @@ Mat3<double> viscous_stress(const GradientRecovery& gradients, std::size_t i, co
   return stress;
 }
 
-/// Where the nodes of a facet are now. \param mesh  displacement, vector layout, or empty
+/// Current positions of a facet's nodes, mm. \param mesh  displacement, vector layout; empty: none
 template <class Element, class Facet>
 void current_corners(const std::vector<Point>& nodes, const Facet& facet, const std::vector<double>& mesh,
                      Vec3<Pack> (&corner)[Element::Facet::nodes]) {

@@ -10,17 +10,17 @@
 namespace fsi {
 
 /// Weighted least-squares polynomials over a patch of points, and the gradient at the first of them (docs/theory.md,
-/// section 11a.1). It knows lengths and angles only, no axes: turned or mirrored points have turned or mirrored
-/// weights, to rounding.
+/// section 11a.1). It depends on lengths and angles only, not on axes: rotated or mirrored points have rotated or
+/// mirrored weights, to rounding.
 ///
 /// Coordinates are those in which the points' second moments about their mean are the identity,
 ///   xi = C^(-1/2) (x - x_0),   C = 1/N sum (x_i - mean) (x_i - mean)^T:
-/// C^(-1/2) being symmetric, xi turns as x does, and a thin patch is as good as a round one. Monomials have unit length
-/// in Bombieri's scalar product [Beauzamy1990], which rotations keep: xi^a times sqrt(|a|!/a!). So the coefficients of
-/// one degree turn by an orthogonal matrix. Near points weigh more, by their distance in xi.
+/// C^(-1/2) being symmetric, xi rotates as x does, and a thin patch is as good as a round one. Monomials have unit
+/// length in Bombieri's scalar product [Beauzamy1990], which rotations keep: xi^a times sqrt(|a|!/a!). So a rotation
+/// acts on the coefficients of one degree by an orthogonal matrix. Near points weigh more, by their distance in xi.
 ///
-/// All polynomials of the element's degree are fitted. Of those one degree above, what these do not make on the patch
-/// is looked at along its principal directions (right singular vectors). The weakest can be left out: of the
+/// All polynomials of the element's degree are fitted. The part of those one degree above that these cannot represent
+/// on the patch is split into its principal directions (right singular vectors). The weakest can be left out: of the
 /// coefficients above the element's degree that fit as well, those of least length are taken.
 class GradientFit {
  public:
@@ -28,29 +28,30 @@ class GradientFit {
   /// \param degree  of the polynomials that are fitted without condition: the element's
   GradientFit(std::vector<int> axes, int degree);
 
-  /// Coordinates of the polynomials: xi, or lengths in all directions alike. In the latter, powers across a thin layer
+  /// Coordinates of the polynomials: xi, or x scaled alike in all directions. In the latter, powers across a thin layer
   /// are the weakest, whatever its direction.
   enum class Frame { of_the_patch, of_space };
 
-  /// Takes a patch in hand, its points in mm. \returns whether polynomials of the element's degree are determined
+  /// Sets the patch, its points in mm. \returns whether polynomials of the element's degree are determined
   bool set(const std::vector<Point>& patch, Frame frame = Frame::of_the_patch);
-  /// Finds the weights for the patch in hand. \param left_out  that many directions of the degree above, the weakest
-  /// first
-  /// \returns whether the patch tells the others from the element's degree
+  /// Finds the weights for the patch.
+  /// \param left_out  how many directions of the degree above to leave out, the weakest first
+  /// \returns whether the patch distinguishes the others from polynomials of the element's degree
   bool solve(int left_out = 0);
+  /// Number of directions of the degree above.
   int directions() const { return static_cast<int>(above_.size()); }
-  /// Of the last solve(): sum |xi_i| |w_i| with the weights w of the gradient in xi. What the gradient has of a change
-  /// of the values that grows with the distance, against its slope: three and more for good patches.
+  /// Of the last solve(): sum |xi_i| |w_i| with the weights w of the gradient in xi. It bounds the gradient's response
+  /// to errors of the values that grow with the distance, relative to their slope: three and more for good patches.
   double amplification() const;
   /// Of the last solve(): sum |x_i - x_0|^(q+1) |w_i| for polynomials of degree q, which bounds the error of the
   /// gradient of a field by its derivatives of degree q + 1, mm^q.
   double remainder() const;
   int left_out() const { return left_out_; }  ///< of the last solve()
-  /// Of the last solve(): what the gradient makes of the polynomials of the degree above, which it has not exactly where
-  /// directions are left out: sum e e^T over those of unit length. By direction its error is expected like that, up to a
-  /// factor; in a layer one element thick nearly all along the normal.
+  /// Of the last solve(): sum e e^T of the gradient's errors e for the polynomials of the degree above, of unit length.
+  /// It is zero unless directions are left out. Up to a factor it is the expected error by direction; in a layer one
+  /// element thick nearly all of it is along the normal.
   Eigen::MatrixXd error_directions() const;
-  /// Of the last solve(): what the values at the points are multiplied with to give the gradient at the first, 1/mm.
+  /// Of the last solve(): weights of the values at the points in the gradient at the first one, 1/mm.
   std::vector<std::array<double, 3>> weights() const;
 
  private:
@@ -58,7 +59,7 @@ class GradientFit {
     std::array<int, 3> exponents;
     double scale;
   };
-  /// Of monomials at points: a row a point.
+  /// Monomials at points: a row per point.
   static Eigen::MatrixXd values(const std::vector<Monomial>& monomials, const Eigen::MatrixXd& xi);
 
   std::vector<int> axes_;

@@ -19,7 +19,7 @@ constexpr double worthwhile = 0.5;  // remainder of a larger patch against that 
 
 using PointWeights = std::vector<std::array<double, 3>>;
 
-/// Where the points of a patch are, seen from the first; along the curved boundary there, if it has a shape.
+/// Positions of a patch's points relative to the first, in coordinates along the curved boundary if it has a shape.
 /// \returns nothing where the patch reaches a centre of curvature
 std::optional<std::vector<Point>> positions(const std::vector<PatchPoint>& patch, const SurfaceShape* shape) {
   std::vector<Point> points;
@@ -33,7 +33,7 @@ std::optional<std::vector<Point>> positions(const std::vector<PatchPoint>& patch
   return points;
 }
 
-/// Makes weights exact for linear fields again, which straightened coordinates do not know: the gradient of X is one.
+/// Makes weights in straightened coordinates exact for linear fields again: the gradient of X is one.
 void keep_linear_fields(const std::vector<PatchPoint>& patch, const std::vector<int>& axes, PointWeights& weights) {
   const auto dim = static_cast<Eigen::Index>(axes.size());
   Eigen::Matrix3d of_position = Eigen::Matrix3d::Identity();
@@ -71,7 +71,7 @@ class WeightSearch {
     if (shape) keep_linear_fields(patches_.points(), axes_, weights_);
     return full;
   }
-  /// Of the patch's first points, as many as there are.
+  /// Per point of the patch, for its first points: the patch may have grown since.
   const PointWeights& weights() const { return weights_; }
   const Mat3<double>& error_directions() const { return error_directions_; }
   const RecoveryPatches& patches() const { return patches_; }

@@ -17,33 +17,32 @@ namespace fsi {
 /// for quadratic elements, where the gradient of the finite-element function itself has order 1 and 2.
 ///
 /// Of patches of one to four rings of cells the first is taken whose GradientFit::amplification() is at most
-/// `largest_amplification`; a larger one instead if that is above `good_amplification` and the larger one has half its
-/// remainder. Where no patch is as good, as in a layer one linear element thick, directions that the patch cannot tell
-/// from others are left out, the weakest first; the polynomial always has the element's own degree. There the gradient
-/// has the order of the element's own. At planes of symmetry patches are continued by mirror images, so that they have
-/// two sides. All this depends on lengths and angles alone: a body that is turned or mirrored has turned or mirrored
-/// gradients.
+/// `largest_amplification`; a larger one instead if that is above `good_amplification` and the larger one has less than
+/// half its remainder. Where no patch is as good, as in a layer one linear element thick, directions that the patch
+/// cannot distinguish are left out, the weakest first; the polynomial always has the element's own degree. There the
+/// gradient has the order of the element's own. At planes of symmetry patches are continued by mirror images, so that
+/// they have two sides. All this depends on lengths and angles alone: a rotated or mirrored body has rotated or
+/// mirrored gradients.
 ///
 /// The weights depend on reference positions alone and are found once; a gradient is then a short sum.
 ///
-/// Where a medium is shared out among processes, the weights are found on all of its cells and each process keeps those
-/// of some nodes that it holds. Patches reach further than these: fields are then given with values at far nodes, too
-/// (reach()).
+/// Where processes share a medium, the weights are found on all of its cells, and each process keeps those of nodes
+/// that it holds. Patches reach further than these nodes: fields then need values at far nodes, too (reach()).
 class GradientRecovery {
  public:
-  /// From measured errors: on an unstructured bend (docs/theory.md, section 11a.1) the largest one of a wall's stress
-  /// grows by a fifth with 20, and with 10 corners of a cube have no patch.
+  /// From measured errors: on an unstructured bend (docs/evidence/orders.md#orders-11a-1) the largest error of a wall's
+  /// stress grows by a fifth with 20, and with 10 corners of a cube have no patch.
   static constexpr double largest_amplification = 14, good_amplification = 8;
 
   /// \param at  nodes of the cells, each once: where gradients are wanted
   GradientRecovery(const RecoveryCells& cells, std::vector<int> at);
 
-  /// Puts the numbers of the nodes that a process holds in place of those of the whole part, which they were so far.
-  /// The gradients are at nodes that it holds. All processes do so together.
+  /// Renumbers nodes from those of the whole part to those of this process, which must hold the nodes of the gradients.
+  /// Collective over processes.
   void restrict_to(const PartRestriction& here);
 
-  /// The field as gradient() wants it; none stays none. All processes ask together. \param buffer  storage, which may
-  /// be returned
+  /// The field with values at far nodes, as gradient() needs it; an empty one stays empty. Collective over processes.
+  /// \param buffer  storage, which may be returned
   template <class Layout>
   const std::vector<double>& reach(const std::vector<double>& field, std::vector<double>& buffer) const {
     if (!far_ || field.empty()) return field;
@@ -59,9 +58,9 @@ class GradientRecovery {
   /// GradientFit::error_directions() in space, of trace one; zero where no direction is left out.
   const Mat3<double>& error_directions(std::size_t i) const { return error_directions_[i]; }
 
-  /// Of the field's vectors, (i, j) = d u_i / d X_j in space, with u_r / r in (1, 1) of bodies of revolution; at entry
-  /// i of nodes().
-  /// \param field    of reach()
+  /// Gradient of the field's vectors at entry i of nodes(): (i, j) = d u_i / d X_j in space, with u_r / r in (1, 1) of
+  /// bodies of revolution.
+  /// \param field    from reach()
   /// \tparam Layout  of the field (fem/nodal_layout.hpp), its vectors of `axes.size()` components
   template <class Layout>
   Mat3<double> gradient(std::size_t i, const std::vector<double>& field) const {
@@ -76,7 +75,7 @@ class GradientRecovery {
     return h;
   }
 
-  /// Of the field's scalars, d p / d X_j in space. \param field  of reach()
+  /// Gradient of the field's scalars, d p / d X_j in space. \param field  from reach()
   template <class Layout>
   Vec3<double> scalar_gradient(std::size_t i, const std::vector<double>& field) const {
     Vec3<double> slope{};
@@ -87,7 +86,7 @@ class GradientRecovery {
   }
 
  private:
-  /// A component of the field at entry k of the patches: of a mirror image, of the mirrored vector.
+  /// A component of the field at entry k of the patches; at mirror images that of the mirrored vector.
   template <class Layout>
   double at_image(std::size_t k, int c, const std::vector<double>& field) const {
     if (turn_.empty() || turn_[k] == 0) return field[Layout::vector(patch_[k], c)];

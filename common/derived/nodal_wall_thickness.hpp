@@ -9,9 +9,9 @@
 
 namespace fsi {
 
-/// Thickness of a scene's wall at rest at each of its nodes here, mm: nodal_thickness() of the mesh. Empty where the wall has no
-/// inner and outer face.
-/// \param whole  parts of a mesh that is shared out; empty: the scene has them
+/// Thickness of a scene's wall at rest at each of its nodes here, mm: nodal_thickness() of the mesh. Empty where the
+/// wall has no inner and outer face.
+/// \param whole  whole parts of a mesh that processes share; empty: the scene has them
 template <class Element>
 std::vector<double> nodal_wall_thickness(const MeshOf<Element>& mesh, const Scene<Element::components>& scene,
                                          const WholeParts<Element>& whole) {

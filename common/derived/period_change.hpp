@@ -34,35 +34,35 @@ struct PeriodChange {
   double largest() const;
 };
 
-/// Compares each period, 0 to T, T to 2 T, ..., with the one before, at `phases` equally spaced phases. Values are taken in
-/// at the end of each step, of any length, and count as linear in time between these. What belongs to a phase is their mean
-/// around it, with a weight that falls linearly to zero at the phases beside it. Where steps do not fit the period, each
-/// period sees a kink of a table at another place, which moves the pressure there by a part of what it jumps, but such a
-/// mean by the square of step over phase of it only.
+/// Compares each period, 0 to T, T to 2 T, ..., with the one before, at `phases` equally spaced phases. Values are
+/// added at the end of each step, of any length, and taken as linear in time between these. The value of a phase is
+/// their mean around it, with a weight that falls linearly to zero at the phases beside it. Where steps do not fit the
+/// period, kinks of a table fall on other places of the steps in each period. That moves a pressure by a part of its
+/// jump there, but such a mean only by that times the square of step over phase.
 class PeriodComparison {
  public:
   static constexpr int phases = 32;
   static constexpr double least_range = 1e-3;
 
-  /// Differences and ranges of a period, of the values here. All combine by their largest.
+  /// Differences and ranges of a period, of the values here. Those of several processes combine by their maximum.
   struct Extremes {
     static constexpr double none = -std::numeric_limits<double>::max();
     std::array<double, 3> difference{};  ///< of pressures, flows, displacement
     std::array<double, 3> range{};
     std::array<double, 3> size{};                     ///< largest values
     std::array<double, 3> mean_difference{};          ///< of means over the period
-    std::array<double, 3> product{none, none, none};  ///< largest of a change of a mean with the one before
-    std::array<double, 3> square{};                   ///< largest of the latter; 0: there is none
+    std::array<double, 3> product{none, none, none};  ///< largest of a mean's change times its change before
+    std::array<double, 3> square{};                   ///< largest of the changes before; 0: there are none
   };
 
   /// \param period      T, ms
-  /// \param openings    how many have pressures and flows
-  /// \param components  of a vector of the displacement
+  /// \param openings    number of openings with pressures and flows
+  /// \param components  of a displacement vector
   PeriodComparison(double period, std::size_t openings, int components)
       : period_(period), openings_(openings), components_(components) {}
 
-  /// Values at a time (ms), as many each time. The first call begins; a time that is not behind the last one changes
-  /// nothing. \return the extremes of the period that has ended, if one has, and another before it
+  /// Values at a time (ms), as many each time. The first call begins; a time that is not later than the last has no
+  /// effect. \returns the extremes of the period that has ended, if one has after another whole one
   std::optional<Extremes> add(double time, const PeriodicValues& values);
   /// ms, of the last period that has ended.
   double last_end() const {
@@ -70,11 +70,9 @@ class PeriodComparison {
     return period_ * static_cast<double>(ended);
   }
 
-  /// Takes in what other processes have seen of the period so far, each of its own values: before keep(), where there are
-  /// several. All have to call it.
+  /// Combines the extremes of the period so far over all processes: before keep() writes. Collective.
   void share(const Communicator& processes);
-  /// What a restart needs to go on bit for bit. An earlier run without, or of another period, does not serve: then periods
-  /// are compared from there on, which is said.
+  /// Saves or recalls the state, bit for bit. Where the earlier run had none of this period it begins anew and warns.
   void keep(RestartArchive& archive);
 
  private:
@@ -88,8 +86,9 @@ class PeriodComparison {
     Numbers sum;        ///< times ms
   };
 
-  /// Values linear in time between two times within one part between phases, in shares of it.
+  /// Adds values that are linear in time between two times, in shares of the interval between two phases.
   void take(double from, double to, const PeriodicValues& first, const PeriodicValues& last);
+  /// Completes a phase: compares it with that of the period before, and stores it.
   void pass(int phase, const Around& around);
   /// The change of the means over the period that has ended.
   void compare_means();

@@ -8,18 +8,18 @@
 
 namespace fsi {
 
-/// What a period of the wall shear stress tau amounts to, per node.
+/// Averages of the wall shear stress tau over a period, per node (docs/theory.md, section 11a.2).
 struct ShearStatistics {
   std::vector<double> mean;         ///< TAWSS, the mean of |tau| over the period, kPa
   std::vector<double> oscillation;  ///< OSI = (1 - |mean of tau| / TAWSS) / 2, from 0 to 0.5; 0 where tau is zero
-  /// RRT = 1 / ((1 - 2 OSI) TAWSS) = 1 / |mean of tau|, 1/kPa; 0 where tau is zero. Where the mean of tau is below
-  /// `smallest_mean` TAWSS, that stands for it, so that the number stays finite.
+  /// RRT = 1 / ((1 - 2 OSI) TAWSS) = 1 / |mean of tau|, 1/kPa; 0 where tau is zero. A mean below `smallest_mean` TAWSS
+  /// counts as that, so that the number stays finite.
   std::vector<double> residence;
 };
 
-/// Averages of the wall shear stress over the periods 0 to T, T to 2 T, ... [Ku1985, He1996, Himburg2004]. It is taken
-/// in at the end of each step, of any length; between these it counts as linear in time, also where a period ends
-/// within a step, and integrals are by the trapezoidal rule.
+/// Averages of the wall shear stress over the periods 0 to T, T to 2 T, ... [Ku1985, He1996, Himburg2004]. It is added
+/// at the end of each step, of any length, and taken as linear in time between these, also where a period ends within a
+/// step: integrals are by the trapezoidal rule.
 class PeriodStatistics {
  public:
   static constexpr double smallest_mean = 1e-6;
@@ -27,16 +27,16 @@ class PeriodStatistics {
   /// \param period  T, ms
   explicit PeriodStatistics(double period) : period_(period) {}
 
-  /// tau at a time (ms): three numbers per node, as many nodes each time. The first call begins; a time that is not
-  /// behind the last one has been taken in already and changes nothing.
+  /// tau in kPa at a time in ms: three numbers per node, as many nodes each time. The first call begins; a time that is
+  /// not later than the last has no effect.
   void add(double time, const std::vector<double>& shear);
 
-  /// Of the last whole period; empty while there is none.
+  /// Averages of the last whole period; empty while there is none.
   const std::optional<ShearStatistics>& last() const { return last_; }
   double until() const { return until_; }  ///< ms, end of that period
 
-  /// What a restart needs to go on bit for bit. An earlier run without, or of another period, does not serve: then the
-  /// period that the restart falls into has none, which is said.
+  /// Saves or recalls the state, bit for bit. If the earlier run had none, or another period, the statistics begin
+  /// anew, with a warning, and the period of the restart has none.
   void keep(RestartArchive& archive);
 
  private:

@@ -9,7 +9,7 @@ namespace fsi {
 
 namespace {
 
-constexpr double settled = 0.02;  // change of a contraction, a period
+constexpr double settled = 0.02;  // change of a contraction from period to period
 constexpr double noise = 1e-3;    // of the change asked for: a solver's tolerance has no contraction
 constexpr double falling = 0.5;   // of a change that still falls, in two periods
 
@@ -19,15 +19,15 @@ struct Approach {
   bool settled = false;
 };
 
-/// What a period leaves of the change itself, in the mean of the last two. A mean that swings while it falls has no
-/// contraction of its own, and may pass through zero.
+/// Factor of the change itself per period, in the mean of the last two. The change of a mean that oscillates while it
+/// falls may pass through zero, and gives no contraction.
 double fall_of_change(const std::vector<PeriodChange>& changes, std::size_t period) {
   const double last = changes[period].largest();
   if (period == 0) return std::numeric_limits<double>::infinity();
   return period < 2 ? last / changes[period - 1].largest() : std::sqrt(last / changes[period - 2].largest());
 }
 
-/// Of a quantity after a period, by its number, as far as the last two contractions tell.
+/// Approach of quantity q after a period, given by its number, from the last two contractions.
 Approach observed_approach(const std::vector<PeriodChange>& changes, std::size_t period, std::size_t q,
                            const PeriodicDemand& demand) {
   Approach approach;
@@ -46,8 +46,8 @@ Approach observed_approach(const std::vector<PeriodChange>& changes, std::size_t
   return approach;
 }
 
-/// The same, no nearer than the slowest law brings it from where it was a period before: a change of two transients passes
-/// through zero where the slower one takes over.
+/// The same, no nearer than the slowest law comes from the distance of a period before: the change of two transients
+/// passes through zero where the slower one takes over.
 Approach approach_of(const std::vector<PeriodChange>& changes, std::size_t q, const PeriodicDemand& demand) {
   const std::size_t last = changes.size() - 1;
   Approach approach = observed_approach(changes, last, q, demand);

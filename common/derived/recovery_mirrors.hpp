@@ -9,8 +9,9 @@
 
 namespace fsi {
 
-/// The planes of symmetry that cells of a part meet, and of a body of revolution its axis.
-/// \param part   the whole part, and `cells` in its numbers, nodes_per_cell for each
+/// The planes of symmetry that touch cells of a part, and the axis of a body of revolution.
+/// \param part   the whole part
+/// \param cells  nodes of the cells, in the part's numbers
 template <class Element>
 std::vector<RecoveryMirror> recovery_mirrors(const MeshOf<Element>& mesh, const PartOf<Element>& part,
                                              const std::vector<int>& cells) {

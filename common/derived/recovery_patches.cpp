@@ -13,7 +13,7 @@ namespace {
 
 constexpr double same_direction = 1e-6;  // of unit vectors
 constexpr double same_place = 1e-6;      // against the size of the cells
-constexpr int most_images = 120;         // around a point: the largest finite group that three planes generate
+constexpr int most_images = 120;         // around a point: all of any reflection group but those of narrow wedges
 constexpr Mat3<double> no_turn{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 /// Length of a cell's longest edge, mm.

@@ -8,14 +8,14 @@
 
 namespace fsi {
 
-/// A plane that a body is mirrored in, as far as its cells meet it: what lies beyond is the mirror image of what is
-/// here. The axis of a body of revolution is such a plane of its half.
+/// A plane in which a body is mirrored: beyond it lies the mirror image. The axis of a body of revolution is such a
+/// plane of the half that is meshed.
 struct RecoveryMirror {
   Point normal;            ///< unit vector, either way round
   std::vector<int> nodes;  ///< that lie in it
 };
 
-/// The cells that a field is smooth on, and what it is there: which axes of space coordinates and components lie along.
+/// The cells on which a field is smooth, and the axes of space of its coordinates and components.
 struct RecoveryCells {
   const std::vector<Point>& points;  ///< mm, per node
   std::vector<int> nodes;            ///< of the cells, nodes_per_cell for each
@@ -24,7 +24,7 @@ struct RecoveryCells {
   std::vector<int> axes;  ///< of space, one per coordinate
   bool axisymmetric = false;
   std::vector<RecoveryMirror> mirrors{};
-  bool along_boundaries = false;  ///< what the field is follows curved boundaries, as in thin layers of a wall
+  bool along_boundaries = false;  ///< the field follows curved boundaries, as in thin layers of a wall
   int corners = static_cast<int>(axes.size()) + 1;  ///< of a cell, its first nodes; facets have one less
 };
 
@@ -35,16 +35,15 @@ struct PatchPoint {
   Point position;  ///< mm
 };
 
-/// Rings of cells around nodes, continued by mirror images where they meet a plane of symmetry: a patch at such a plane
-/// reaches as far to both its sides. Where planes meet at an angle pi/m their images fill the space around the edge;
-/// where they meet at another, or where cells lie on both sides of a plane, there is no body that they mirror, and the
-/// patch ends at the cells.
+/// Rings of cells around nodes, continued by mirror images at planes of symmetry: a patch there reaches equally far to
+/// both sides. Where planes meet at an angle pi/m their images fill the space around the edge. At another
+/// angle, or where cells lie on both sides of a plane, the images make no body, and the patch ends at the cells.
 class RecoveryPatches {
  public:
   /// \param cells  must outlive this
   explicit RecoveryPatches(const RecoveryCells& cells);
 
-  /// Begins anew with a node alone, the first point of every patch of it.
+  /// Begins a new patch with a node alone, which stays its first point.
   void begin(int node);
   /// Adds the nodes of all cells that touch the patch.
   void grow();
@@ -70,7 +69,7 @@ class RecoveryPatches {
   bool are_mirrors(int node, const std::vector<int>& planes) const;
   /// The number of the isometry that mirrors in a plane first and does `image` then.
   int after_mirror(int image, int plane);
-  /// The images through which the cells around a point of the patch are seen.
+  /// The images of the cells around a point of the patch.
   std::vector<int> images_around(const PatchPoint& point);
   void add(int node, int image);
 

@@ -9,7 +9,7 @@
 namespace fsi {
 
 /// Von Mises' equivalent stress sqrt(3/2 dev sigma : dev sigma) of a symmetric tensor, in its unit. From differences of
-/// the diagonal, so that a large pressure takes no digits away.
+/// the diagonal, so that a large pressure cancels without loss of digits.
 inline double von_mises_stress(const Mat3<double>& s) {
   const double xy = s(0, 0) - s(1, 1), yz = s(1, 1) - s(2, 2), zx = s(2, 2) - s(0, 0);
   const double shear = s(0, 1) * s(0, 1) + s(1, 2) * s(1, 2) + s(0, 2) * s(0, 2);

@@ -55,12 +55,12 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
   SurfaceForcesOf(const Case& setup, const MeshOf<Element>& mesh, const Scene<n>& scene,
                   const WholeParts<Element>& whole)
       : scene_(scene), part_(fluid_part<Element>(scene)) {
-    // All is found on the whole fluid.
+    // Surfaces and gradients are set up on the whole fluid.
     const PartOf<Element>& fluid = whole_fluid(scene, whole);
     const PartRestriction* here = whole.fluid_here.get();
     const auto surface = fluid_surface<Element>(setup, mesh, fluid);
     facets_ = surface.facets;
-    // Openings with velocities that are not prescribed: all of them, or their corners alone are held by the walls.
+    // Openings some of whose velocities are not prescribed; those at their rims are held by the walls.
     std::vector<char> is_free(facets_.size(), 0);
     for (const auto& opening : openings_of(setup)) {
       const auto places = surface.places(group_facets(mesh, opening.surface));
@@ -87,8 +87,8 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
       set.by_equations = count == 0;
       if (set.by_equations) {
         set.nodes = surface.nodes(set.facets);
-        // The rows of nodes on the rim hold a share of the traction beside the surface. Where that is not given it is
-        // taken out again, a strip one element wide.
+        // The rows of nodes on the rim contain a share of the traction beside the surface. Where that is not given, it
+        // is subtracted again, on a strip one element wide.
         std::vector<char> inside(facets_.size(), 0), on(fluid.nodes.size(), 0);
         for (const int f : set.facets) inside[f] = 1;
         for (const int node : set.nodes) on[node] = 1;
@@ -165,7 +165,7 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
     std::vector<int> beside;  ///< facets that touch these nodes, with a traction that is not given
   };
 
-  /// Leaves the facets that sums count here, and the nodes that are here.
+  /// Keeps the facets that this process counts in sums, and the nodes that are here.
   void restrict_to(const PartRestriction& here, Set& set) const {
     for (auto* places : {&set.facets, &set.beside})
       places->erase(std::remove_if(places->begin(), places->end(), [&](int f) { return !here.counts(facets_[f]); }),
@@ -186,7 +186,7 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
     return p;
   }
 
-  /// Integral of phi (p n - S n) over a current facet: the fluid's traction on what is beyond it.
+  /// Integral of phi (p n - S n) over a current facet: the fluid's force on the other side.
   /// \param on  phi is the sum of the shape functions of these nodes; null: one
   Vec3<double> traction(int place, const std::vector<double>& mesh, const std::vector<double>& flow,
                         const std::vector<Mat3<double>>& stress, const std::vector<char>* on) const {

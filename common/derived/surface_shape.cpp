@@ -18,7 +18,7 @@ namespace {
 
 constexpr double near_centre = 0.3;        // of the radius of curvature
 constexpr double least_bend = 1e-6;        // of curvature times length
-constexpr double left_by_bending = 0.5;    // what bending leaves of the heights of a curved surface
+constexpr double left_by_bending = 0.5;    // of a curved surface's heights, at most, once it is straightened
 constexpr double same_layer = 0.7;         // cosine of the angle between normals of one layer
 constexpr double nearby_weight = 0.1;      // of weights, as those of GradientFit
 constexpr double dependent_column = 1e-3;  // of the columns of a fit
@@ -30,12 +30,12 @@ struct OutsideFacet {
   Point normal;            ///< outward, unit vector
 };
 
-/// Arc and distance of the point (t, z), the circle through the origin having its centre at (0, -1/curvature).
+/// Arc length and distance of (t, z) along and from the circle through the origin with centre (0, -1/curvature).
 std::optional<std::pair<double, double>> unbent(double t, double z, double curvature) {
   const double radius = 1 / std::abs(curvature), side = curvature > 0 ? 1 : -1;
   const double height = radius + side * z, from_centre = std::hypot(t, height);
   if (!(from_centre > near_centre * radius)) return std::nullopt;
-  // Of the distance from the centre less the radius, without cancellation.
+  // The distance is that from the centre less the radius, without cancellation.
   return std::pair(radius * std::atan2(t, height),
                    side * (t * t + z * z + 2 * side * z * radius) / (from_centre + radius));
 }
@@ -93,7 +93,7 @@ std::vector<std::vector<int>> mirrors_at(const RecoveryCells& cells) {
   return at;
 }
 
-/// Facets that one cell has, without those in planes of symmetry.
+/// Facets that belong to one cell only, without those in planes of symmetry.
 std::vector<OutsideFacet> boundary_of(const RecoveryCells& cells) {
   const auto dim = static_cast<int>(cells.axes.size());
   std::vector<std::vector<int>> places;
@@ -147,7 +147,7 @@ std::vector<OutsideFacet> boundary_of(const RecoveryCells& cells) {
       facet.normal = tangents(along, cells.axes)[0];
     const double length = norm(facet.normal);
     if (!(length > 0)) continue;
-    // The vertex across has the number of the facet.
+    // The vertex opposite to facet f of a cell is its vertex f.
     const bool inward = dot(facet.normal, cells.points[cell[sides[i].facet]] - a) > 0;
     facet.normal = (inward ? -1 / length : 1 / length) * facet.normal;
     facets.push_back(std::move(facet));
@@ -155,7 +155,7 @@ std::vector<OutsideFacet> boundary_of(const RecoveryCells& cells) {
   return facets;
 }
 
-/// Facets in groups that are smooth surfaces.
+/// Groups of facets that are smooth surfaces.
 std::vector<std::vector<int>> smooth_surfaces(const std::vector<OutsideFacet>& facets, int dim) {
   std::vector<int> root(facets.size());
   std::iota(root.begin(), root.end(), 0);
@@ -191,7 +191,7 @@ struct Surface {
   std::vector<Point> normals;  ///< likewise, sums of those of the facets around
   RecoveryCells cells;
 
-  /// \param number  per node of the body -1, as it is left
+  /// \param number  work space: -1 per node of the body, restored at the end
   Surface(const RecoveryCells& body, const std::vector<OutsideFacet>& facets, const std::vector<int>& members,
           std::vector<int>& number)
       : cells{points, {}, static_cast<int>(facets[members[0]].nodes.size()), body.order, body.axes} {
@@ -232,8 +232,8 @@ double strength(const SurfaceShape& shape) {
   return std::max(std::abs(shape.curvatures[0]), std::abs(shape.curvatures[1]));
 }
 
-/// The surface through points around the first of them, by Gauss-Newton steps: what is left of their distances is taken
-/// for slopes and curvatures.
+/// The surface through points around the first of them, by Gauss-Newton steps: slopes and curvatures are corrected by a
+/// fit to the distances that are left.
 std::optional<SurfaceShape> fitted(const std::vector<PatchPoint>& patch, const Point& first_normal,
                                    const std::vector<int>& axes) {
   const bool solid = axes.size() == 3;

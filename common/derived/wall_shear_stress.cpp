@@ -61,7 +61,7 @@ class WallShearStressOf : public WallShearStress<Element::components> {
   }
 
  private:
-  /// Nodes of facets, of the whole fluid; where that is shared out, this process's.
+  /// Nodes of facets that this process owns, in the numbers of the whole fluid.
   static std::vector<int> own_nodes(const std::vector<Facet>& facets, const PartRestriction* here) {
     auto nodes = facet_nodes(facets);
     if (here)
@@ -75,8 +75,8 @@ class WallShearStressOf : public WallShearStress<Element::components> {
     return facets;
   }
 
-  /// Normals outward, of no particular length: those of the facets around a node, by the integrals of N_a^2, since
-  /// those of quadratic shape functions are not positive at vertices.
+  /// Outward normals of no particular length: sums of those of the facets around a node, weighted by N_a^2, since
+  /// integrals of quadratic shape functions vanish at the vertices of triangles.
   std::vector<double> nodal_normals(const std::vector<double>& mesh) const {
     using F = typename Element::Facet;
     std::vector<double> normals(VectorLayout<n>::size(part_.node_count()), 0.0);

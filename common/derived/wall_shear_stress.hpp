@@ -10,23 +10,23 @@
 
 namespace fsi {
 
-/// The wall shear stress: the traction of the fluid on what it sticks to, without its part along the normal,
+/// The wall shear stress: the traction of the fluid on no-slip surfaces, without its part along the normal,
 ///   tau = -(I - n n^T) mu (grad u + grad u^T) n,   n outward from the fluid,
-/// in the current configuration, in kPa, along the flow (docs/theory.md, section 11a). At the nodes of the fluid's closed
-/// boundary, the interface with the wall included; of a fluid that is shared out, at this process's nodes of it. All
-/// processes ask for it together.
+/// in the current configuration, in kPa, along the flow (docs/theory.md, section 11a.2). At the nodes of the fluid's
+/// closed boundary, the interface with the wall included, that this process owns.
 template <int n>
 class WallShearStress {
  public:
   virtual ~WallShearStress() = default;
-  /// Of the fluid, ascending.
+  /// Numbers of these nodes in the fluid, ascending.
   virtual const std::vector<int>& nodes() const = 0;
-  /// At these nodes, components in space side by side: 3 numbers each.
+  /// At these nodes, 3 components in space each, kPa. Collective over the processes that share the fluid.
   virtual std::vector<double> at_nodes(const Solution& level) const = 0;
 };
 
 /// \param mesh   that the scene was built on
-/// \param whole  parts of a mesh that is shared out; empty: the scene has them
+/// \param scene  has a fluid; must outlive what is made
+/// \param whole  whole parts of a mesh that processes share; empty: the scene has them
 template <class Element>
 std::unique_ptr<WallShearStress<Element::components>> make_wall_shear_stress(const Case& setup,
                                                                              const MeshOf<Element>& mesh,

@@ -20,9 +20,9 @@ namespace fsi {
 
 namespace {
 
-/// What the wall's weak form has at a point of every lane: the first Piola-Kirchhoff stress P in kPa as flux, and the
-/// volume condition -g - p / kappa as scalar source.
-/// \param fibres  or constants, where they vary
+/// The integrand of the wall's weak form at a point of every lane: the first Piola-Kirchhoff stress P in kPa as flux,
+/// and the volume condition -g - p / kappa as scalar source.
+/// \param fibres  Fibres, or PointConstants for a VaryingLaw
 template <class Law, class Point>
 auto at_point_of(const Law& law, double bulk_modulus, const Mat3<Pack>& grad_d, const Pack& pressure,
                  const Point& fibres) {
@@ -37,14 +37,14 @@ auto at_point_of(const Law& law, double bulk_modulus, const Mat3<Pack>& grad_d, 
   }
 }
 
-/// Bulk modulus over shear modulus from which on a law counts as nearly incompressible: Poisson's ratio of 0.49.
+/// Bulk modulus over shear modulus above which a law counts as nearly incompressible: Poisson's ratio of 0.49.
 constexpr double nearly_incompressible = 50;
 constexpr int volume_steps = 3;
 
-/// Adds to a gradient what it misses of the volume condition g(F) + p / kappa = 0 of the weak form, in the direction
-/// J F^-T U with U the recovery's error directions: of all changes that fulfil it to first order the likeliest. By the
-/// secant method; a lane that comes no nearer keeps what it has.
-/// \param missing  of a gradient: -g - p / kappa
+/// Corrects a gradient to fulfil the volume condition g(F) + p / kappa = 0 of the weak form, in the direction J F^-T U
+/// with U the recovery's error directions: of all changes that do so to first order the likeliest (docs/theory.md,
+/// section 11a.3). By the secant method; a lane that comes no nearer keeps its gradient, as where U is zero.
+/// \param missing  missing(gradient): -g - p / kappa
 /// \param where    lanes that are nearly incompressible
 template <class Missing>
 void keep_volume(const Missing& missing, const Mat3<Pack>& error_directions, Pack::Mask where, Mat3<Pack>& grad_d) {
@@ -63,7 +63,7 @@ void keep_volume(const Missing& missing, const Mat3<Pack>& error_directions, Pac
   grad_d = moved(select(nearer, by, Pack(0.0)));
 }
 
-/// A node of a layer.
+/// A node in a layer, whose stress is found.
 struct StressNode {
   std::array<int, 2> ends;  ///< of its edge, where it lies in the middle of one; else the node itself, twice
   int place;                ///< of its stress
@@ -80,8 +80,8 @@ struct StressLayer {
   std::vector<LawConstants<double>> constants{};    ///< at the same nodes, of a law whose constants vary; or empty
 };
 
-/// Calls visit(thread, index of the pack, point, lane, node, weight) for the nodes a of all elements at their quadrature
-/// points, weight being N_a^2 of the point: in one order, whatever the threads.
+/// Calls visit(thread, index of the pack, point, lane, node, weight) for the nodes a of all elements at their
+/// quadrature points, weight being N_a^2 of the point: in one order, whatever the threads.
 template <class Element, class Visit>
 void for_each_weight(const ElementPacks<Element>& all, Visit visit) {
   std::map<int, std::pair<int, std::size_t>> packs;  // by number
@@ -120,7 +120,7 @@ std::vector<std::array<Vec3<double>, 2>> nodal_fibres(const WallLayer<Element>& 
   return directions;
 }
 
-/// Constants that vary at nodes, means likewise.
+/// Constants that vary, at nodes: means as for nodal_fibres().
 template <class Element>
 std::vector<LawConstants<double>> nodal_constants(const WallLayer<Element>& layer, const std::vector<int>& nodes,
                                                   int node_count) {
@@ -178,7 +178,7 @@ class WallStressOf : public WallStress<Element::components> {
         curved = curved || has_curved_edges(part.nodes, cell);
       }
       cells.mirrors = recovery_mirrors<Element>(mesh, part, cells.nodes);
-      // Facets without curvature of their own tell too little of that of an irregular surface (docs/theory.md, 11a.1).
+      // Flat facets do not determine the curvature of an irregular surface (docs/theory.md, section 11a.1).
       cells.along_boundaries = curved;
       std::vector<int> at;
       for (const auto& [node, of_node] : ends)
@@ -218,7 +218,7 @@ class WallStressOf : public WallStress<Element::components> {
   }
 
   WallStresses of(const std::vector<double>& now) const override {
-    const std::vector<double> wall = wall_.from_unloaded(now);  // of a wall under prestress not the mesh's shape
+    const std::vector<double> wall = wall_.from_unloaded(now);  // with prestress from another shape than the mesh's
     WallStresses all;
     all.cauchy.assign(share_.size(), Mat3<double>{});
     if (has_fibres())
@@ -233,7 +233,7 @@ class WallStressOf : public WallStress<Element::components> {
   }
 
  private:
-  /// Whether a mid-edge node is off the middle of its edge: not of linear elements, nor of straight-edged quadratic ones.
+  /// Whether a mid-edge node is off the middle of its edge: not in linear nor in straight-edged quadratic cells.
   template <class Cell>
   static bool has_curved_edges(const std::vector<Point>& nodes, const Cell& cell) {
     constexpr double least = 1e-3;  // of the edge: half a degree
@@ -245,7 +245,7 @@ class WallStressOf : public WallStress<Element::components> {
     return false;
   }
 
-  /// The edge's vertices of a mid-edge node, ascending; a vertex itself.
+  /// The ends of a mid-edge node's edge, ascending; of a vertex that vertex, twice.
   template <class Cell>
   static std::array<int, 2> ends_of(const Cell& cell, int a) {
     if (a <= Element::dim) return {cell[a], cell[a]};
@@ -254,7 +254,7 @@ class WallStressOf : public WallStress<Element::components> {
     return {first, second};
   }
 
-  /// The place of a node's stress: the node, unless another layer has that with other ends.
+  /// The place of a node's stress: the node itself, unless another layer has it with other ends.
   int take_place(int node, std::array<int, 2> ends) {
     std::sort(ends.begin(), ends.end());
     const auto [known, is_new] = of_middles_.try_emplace({node, ends}, node);
@@ -266,7 +266,7 @@ class WallStressOf : public WallStress<Element::components> {
     return known->second;
   }
 
-  /// Where the nodes of the whole wall are without load.
+  /// Positions of the whole wall's nodes without load, mm.
   static std::vector<Point> unloaded_nodes(const Scene<n>& scene, const PartOf<Element>& whole) {
     const auto& share = scene.wall->nodes().share;
     if (!share) return scene.wall->unloaded_nodes(scene.axes);
@@ -283,14 +283,14 @@ class WallStressOf : public WallStress<Element::components> {
     numbers.reserve(9 * all.cauchy.size());
     for (const auto& stress : all.cauchy)
       for (int i = 0; i < 9; ++i) numbers.push_back(stress(i / 3, i % 3));
-    exchange.update(numbers, 9);  // of nodes; places behind them are no other process's
+    exchange.update(numbers, 9);  // nodes alone: places behind them belong to this process
     for (std::size_t i = 0; i < numbers.size(); ++i)
       all.cauchy[i / 9](static_cast<int>(i % 9) / 3, static_cast<int>(i % 9) % 3) = numbers[i];
     for (auto& family : all.of_fibres)
       if (has_fibres()) exchange.update(family);
   }
 
-  /// kappa / mu at entry i of the nodes.
+  /// kappa / mu at entry i of the layer's nodes.
   template <class Law>
   static double volume_to_shear(const Law& law, const StressLayer& layer, std::size_t i) {
     if constexpr (std::is_same_v<Law, VaryingLaw>)
@@ -299,7 +299,7 @@ class WallStressOf : public WallStress<Element::components> {
       return layer.bulk_modulus / law.shear_modulus();
   }
 
-  /// Of the nodes from the first on, so many.
+  /// Constants at `filled` nodes from `first` on, one per lane; other lanes repeat the last.
   static PointConstants constants_at(const StressLayer& layer, std::size_t first, std::size_t filled,
                                      const Fibres& fibres) {
     PointConstants at;

@@ -13,10 +13,10 @@
 namespace fsi {
 
 /// Follows the energy of a scene from step to step (docs/energy.md). Reads states and balances only: it can change no
-/// solution. What it keeps of the last step it can make again of a restored state, bit for bit.
+/// solution. What it keeps of the last step it can make again from a restored state, bit for bit.
 ///
-/// Processes that share a scene call it together. Each sums over the elements, facets and nodes that it counts, and the
-/// parts of a record are added up here, once a step: what others sum up themselves goes into that of the first process.
+/// Processes that share a scene call it together. Each sums over its own elements, facets and nodes, and the parts of a
+/// record are added up here, once a step; sums that are global already go into the first process's part.
 template <int n>
 class EnergyBalance {
  public:
@@ -30,7 +30,7 @@ class EnergyBalance {
     energy_ = record.energy();
   }
 
-  /// What of it a scene has.
+  /// Which parts of the balance a scene has.
   static EnergyParts parts_of(const Scene<n>& scene) {
     EnergyParts parts{scene.fluid != nullptr, scene.wall != nullptr, !scene.is_static(),
                       scene.processes().any(quadratic(scene)), scene.fluid && scene.fluid->stabilises_backflow()};
@@ -57,7 +57,7 @@ class EnergyBalance {
       add(state, balance, rates.weight, rates.step, wall_before, record);
       wall_before = &balance.at.wall;
     }
-    // What the stress does beyond the change of energy: weights of balances add up to one.
+    // Work of the stress beyond the change of energy: weights of balances add up to one.
     if (scene_.wall) record.wall_stress -= record.wall_isochoric - std::exchange(isochoric_, record.wall_isochoric);
     sum_over(scene_.processes(), record);
     if (quadratic_) record.fluid_quadrature -= record.outlet_kinetic - record.inlet_kinetic;
@@ -71,7 +71,7 @@ class EnergyBalance {
   }
 
  private:
-  /// Whether there are nodes without pressure here. Linear elements integrate convection exactly, also where they move.
+  /// Whether there are nodes without pressure here: linear elements integrate convection exactly, also where they move.
   static bool quadratic(const Scene<n>& scene) {
     for (int a = 0; scene.fluid && a < scene.fluid->node_count(); ++a)
       if (!scene.fluid->space().carries_scalar(a)) return true;
@@ -150,7 +150,7 @@ class EnergyBalance {
                 const std::vector<double>* wall_before, EnergyRecord& record) const {
     const StepRates& rates = balance.data.rates;
     const Solution &start = state.before[1], &end = state.before[0];
-    // Without time the way of the step stands for a velocity.
+    // In statics the displacement of the step stands for a velocity.
     const std::vector<double>& reference = rates.is_static() ? start.wall : rates.wall_reference;
     WallStep in;
     in.balance = scene_.wall_input(balance.at, balance.data);

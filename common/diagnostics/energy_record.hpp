@@ -8,9 +8,8 @@
 
 namespace fsi {
 
-/// Energy balance of one step: a row of energy.csv, docs/energy.md. Everything in uJ = mm^3 kPa. Energies are those at
-/// the step's end, the rest is of the step alone. Each is evaluated on its own but `remainder`, which is what the
-/// others leave over.
+/// Energy balance of one step: a row of energy.csv (docs/energy.md). Everything in uJ = mm^3 kPa. Energies are those at
+/// the step's end, the rest is of the step alone. Each is evaluated on its own but `remainder`, the rest.
 struct EnergyRecord {
   double fluid_kinetic = 0, wall_kinetic = 0;
   double wall_isochoric = 0, wall_volumetric = 0;  ///< elastic energy of the wall
@@ -18,7 +17,7 @@ struct EnergyRecord {
   double springs = 0;        ///< stored in the springs of the wall's supports
   double wall_branches = 0;  ///< in those of the Maxwell branches of its layers
 
-  double inlet_work = 0;                         ///< of the inlet's pressure on the fluid
+  double inlet_work = 0;                         ///< of the pressures at all openings on the fluid, and of given flows
   double load_work = 0;                          ///< of the pressure on a wall without fluid
   double support_work = 0;                       ///< of pressure and traction of the wall's supports
   double damping = 0;                            ///< dissipation in their dampers
@@ -45,7 +44,7 @@ struct EnergyRecord {
   }
 };
 
-/// Of each process's part of a record the sum, at all of them: each number by itself, all in one message.
+/// Sums the processes' parts of a record, each number by itself, all in one message.
 inline void sum_over(const Communicator& processes, EnergyRecord& record) {
   if (processes.is_alone()) return;
   static_assert(std::is_trivially_copyable_v<EnergyRecord> && sizeof(EnergyRecord) % sizeof(double) == 0,
@@ -56,7 +55,7 @@ inline void sum_over(const Communicator& processes, EnergyRecord& record) {
   std::memcpy(static_cast<void*>(&record), numbers.data(), sizeof record);
 }
 
-/// What of it a scene has.
+/// Which parts of the balance a scene has.
 struct EnergyParts {
   bool fluid = false, wall = false;
   bool in_time = true;     ///< not static

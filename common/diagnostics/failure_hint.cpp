@@ -30,7 +30,7 @@ struct Extreme {
   Point where;
 };
 
-/// Of each process's the one that comes first, `less` telling which of two values does; of several the first process's.
+/// The first of all processes' extremes in the order of `less`; of equal ones the first process's.
 template <class Less>
 Extreme first_of(const Communicator& processes, const Extreme& mine, Less less) {
   const auto all = processes.gather(std::vector<double>{mine.value, mine.where[0], mine.where[1], mine.where[2]});
@@ -64,7 +64,7 @@ Extreme largest_stretch(const std::vector<int>& vertices, int per_cell, const st
   return largest;
 }
 
-/// What other mesh motion would follow further (docs/theory.md, section 6).
+/// Which other mesh motions would follow further (docs/theory.md, section 6).
 std::string remedy_of(MeshMotionMethod method) {
   const auto quoted = [](MeshMotionMethod other) { return "\"" + mesh_motion_methods().name_of(other) + "\""; };
   switch (method) {
@@ -79,7 +79,7 @@ std::string remedy_of(MeshMotionMethod method) {
   return {};
 }
 
-/// The smallest J of a mesh displacement and the centre of the cell that it is in. NaN where one is.
+/// The smallest J of a mesh displacement and the centre of its cell; NaN if one is NaN.
 template <int n>
 Extreme smallest_volume_ratio(const Scene<n>& scene, const std::vector<double>& mesh) {
   const AssemblyResult here = scene.smallest_volume_ratio(mesh);
@@ -94,8 +94,8 @@ Extreme smallest_volume_ratio(const Scene<n>& scene, const std::vector<double>& 
                   [](double a, double b) { return !std::isnan(b) && (std::isnan(a) || a < b); });
 }
 
-/// Of an element that the mesh motion is about to fold: it is small at the last level, or would be folded at the next
-/// one if the mesh went on as in the last step.
+/// About an element that the mesh motion is about to fold: it is small at the last level, or would be folded at the
+/// next one if the mesh went on as in the last step.
 template <int n>
 std::string mesh_hint(const Case& setup, const Scene<n>& scene, const State& state, const AxisFrame& frame) {
   const auto &now = state.before[0].mesh, &last = state.before[1].mesh;
@@ -126,7 +126,7 @@ struct WallAtFailure {
   double mean_load = 0;  ///< kPa, over the time until then; at rest, that step's
 };
 
-/// Of a run in time the load until now, which may have ended while the wall still yields.
+/// The load; of a run in time all until now, since it may have ended while the wall still yields.
 void add_load(WallAtFailure& wall, const Loads& loads, int last_step, bool at_rest) {
   const int first = at_rest ? last_step : 1;
   for (int step = first; step <= last_step; ++step) {

@@ -9,27 +9,27 @@
 
 namespace fsi {
 
-/// How well fluid and wall have kept together where they meet (docs/theory.md, section 10.6). Root mean squares are over the
-/// interface's area.
+/// How well fluid and wall satisfy the interface conditions (docs/theory.md, section 10.6). Root mean squares are over
+/// the interface's area.
 struct InterfaceAgreement {
   double slip = 0;                ///< mm, root mean square of the integral of u - v over time
   double largest_slip = 0;        ///< mm, of a node, at the end
   double largest_separation = 0;  ///< mm, of a node, of d_m - d_s at any level so far
   double motion = 0;              ///< mm, the largest displacement of a node from where the run began, so far
-  /// kPa, root mean square of what fluid and wall leave unbalanced in the mean of the steps looked at, by their lengths
+  /// kPa, root mean square of the unbalanced traction, averaged over the steps looked at, weighted by their lengths
   double lasting_traction = 0;
-  double largest_traction = 0;  ///< kPa, root mean square of that in the worst of the steps looked at
-  double traction = 0;          ///< kPa, root mean square of the fluid's own, largest of these steps
+  double largest_traction = 0;  ///< kPa, root mean square of the unbalanced traction in the worst of these steps
+  double traction = 0;          ///< kPa, root mean square of the fluid's traction, largest of these steps
   int weighed_steps = 0;        ///< steps whose tractions were looked at
 
-  /// Shares of what moves and what bears; 0 where nothing does.
+  /// Gap relative to the motion, unbalanced traction relative to the fluid's; 0 where nothing moves, or bears.
   double gap_share() const { return motion > 0 ? std::max(largest_slip, largest_separation) / motion : 0; }
   double traction_share() const { return traction > 0 ? lasting_traction / traction : 0; }
 };
 
-/// Watches the conditions between fluid and wall by what a run's steps leave in them, whatever the solver says of its own
-/// convergence. A gap too small for a step's test shows when it always goes the same way. Reads states and balances only.
-/// Processes that share the scene call it together.
+/// Watches the residual of the conditions between fluid and wall over a run, independently of the solver's own tests. A
+/// gap too small for a step's test shows when it accumulates. Reads states and balances only. Processes that share the
+/// scene call it together.
 template <int n>
 class InterfaceWatch {
  public:
@@ -42,9 +42,9 @@ class InterfaceWatch {
 
   /// The run begins, or goes on, from a level.
   void begin(const State& level);
-  /// Takes in the step that led to a level. \param balances  of it
+  /// Takes in the step that led to a level. \param balances  of that step
   void follow(const State& level, const std::vector<Balance>& balances);
-  /// Looks at the tractions of a balance, for which fluid and wall are assembled once.
+  /// Takes in the tractions of a balance. Assembles fluid and wall once.
   void weigh(const Balance& balance);
 
   InterfaceAgreement so_far() const;
@@ -59,7 +59,7 @@ class InterfaceWatch {
   template <class Weight>
   double root_mean(const std::vector<double>& vectors, Weight weight) const;
   double largest(const std::vector<double>& vectors) const;
-  /// Leaves the components of nodal forces that no condition of the wall holds.
+  /// Sets the components of nodal forces that conditions of the wall hold to zero.
   void leave_free(std::vector<double>& forces) const;
 
   const Scene<n>& scene_;

@@ -36,7 +36,7 @@ struct LoadValues {
   std::vector<double> supports;
 };
 
-/// Work on the way `moved` with the surfaces as they are at `at`: this process's part.
+/// Work along `moved` with the surfaces as they are at `at`: this process's part.
 template <int n>
 double work_at(const Scene<n>& scene, const LoadValues& loads, const std::vector<double>& at,
                const std::vector<double>& moved) {
@@ -53,7 +53,7 @@ double work_at(const Scene<n>& scene, const LoadValues& loads, const std::vector
   return work;
 }
 
-/// By Simpson's rule over the way: areas are quadratic in it.
+/// By Simpson's rule along the straight way: areas are quadratic in it.
 template <int n>
 double work_of(const Scene<n>& scene, const LoadValues& loads, const std::vector<double>& start,
                const std::vector<double>& moved) {

@@ -14,18 +14,18 @@ struct LoadPathEnergy {
   double work_before = 0;  ///< of the loads as they are before the step, on the way of the step
   double work_after = 0;   ///< of the loads as they are after it, on the same way
 
-  /// How far `stored` is outside of what the two enclose, as a part of the largest of the three; 0: inside. Along stable
-  /// states that follow one another it is inside: with the loads f(s) and the displacements d(s)
+  /// How far `stored` is outside the interval of both works, relative to the largest of the three; 0: inside. Along a
+  /// path of stable states it is inside: with the loads f(s) and the displacements d(s)
   ///   stored = integral of f . d' ds,   f' . d' > 0,
   /// so that f_0 . (d_1 - d_0) <= stored <= f_1 . (d_1 - d_0) (docs/theory.md, section 4.9).
   double excess() const;
-  /// Beyond it a step does not follow the states that loads lead through one after the other.
+  /// A step with a larger excess does not follow the path of stable states.
   static constexpr double tolerable_excess = 0.02;
   bool follows_the_load() const { return excess() <= tolerable_excess; }
 };
 
-/// Of the step from one state to another. The work of pressures is that of the volume that their surfaces sweep on straight
-/// ways, exactly but for curved axes of revolution. Processes that share the scene ask together.
+/// Of the step from one state to another. The work of pressures is that of the volume that their surfaces sweep on
+/// straight ways, exactly but for curved axes of revolution. Processes that share the scene call it together.
 /// \param step  number of the load step
 template <int n>
 LoadPathEnergy load_path_energy(const Scene<n>& scene, const Loads& loads, int step, const State& before,

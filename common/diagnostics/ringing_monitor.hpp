@@ -5,12 +5,12 @@
 
 namespace fsi {
 
-/// Notices a pressure that alternates from step to step: a sawtooth is what a time scheme leaves that does not damp
-/// what its steps cannot resolve. With the deviation of each pressure from the line through its neighbours in time,
+/// Notices pressures that alternate from step to step, a sawtooth that time schemes leave which do not damp what their
+/// steps cannot resolve. With the deviation of each pressure from the line through its neighbours in time,
 ///   a^n = p^(n-1) - (p^(n-2) + p^n) / 2,
-/// a sawtooth has <a^n, a^(n-1)> close to -|a^n| |a^(n-1)|, where what is smooth has a positive product. It is named when
-/// over eight steps at least, and a fair part of the time in which the scene swings, it alternates, does not die away,
-/// and its amplitude |a| / 2 is more than a tenth of the pressure.
+/// a sawtooth has <a^n, a^(n-1)> close to -|a^n| |a^(n-1)|, where what is smooth has a positive product. It is reported
+/// when it alternates over eight steps and a quarter of the scene's time at least, keeps 3/4 of its size, and its
+/// amplitude |a| / 2 is more than a tenth of the pressure.
 class RingingMonitor {
  public:
   static constexpr int fewest_steps = 8;
@@ -23,7 +23,7 @@ class RingingMonitor {
   /// \param pressures  kPa, of all places that count alike
   /// \returns the amplitude in kPa, the largest over the places, while there is such a sawtooth
   std::optional<double> look(double time, const std::vector<double>& pressures);
-  /// A jump of the load ends what can be compared.
+  /// Begins anew, as after a jump of the load.
   void restart();
 
  private:

@@ -7,11 +7,11 @@
 
 namespace fsi {
 
-/// What an element loop learns besides the assembled numbers.
+/// What an element loop finds out besides the assembled numbers.
 struct AssemblyResult {
   /// Smallest J at a quadrature point; not positive (or NaN) when an element is inverted.
   double smallest_volume_ratio = 1;
-  int cell = -1;  ///< where, in the numbers of the sub-problem
+  int cell = -1;  ///< where, numbered as in the sub-problem; -1: J >= 1 everywhere
 
   bool inverted() const { return !(smallest_volume_ratio > 0); }
   void include(Pack volume_ratio, const int* cells) {
@@ -27,7 +27,7 @@ struct AssemblyResult {
   }
 };
 
-/// One result per thread, reduced at the end in the order of the threads.
+/// Combines one result per thread, in the order of the threads.
 inline AssemblyResult reduced(const std::vector<AssemblyResult>& of_threads) {
   AssemblyResult all;
   for (const auto& one : of_threads) all.include(one);

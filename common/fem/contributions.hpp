@@ -15,9 +15,9 @@ using Sum = decltype(std::declval<A>() + std::declval<B>());
 
 /// What a weak form returns at a point: the integrand of its residual is
 ///   source . v + flux : grad v + scalar_source q + scalar_flux . grad q
-/// for a vector test function v and a scalar one q, all on the reference domain. Only stabilisation has a scalar flux:
-/// with elements that need none it is not looked at.
-/// Its parts carry derivatives each for itself: by its type a part says what it does not depend on.
+/// for a vector test function v and a scalar one q, all on the reference domain. Only stabilisation has a scalar flux;
+/// elements without it ignore that part. Each part has its own scalar type: in Jacobians one that is a Pack does not
+/// depend on the unknowns.
 template <class Source, class Flux = Source, class Scalar = Source>
 struct Integrand {
   Vec3<Source> source;
@@ -73,8 +73,8 @@ struct ElementRows {
   }
 };
 
-/// Integrates one pack: prepare(point geometry) does what depends on gradients alone and is called once where gradients
-/// are constant; integrand(prepared, point geometry, point) returns the Integrand.
+/// Integrates one pack: prepare(point geometry) evaluates what depends on gradients alone, once where gradients are
+/// constant; integrand(prepared, point geometry, point) returns the Integrand.
 template <class Element, class T, class Prepare, class Evaluate>
 inline void integrate(ElementRows<Element, T>& rows, const typename Element::Geometry& geometry, Prepare prepare,
                       Evaluate integrand) {
@@ -114,7 +114,7 @@ inline void integrate(ElementRows<Element, T>& rows, const typename Element::Geo
   }
 }
 
-/// Adds a pack's residual to the global one, in the mixed layout.
+/// Adds a pack's residual to the global one, in the mixed layout: the rows of this thread's nodes.
 template <class Element, class T>
 inline void scatter_residual(const ElementRows<Element, T>& rows,
                              const typename ElementPacks<Element>::ElementPack& pack, double* residual) {
@@ -127,9 +127,9 @@ inline void scatter_residual(const ElementRows<Element, T>& rows,
       }
 }
 
-/// Adds to one block of a matrix for each lane its numbers, row-major.
-/// \param position  of the blocks; negative: none
-/// \param number    number(i) returns the i-th of all lanes
+/// Adds each lane's numbers, `Count` of them, row-major, to a block of a matrix.
+/// \param position  of each lane's block; negative: none
+/// \param number    number(i) returns the i-th number of all lanes
 template <int Count, class Number>
 inline void add_to_blocks(const std::array<int, pack_width>& position, Number number, double* blocks) {
   for (int begin = 0; begin < Count; begin += pack_width) {

@@ -36,14 +36,14 @@ class ElementPacks {
     int filled;                            ///< lanes that are not empty
     std::array<bool, pack_width> counted;  ///< by this process, of the filled ones, in sums over elements
 
-    /// Whether of the threads that hold this pack it is the one to count it: true for one of them.
+    /// Whether this copy of the pack is the one that sums over elements count: true on exactly one thread.
     bool counted_here() const { return position[0][0] >= 0; }
   };
 
   /// \param node_positions  reference coordinates, mm
   /// \param cells           all cells of the submesh; `subset` lists those to take
   /// \param graph           the node graph that matrices are stored on
-  /// \param counted         of the cells, those that sums count (Submesh::counted); empty: all
+  /// \param counted         per cell, whether sums count it on this process (Submesh::counted); empty: all
   template <class Point, class Cell>
   ElementPacks(const std::vector<Point>& node_positions, const std::vector<Cell>& cells, const std::vector<int>& subset,
                const NodeGraph& graph, const std::vector<char>& counted = {})
@@ -81,7 +81,7 @@ class ElementPacks {
   int thread_count() const { return static_cast<int>(packs_of_thread_.size()); }
   const std::vector<ElementPack>& of_thread(int t) const { return packs_of_thread_[t]; }
 
-  /// Takes the elements' sizes h, where they have one, from packs of the same elements in another shape.
+  /// Takes the elements' sizes h, where they have one, from packs of the same elements at other node positions.
   void keep_sizes_of(const ElementPacks& others) {
     if constexpr (Element::stabilised)
       for (std::size_t t = 0; t < packs_of_thread_.size(); ++t)
@@ -114,8 +114,8 @@ class ElementPacks {
   std::size_t element_count_ = 0;
 };
 
-/// Linear tetrahedra below which a loop over them is not worth waking threads for: those that evaluate residuals only (some
-/// 20 million elements a second), those that sum energies (half as fast) and those that differentiate (some 500,000). Other
+/// Numbers of linear tetrahedra below which a loop runs on one thread: loops that evaluate residuals only (some 20
+/// million elements a second), that sum energies (half as fast) and that differentiate (some 500,000 a second). Other
 /// elements count by the square of their nodes: a quadratic tetrahedron as six (it takes eight times as long).
 inline constexpr std::size_t serial_residual_elements = 20000, serial_sum_elements = 10000,
                              serial_jacobian_elements = 500;

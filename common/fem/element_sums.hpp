@@ -5,14 +5,14 @@
 
 #include "fem/element_packs.hpp"
 
-/// Behind the parameters of a function that sums up over a pack: what it calls becomes part of it, so that fields stay in
+/// Stands behind the parameters of a function that sums over a pack: its calls are inlined, so that fields stay in
 /// registers from the nodes to the integrals.
 #define FSI_WITH_ALL_CALLS_INLINE __attribute__((flatten))
 
 namespace fsi {
 
-/// Integrals of `Count` quantities over one pack, a lane per element: prepare(point geometry) does what depends on
-/// gradients alone and is called once where gradients are constant; densities(prepared, point geometry, point) returns
+/// Integrals of `Count` quantities over one pack, a lane per element: prepare(point geometry) evaluates what depends on
+/// gradients alone, once where gradients are constant; densities(prepared, point geometry, point) returns
 /// the quantities per reference volume.
 template <class Element, std::size_t Count, class Prepare, class Densities>
 inline std::array<Pack, Count> pack_integrals(const typename Element::Geometry& geometry, Prepare prepare,
@@ -37,9 +37,9 @@ inline std::array<Pack, Count> pack_integrals(const typename Element::Geometry& 
   return total;
 }
 
-/// Sums of `Count` quantities over the elements that this process counts. integrals(pack, thread, index in that thread's packs) returns those of
-/// one pack, a lane per element. Every pack is evaluated once and the packs are added up in their order, so that the
-/// sums do not depend on the number of threads.
+/// Sums of `Count` quantities over the elements that this process counts. integrals(pack, thread, index in that
+/// thread's packs) returns those of one pack, a lane per element. Every pack is evaluated once and the packs are added
+/// up in their order, so that the sums do not depend on the number of threads.
 template <std::size_t Count, class Element, class Integrals>
 std::array<double, Count> sum_over_elements(const ElementPacks<Element>& packs, Integrals integrals) {
   std::vector<std::array<double, Count>> of_pack(packs.pack_count());

@@ -9,8 +9,8 @@
 #include "fem/p2p1_triangle.hpp"
 
 /// The elements that the libraries are compiled for: everything that depends on the element is declared in headers and
-/// instantiated once, in its own .cpp file, by INSTANTIATE(element). With FSI_FIRST_ELEMENT, an option of CMake that comes
-/// by way of compiled_elements.hpp, linear tetrahedra alone: the first report of scripts/quickstart.sh needs no more.
+/// instantiated once, in its own .cpp file, by INSTANTIATE(element). With the CMake option FSI_FIRST_ELEMENT, which
+/// compiled_elements.hpp passes on, linear tetrahedra alone: the first report of scripts/quickstart.sh needs no more.
 #define FSI_FOR_EACH_ELEMENT(INSTANTIATE)  \
   FSI_FOR_EACH_LINEAR_ELEMENT(INSTANTIATE) \
   FSI_FOR_EACH_QUADRATIC_ELEMENT(INSTANTIATE)

@@ -28,8 +28,8 @@ void for_areas(const std::vector<Point>& x, const Nodes& facet, Visit visit) {
   }
 }
 
-/// Integrals of N_a n over reference facets in a layout's vectors: times a pressure the load of that pressure, as a dot
-/// product with a velocity the flow through the surface.
+/// Integrals of N_a n over reference facets, mm^2, in a layout's vectors. Times a pressure they are its load; their dot
+/// product with a velocity is the flow through the surface.
 template <class Element, class Layout, class Point, class Facet>
 std::vector<double> normal_weights(const std::vector<Point>& x, const std::vector<Facet>& facets) {
   using F = typename Element::Facet;
@@ -47,8 +47,8 @@ std::vector<double> normal_weights(const std::vector<Point>& x, const std::vecto
   return weights;
 }
 
-/// Integrals of the scalar fields' shape functions over reference facets, one number per node, mm^2: as a dot product
-/// with a pressure its integral.
+/// Integrals of the scalar fields' shape functions over reference facets, one number per node, mm^2: their dot product
+/// with a pressure is its integral.
 template <class Element, class Point, class Facet>
 std::vector<double> scalar_weights(const std::vector<Point>& x, const std::vector<Facet>& facets) {
   using F = typename Element::Facet;
@@ -73,8 +73,8 @@ std::vector<double> vector_shape_integrals(const std::vector<Point>& x, const st
 }
 
 /// The area that belongs to each node, mm^2: positive, and adding up to the surface's. The integral of N_a where the
-/// vectors' shape functions are linear; else each facet's area is shared out in the ratio of the integrals of N_a^2
-/// (Hinton, Rock and Zienkiewicz), since the integral of a quadratic shape function is not positive.
+/// vectors' shape functions are linear; else each facet's area is distributed in the ratio of the integrals of N_a^2
+/// [Hinton1976], since those of quadratic shape functions vanish at the vertices of triangles.
 template <class Element, class Point, class Facet>
 std::vector<double> nodal_areas(const std::vector<Point>& x, const std::vector<Facet>& facets) {
   if constexpr (Element::order == 1) {
@@ -97,8 +97,8 @@ std::vector<double> nodal_areas(const std::vector<Point>& x, const std::vector<F
   }
 }
 
-/// Integral of |u|^2/2 u . n over reference facets that do not move, mm^5/ms^3. \param velocity  the vectors of a mixed
-/// layout
+/// Integral of |u|^2/2 u . n over reference facets that do not move, mm^5/ms^3.
+/// \param velocity  the vectors of a mixed layout
 template <class Element, class Point, class Facet>
 double kinetic_flux(const std::vector<Point>& x, const std::vector<Facet>& facets,
                     const std::vector<double>& velocity) {
@@ -123,9 +123,11 @@ double kinetic_flux(const std::vector<Point>& x, const std::vector<Facet>& facet
   return flux;
 }
 
-/// Adds the load of a pressure that follows a surface, (p n, v) over its current facets (outward normals), to the vectors
-/// of a mixed layout and, unless null, its derivative by the nodes' displacement to the first n rows and columns of
-/// blocks. \param displacement  the vectors of Layout
+/// Adds the load of a pressure that follows a surface, (p n, v) over its current facets (outward normals).
+/// \param pressure      kPa
+/// \param displacement  the vectors of Layout, mm
+/// \param residual      gets the load in the vectors of a mixed layout
+/// \param jacobian      gets its derivative by displacements in the first n rows and columns of blocks; or null
 template <class Element, class Layout, class Point, class Facet, class Matrix>
 void add_surface_pressure(const std::vector<Point>& x, const std::vector<Facet>& facets, double pressure,
                           const double* displacement, double* residual, Matrix* jacobian) {
@@ -163,7 +165,7 @@ void add_surface_pressure(const std::vector<Point>& x, const std::vector<Facet>&
     }
 }
 
-/// The same of a wall. \param solution  displacements, the vectors of a mixed layout
+/// The same for displacements in the mixed layout, as a wall has them. \param solution  (d, p)
 template <class Element, class Point, class Facet>
 void add_follower_pressure(
     const std::vector<Point>& x, const std::vector<Facet>& facets, double pressure, const double* solution,

@@ -17,10 +17,10 @@ class FieldGradients {
   const NodalVector<Element>& u_;
 };
 
-/// Derivatives of a quadratic field along the barycentric coordinates l_m, less those along l_0, of which gradients are made:
+/// Derivatives of a quadratic field along the barycentric coordinates l_m, less those along l_0, which make gradients:
 ///   grad u = sum over m > 0 of (du/dl_m - du/dl_0) grad l_m.
-/// They are linear in l, also where the element is curved: what they are at the vertices is found once an element, and a point
-/// takes less than half of the products that it would with the gradients of all shape functions.
+/// They are linear in l, also where the element is curved. So they are found at the vertices, once an element, and a
+/// point takes less than half of the products that the gradients of all shape functions would take.
 template <class Element>
 struct VertexSlopes {
   static constexpr int dim = Element::dim, vertices = dim + 1, components = Element::components;
@@ -86,8 +86,8 @@ inline Mat3<Pack> gradient_of(const FieldGradients<Element>& u, const Quadrature
   return u.at(g);
 }
 
-/// The other way round: what meets gradients of test functions is summed up over the points as it meets derivatives along l_m
-/// at the vertices, and goes to the nodes' rows once an element.
+/// The transpose of FieldGradients: sums of flux : grad v over the points, kept as factors of the test functions'
+/// derivatives along l_m at the vertices, and added to the nodes' rows once an element.
 template <class Element>
 class FluxSums {
  public:

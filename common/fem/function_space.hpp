@@ -12,9 +12,9 @@
 
 namespace fsi {
 
-/// The fields of one medium on its part of the mesh, vectors with n components: which nodes carry what, how many
-/// numbers arrays have, which nodes couple, and how large the node of a norm is. Where the numbers stand is said by
-/// VectorLayout and MixedLayout.
+/// The fields of one medium on its part of the mesh, vectors with n components: which nodes carry what, the sizes of
+/// arrays, which nodes couple, and the volume of each node, which weighs norms. VectorLayout and MixedLayout say where
+/// the numbers stand.
 template <int n>
 class FunctionSpace {
  public:
@@ -33,7 +33,7 @@ class FunctionSpace {
   std::size_t mixed_size() const { return Mixed::size(node_count()); }
   /// Nodes that share a cell.
   const std::shared_ptr<const NodeGraph>& graph() const { return graph_; }
-  /// The volume that belongs to each node, mm^3 (nodal_volumes); of copies what their owners have.
+  /// The volume that belongs to each node, mm^3 (nodal_volumes); ghosts have their owners' values.
   const std::vector<double>& volumes() const { return volumes_; }
 
  private:
@@ -43,8 +43,8 @@ class FunctionSpace {
 };
 
 /// The volume that belongs to each node, mm^3: positive, and adding up to the part's; weights of lumped L2 norms. The
-/// integral of N_a for linear shape functions; else each cell's volume is shared out in the ratio of the integrals of
-/// N_a^2 [Hinton1976], since those of quadratic shape functions are not positive at vertices.
+/// integral of N_a for linear shape functions; else each cell's volume is distributed in the ratio of the integrals of
+/// N_a^2 [Hinton1976], since integrals of quadratic shape functions are not positive at vertices.
 template <class Element>
 std::vector<double> nodal_volumes(const Submesh<Element::dim, Element::order>& part) {
   std::vector<double> volumes(part.nodes.size(), 0.0);
@@ -74,8 +74,7 @@ std::vector<double> nodal_volumes(const Submesh<Element::dim, Element::order>& p
 }
 
 /// The space of an element on a part: vectors at all nodes, scalars at the first Element::scalar_nodes of each cell.
-/// All processes call it that have a share of the part.
-/// \param part  read here only
+/// Collective over the processes that share the part.
 template <class Element>
 FunctionSpace<Element::components> function_space(const Submesh<Element::dim, Element::order>& part) {
   std::vector<char> carries_scalar(part.nodes.size(), 0);
@@ -87,7 +86,7 @@ FunctionSpace<Element::components> function_space(const Submesh<Element::dim, El
   }
   auto graph = std::make_shared<NodeGraph>(graph_of_cells(part.node_count(), cell_nodes, Element::nodes));
   std::vector<double> volumes = nodal_volumes<Element>(part);
-  if (part.share) {  // not all cells of copies are here
+  if (part.share) {  // not all cells around ghosts are here
     part.share->exchange.update(volumes);
     std::vector<double> carries(carries_scalar.begin(), carries_scalar.end());
     part.share->exchange.update(carries);

@@ -27,7 +27,7 @@ void gather_blocks(Builder& builder, const BlockMatrix<Rows, Columns>& matrix, c
     }
 }
 
-/// The same for a matrix whose blocks hold one number per component of space, as the mesh motion's.
+/// The same for a matrix with one number per component of space in each block, as the mesh motion has.
 /// \param frames  in which rows and columns are counted; null: along the axes of space
 template <class Builder, int Components>
 void gather_diagonal_blocks(Builder& builder, const BlockMatrix<1, Components>& matrix, const UnknownMap& rows,

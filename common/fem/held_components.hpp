@@ -9,11 +9,11 @@
 
 namespace fsi {
 
-/// The conditions that a vector has no component along some directions, as conditions on single components.
+/// Conditions on single components that hold a vector's part along some directions at zero.
 template <int n>
 struct HeldComponents {
   std::array<bool, n> held{};
-  bool turned = false;  ///< they are those of a frame
+  bool turned = false;  ///< the components are those along `axes`
   NodalAxes<n> axes{};
 };
 
@@ -35,7 +35,7 @@ int axis_along(const Direction<n>& v) {
              : -1;
 }
 
-/// Turns the axis nearest to a unit vector into it, by the smallest rotation that does: axes across both stay.
+/// Turns the axis nearest to a unit vector into it or its opposite, by the smallest rotation: axes across both stay.
 /// \returns that axis
 template <int n>
 int turn_nearest_axis(Direction<n> v, NodalAxes<n>& axes) {
@@ -54,6 +54,8 @@ int turn_nearest_axis(Direction<n> v, NodalAxes<n>& axes) {
 
 }  // namespace detail
 
+/// Conditions that a vector has no component along any of the directions: along axes of space where these do, else in a
+/// frame (docs/theory.md, section 2.4).
 /// \param directions  unit vectors; those within 1e-4 of the others' span count as lying in it
 template <int n>
 HeldComponents<n> hold(const std::vector<Direction<n>>& directions) {

@@ -37,7 +37,7 @@ struct NodalScalar {
   Pack at[Element::scalar_nodes];
 };
 
-/// Loads one pack's nodal values of the vector, or of the scalar, from an array of a layout.
+/// Loads one pack's nodal values from an array of a layout: its vectors or, below, its scalars.
 template <class Layout, class Element>
 inline void gather(NodalVector<Element>& to, const typename ElementPacks<Element>::ElementPack& pack,
                    const double* from) {
@@ -45,7 +45,7 @@ inline void gather(NodalVector<Element>& to, const typename ElementPacks<Element
     const double* nodes[pack_width];
     for (int lane = 0; lane < pack_width; ++lane) nodes[lane] = from + Layout::vector(pack.node[a][lane]);
     for (int i = 0; i < Element::components; ++i) {
-      Pack::Lanes lanes = {};  // a pack is stored whole: a lane of what is not set yet is no value to start from
+      Pack::Lanes lanes = {};  // setting one lane of a pack reads the others, which are not set yet
       for (int lane = 0; lane < pack_width; ++lane) lanes[lane] = nodes[lane][i];
       to.at[a][i] = Pack(lanes);
     }
@@ -61,7 +61,7 @@ inline void gather(NodalScalar<Element>& to, const typename ElementPacks<Element
   }
 }
 
-/// Gradient of a vector field as a 3 x 3 tensor, (i, j) = d u_i / d X_j.
+/// Gradient of a vector field as a 3 x 3 tensor, (i, j) = d u_i / d X_j; u_r / r in (1, 1) of bodies of revolution.
 template <class Element>
 inline Mat3<Pack> gradient_of(const NodalVector<Element>& u, const QuadraturePoint<Element>& g) {
   Mat3<Pack> h;

@@ -19,8 +19,8 @@ template <int n>
 using NodalAxes = std::array<Direction<n>, n>;
 
 /// Nodes whose vectors are counted along axes of their own in systems of equations, because a condition holds for a
-/// component that is along no axis of space. Fields and residuals are kept along the axes of space; at these few nodes
-/// they are turned into the frames and back where unknowns begin. No such nodes: nothing is done, nothing stored.
+/// component that is along no axis of space (docs/theory.md, section 2.4). Fields and residuals are kept along the axes
+/// of space; at these few nodes they are turned into the frames and back where a system of equations begins.
 template <int n>
 class NodalFrames {
  public:
@@ -30,7 +30,7 @@ class NodalFrames {
   const NodalAxes<n>* at(int node) const {
     return static_cast<std::size_t>(node) < place_.size() && place_[node] >= 0 ? &axes_[place_[node]] : nullptr;
   }
-  /// Once a node.
+  /// Gives a node its axes; once per node.
   void turn(int node, const NodalAxes<n>& axes) {
     assert(at(node) == nullptr);
     if (static_cast<std::size_t>(node) >= place_.size()) place_.resize(static_cast<std::size_t>(node) + 1, -1);
@@ -44,7 +44,7 @@ class NodalFrames {
   void to_frames(std::vector<double>& field) const {
     for (std::size_t i = 0; i < nodes_.size(); ++i) to_frame(axes_[i], field.data() + Layout::vector(nodes_[i]));
   }
-  /// And back.
+  /// From components in the frames to those along the axes of space.
   template <class Layout>
   void to_space(std::vector<double>& field) const {
     for (std::size_t i = 0; i < nodes_.size(); ++i) to_space(axes_[i], field.data() + Layout::vector(nodes_[i]));
@@ -63,8 +63,7 @@ class NodalFrames {
     std::copy_n(turned.begin(), n, x);
   }
 
-  /// Turns rows and columns of a matrix between nodes of this part; the first n rows and columns of a block are those of
-  /// vectors.
+  /// Turns the first n rows and columns of a matrix's blocks, those of vectors, between nodes of this part.
   template <int Rows, int Columns>
   void turn_blocks(BlockMatrix<Rows, Columns>& matrix) const {
     static_assert(Rows >= n && Columns >= n);
@@ -89,8 +88,8 @@ class NodalFrames {
     }
   }
 
-  /// A matrix that couples no two components of space has couplings in the frames: of component i at node a with j at b,
-  /// the sum over k of share(k) times its number for the component k of space.
+  /// A matrix that does not couple components of space does so in the frames: component i at node a with j at node b by
+  /// the sum over k of share(k, a, b, i, j) times its number for component k of space.
   double share(int k, int a, int b, int i, int j) const {
     const NodalAxes<n>*of_row = at(a), *of_column = at(b);
     return (of_row ? (*of_row)[i][k] : i == k ? 1.0 : 0.0) * (of_column ? (*of_column)[j][k] : j == k ? 1.0 : 0.0);

@@ -79,7 +79,7 @@ struct P1Tetrahedron {
       return Pack(1.0 / 6.0) * cross(x[1] - x[0], x[2] - x[0]);
     }
 
-    /// A rule exact for cubics: centre and three points, |u|^2 u . n among its integrands.
+    /// A rule exact for cubics such as |u|^2 u . n: the centre, with a negative weight, and three points.
     static constexpr int cubic_points = 4;
     static double cubic_shape(int point, int node) { return point == 0 ? 1.0 / 3.0 : (point - 1 == node ? 0.6 : 0.2); }
     template <class T>

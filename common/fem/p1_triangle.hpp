@@ -40,7 +40,7 @@ struct P1Triangle {
     Pack measure;                ///< area of the triangle, mm^2
     Pack radius[nodes];          ///< first coordinate, mm
     Vec3<Pack> gradient[nodes];  ///< 1/mm
-    Sym3<Pack> metric;           ///< xi on the regular triangle of unit edge; nothing in the third direction
+    Sym3<Pack> metric;           ///< as P1Tetrahedron's, xi on the regular triangle; zero in the third direction
     Pack size_squared;           ///< h^2, h the edge of the regular triangle of the same area, mm^2
   };
 
@@ -96,8 +96,8 @@ struct P1Triangle {
     static constexpr int points = decltype(rule)::points;
     static double shape(int point, int node) { return rule.point[point][node]; }
     static double scalar_shape(int point, int node) { return shape(point, node); }
-    /// The right-hand side of the direction from node 0 to node 1, the first axis to the right and the second one
-    /// upwards, times the weight (and 2 pi r), mm^2: outward for a side run through counter-clockwise about its cell.
+    /// Normal to the right of the direction from node 0 to node 1, with the first axis to the right and the second one
+    /// upwards, times the weight (and 2 pi r), mm^2: outward for a side that runs counter-clockwise about its cell.
     template <class T>
     static Vec3<T> weighted_normal(const Vec3<T> x[nodes], int point) {
       return normal(x, rule, point);

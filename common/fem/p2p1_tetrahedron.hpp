@@ -28,8 +28,8 @@ struct P2P1Tetrahedron {
   struct Geometry {
     static constexpr Unstabilised metric{}, size_squared{};
     Vec3<Pack> x[nodes];  ///< reference coordinates of the nodes, mm
-    bool straight;        ///< all of its cells are: then what follows holds at all points
-    Pack six_volumes;
+    bool straight;        ///< all elements of the pack are: then what follows holds at all points
+    Pack six_volumes;     ///< mm^3
     Vec3<Pack> grad_l[scalar_nodes];  ///< of barycentric coordinates, 1/mm
   };
   static Geometry geometry(const Vec3<Pack> x[nodes]) {
@@ -85,7 +85,8 @@ struct P2P1Tetrahedron {
   };
 
  private:
-  /// Gradients of the barycentric coordinates where these move the position by e1, e2, e3. \returns six times the volume
+  /// Gradients of the barycentric coordinates, along which the position moves by e1, e2, e3.
+  /// \returns six times the volume
   static Pack barycentric_gradients(const Vec3<Pack>& e1, const Vec3<Pack>& e2, const Vec3<Pack>& e3,
                                     Vec3<Pack> grad_l[scalar_nodes]) {
     const Vec3<Pack> c1 = cross(e2, e3), c2 = cross(e3, e1), c3 = cross(e1, e2);

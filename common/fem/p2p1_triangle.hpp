@@ -42,8 +42,8 @@ struct P2P1Triangle {
   struct Geometry {
     static constexpr Unstabilised metric{}, size_squared{};
     Vec3<Pack> x[nodes];  ///< reference coordinates of the nodes, mm
-    bool straight;        ///< all of its cells are: then what follows holds at all points
-    Pack two_areas;
+    bool straight;        ///< all elements of the pack are: then what follows holds at all points
+    Pack two_areas;       ///< mm^2
     Vec3<Pack> grad_l[scalar_nodes];  ///< of barycentric coordinates, 1/mm
   };
   static Geometry geometry(const Vec3<Pack> x[nodes]) {
@@ -64,8 +64,8 @@ struct P2P1Triangle {
     return at(g, q, two_areas, grad_l);
   }
 
-  /// The element's sides: quadratic strips of unit width, or rings. Its rule is exact for the normal's load, and where
-  /// straight for |u|^2 u . n.
+  /// The element's sides: quadratic strips of unit width, or rings. The rule is exact for the load of a linear pressure
+  /// and, on straight sides, for |u|^2 u . n.
   struct Facet {
     using Shapes = QuadraticSimplex<1>;
     static constexpr int nodes = Shapes::nodes;
@@ -78,7 +78,7 @@ struct P2P1Triangle {
     static double scalar_shape(int q, int a) { return rule.point[q][a]; }
     static double cubic_shape(int q, int a) { return shape(q, a); }
 
-    /// The right-hand side of the direction from node 0 to node 1, as of the linear triangle, mm^2.
+    /// Normal to the right of the direction from node 0 to node 1, as P1Triangle::Facet has it, mm^2.
     template <class T>
     static Vec3<T> weighted_normal(const Vec3<T> x[nodes], int q) {
       const auto& l = rule.point[q];
@@ -101,7 +101,7 @@ struct P2P1Triangle {
   };
 
  private:
-  /// Gradients of the barycentric coordinates where these move the position by e1, e2. \returns twice the area
+  /// Gradients of the barycentric coordinates, along which the position moves by e1, e2. \returns twice the area
   static Pack barycentric_gradients(const Vec3<Pack>& e1, const Vec3<Pack>& e2, Vec3<Pack> grad_l[scalar_nodes]) {
     constexpr int first = axis[0], second = axis[1], third = 3 - first - second;
     const Pack two_areas = e1[first] * e2[second] - e2[first] * e1[second];

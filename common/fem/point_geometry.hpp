@@ -7,19 +7,18 @@
 
 namespace fsi {
 
-/// Stands where an element that needs no stabilisation has no size and no metric.
+/// Stands for the size and the metric of an element that needs no stabilisation.
 struct Unstabilised {};
 /// What an element has for a metric: Sym3<Pack> or Unstabilised.
 template <class Element>
 using MetricOf = std::decay_t<decltype(std::declval<typename Element::Geometry&>().metric)>;
 
-/// Shape functions of one field at one quadrature point. `hoop` holds N_a / r for axisymmetric elements and is unused
-/// otherwise.
+/// Shape functions of one field at one quadrature point.
 template <int Nodes>
 struct ShapeFunctions {
   double value[Nodes];         ///< N_a
   Vec3<Pack> gradient[Nodes];  ///< grad N_a on the reference domain, 1/mm
-  Pack hoop[Nodes];            ///< N_a / r, 1/mm
+  Pack hoop[Nodes];            ///< N_a / r, 1/mm; not set unless the element is axisymmetric
 };
 
 /// What a weak form may know of an element at one quadrature point: the shape functions of vector and of scalar fields

@@ -6,20 +6,21 @@
 namespace fsi {
 
 /// Derivatives by way of the quadrature points, for Taylor-Hood elements: a weak form is differentiated at a point with
-/// respect to what the fields are there, and the derivatives with respect to nodal unknowns follow by the chain rule,
-/// since the fields at a point are linear in those. Differentiating for one node after the other (`seed_gradient` and
-/// `seed_value` with a node) gives the same numbers up to rounding; with ten nodes it takes several times as long.
+/// respect to the fields' values and gradients there. Derivatives with respect to nodal unknowns follow by the chain
+/// rule, since the fields at a point are linear in those. Differentiating for one node after the other (`seed_gradient`
+/// and `seed_value` with a node) gives the same numbers up to rounding; with ten nodes it takes several times as long.
 ///
 /// Gradients of trial and test functions are taken along the element's barycentric coordinates l_0, l_1, ...:
 ///   grad N_a = sum over m of dN_a/dl_m grad l_m.
-/// Of the dN_a/dl_m one or two are not zero, and they are linear in l (QuadraticSimplex). So of what stands between two
-/// gradients, T(m, m'), not all products of shape functions are summed over the points, but its moments with the few
-/// l_i l_j, of which all pairs of nodes follow:
+/// One or two of the dN_a/dl_m are not zero, and they are linear in l (QuadraticSimplex). So the factor T(m, m')
+/// between two gradients is not summed over the points for each pair of nodes. Its moments with the few l_i l_j are,
+/// and all pairs follow from these:
 ///   sum over q of dN_a/dl_m T dN_b/dl_m' = combination of the  sum over q of l_i l_j T.
 /// The l add up to one, so that derivatives along l_0 are minus the sum of the others, which alone are evaluated.
 ///
-/// There is no stabilisation: nothing depends on gradients of scalars, and there is no scalar flux. Sources do not see
-/// scalars, and fluxes do not see values, other than by hoop terms; the types of an Integrand's parts hold forms to that.
+/// There is no stabilisation: nothing depends on gradients of scalars, and there is no scalar flux. Sources do not
+/// depend on scalars, and fluxes depend on vectors' values by hoop terms alone; the types of an Integrand's parts
+/// enforce that.
 
 /// 1/r at a point of an axisymmetric element: the shape functions add up to one.
 template <class Element>
@@ -70,9 +71,9 @@ struct PointTable {
   double value[points][Element::nodes];     ///< N_a
   double barycentric[points][vertices];     ///< l_i
   double product[points][products];         ///< l_i l_j, i <= j
-  int product_of[vertices][vertices];       ///< where
-  int along[Element::nodes][2];             ///< the m of the dN_a / dl_m that are not zero, one at vertices
-  double slope[Element::nodes][2][points];  ///< these
+  int product_of[vertices][vertices];       ///< place of l_i l_j in `product`
+  int along[Element::nodes][2];             ///< the m of the dN_a / dl_m that are not zero; twice the same at vertices
+  double slope[Element::nodes][2][points];  ///< dN_a / dl_m for these m
 
   constexpr PointTable() : value{}, barycentric{}, product{}, product_of{}, along{}, slope{} {
     for (int a = 0; a < Element::nodes; ++a)
@@ -97,8 +98,8 @@ struct PointTable {
 template <class Element>
 inline constexpr PointTable<Element> point_table{};
 
-/// Rows that meet linear functions: derivatives of a vector test function's components along l_1, l_2, ..., and the
-/// scalar test function's value.
+/// Rows whose test functions are linear in l: derivatives of a vector test function's components along l_1, l_2, ...,
+/// and the scalar test function's value.
 template <class Element>
 struct LinearRows {
   static constexpr int scalar = Element::components * Element::dim;
@@ -106,7 +107,7 @@ struct LinearRows {
   static constexpr int along(int k, int m) { return k * Element::dim + m - 1; }
 };
 
-/// Calls put(row, what of an integrand the row multiplies, times the point's weight) for the linear rows.
+/// Calls put(row, factor of the row's test function in the integrand times the point's weight) for the linear rows.
 template <class Element, class Source, class T, class Scalar, class Put>
 inline void for_each_linear_row(const Integrand<Source, T, Scalar>& f, const QuadraturePoint<Element>& g, Put put) {
   using Rows = LinearRows<Element>;
@@ -121,7 +122,7 @@ inline void for_each_linear_row(const Integrand<Source, T, Scalar>& f, const Qua
   }
   put(Rows::scalar, g.weight * f.scalar_source);
 }
-/// What of a flux the value of the first component multiplies by way of the hoop term, times the point's weight.
+/// The hoop term's factor of the first component's test value, times the point's weight.
 template <class Element, class T>
 inline T hoop_flux(const Mat3<T>& flux, const QuadraturePoint<Element>& g) {
   return (g.weight * inverse_radius<Element>(g)) * flux(1, 1);
@@ -147,13 +148,14 @@ struct VectorTangent {
   using Table = PointTable<Element>;
   using Gradient = Dual<gradient_seeds<Element>>;
 
-  /// Of the rows of test values: [row][component of the field][its value, its derivatives along l_0, l_1, ...][point].
+  /// Of the rows of test values: [row][component of the field][by its value, by its derivatives along l_0, l_1, ...]
+  /// [point].
   Pack of_values[n][n][dim + 2][points];
-  /// Of the linear rows: [row][component][derivatives along l_1, l_2, ...][point], and, where there are hoop terms, with
-  /// respect to the value of the first component.
+  /// Of the linear rows: [row][component][by derivatives along l_1, l_2, ...][point] and, where there are hoop terms,
+  /// by the value of the first component.
   Pack of_linear[Rows::count][n][dim][points];
   Pack of_linear_by_value[Element::axisymmetric ? Rows::count : 1][points];
-  /// Sums over the points: [row][component][derivatives along l_0, l_1, ...][times l_i l_j].
+  /// Sums over the points: [row][component][by derivatives along l_0, l_1, ...][times l_i l_j].
   Pack moment[Rows::count][n][dim + 1][Table::products];
 
   /// \param f  seeded by seed_gradient_of(k, ...)
@@ -178,7 +180,8 @@ struct VectorTangent {
         if (k == 0) of_linear_by_value[row][q] = x.slope[dim];
     });
   }
-  /// \param source  an integrand's, seeded by seed_components(). After the gradients.
+  /// Call after set_gradient() at this point for all components.
+  /// \param source  an integrand's, seeded by seed_components()
   void add_values(const Vec3<Dual<n>>& source, const QuadraturePoint<Element>& g, int q) {
     for (int i = 0; i < n; ++i)
       for (int k = 0; k < n; ++k) {
@@ -190,7 +193,7 @@ struct VectorTangent {
           to = x;
       }
   }
-  /// Once all points are set.
+  /// Makes the moments, once all points are set.
   void sum() {
     for (int row = 0; row < Rows::count; ++row)
       for (int k = 0; k < n; ++k) {

@@ -31,7 +31,8 @@ struct QuadraticSimplex {
     return i == ends[0] ? 4 * l[ends[1]] : i == ends[1] ? 4 * l[ends[0]] : 0;
   }
 
-  /// All edges of all lanes are straight, their nodes in the middle: up to rounding, so that gradients are constant in each.
+  /// Whether in all lanes all edges are straight, with their nodes in the middle, up to rounding: then gradients of the
+  /// barycentric coordinates are constant in each element.
   static bool is_straight(const Vec3<Pack> x[nodes]) {
     constexpr double rounding = 1e-13;
     for (int a = vertices; a < nodes; ++a) {
@@ -49,7 +50,7 @@ struct QuadraticSimplex {
     return true;
   }
 
-  /// Sum of x_a dN_a / dl_i over the nodes: where the position moves with l_i alone.
+  /// Sum of x_a dN_a / dl_i over the nodes: how the position moves with l_i alone, mm.
   template <class T, class Barycentric>
   static Vec3<T> tangent(const Vec3<T> x[nodes], const Barycentric& l, int i) {
     Vec3<T> t;

@@ -13,7 +13,8 @@ struct SimplexRule {
 
 namespace detail {
 
-/// Appends the points of barycentric coordinates (1 - (v - 1) a, a, a, ...), the first taking each place in turn.
+/// Appends the points (1 - (Vertices - 1) a, a, a, ...) with the first coordinate in each place in turn.
+/// \returns the number of points that there are then
 template <int Vertices, int Points>
 constexpr int add_vertex_orbit(SimplexRule<Vertices, Points>& rule, int from, double a, double weight) {
   for (int v = 0; v < Vertices; ++v, ++from) {

@@ -6,7 +6,7 @@
 namespace fsi {
 
 /// Where a nodal value of a field stands in a system of equations: value = factor * x[unknown] + known part.
-/// A prescribed value has no unknown (-1). Several nodal values may hang on one unknown, as velocity, mesh and wall
+/// A prescribed value has no unknown (-1). Several nodal values may depend on one unknown, as velocity, mesh and wall
 /// displacement do on the fluid-wall interface.
 struct Unknown {
   std::int64_t index = -1;

@@ -23,7 +23,7 @@ class NearPoints {
   }
 
   const std::vector<Point>& points() const { return points_; }
-  /// The nearest `count` points, fewer where there are not so many; nearest first, of equally near ones the first first.
+  /// The nearest `count` points, or all; nearest first, equally near ones by their numbers.
   std::vector<Near> nearest(const Point& from, std::size_t count) const {
     std::vector<Near> near;
     search(0, order_.size(), 0, from, count, near);

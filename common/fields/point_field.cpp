@@ -15,7 +15,8 @@ constexpr double least_spread = 0.03;  // of squares along a direction, of those
 
 using Matrix = std::array<Point, 3>;
 
-/// Eigenvalues of a symmetric matrix, which becomes diagonal, and eigenvectors as columns of `axes`, by Jacobi's rotations.
+/// Eigenvalues of a symmetric matrix, which becomes diagonal, and eigenvectors as columns of `axes`, by Jacobi's
+/// rotations.
 void diagonalise(Matrix& a, Matrix& axes) {
   axes = {Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}};
   for (int sweep = 0; sweep < 12; ++sweep)

@@ -11,15 +11,15 @@
 namespace fsi {
 
 /// A field of a file at any place: linear in the cell that holds the place, or that cell's value, where the file has
-/// tetrahedra, or triangles in the plane of a mesh of triangles. Elsewhere a field of points is, by its twelve nearest points, the
-/// linear function of least squares with weights 1/distance^2, kept within the range of their values; a field of cells that of
-/// the nearest cell's centre. Directions in which the points do not spread count for nothing: along the normal of a surface
-/// the field does not change.
+/// tetrahedra, or triangles in the plane of a mesh of triangles. Elsewhere a field of points is the linear function of
+/// least squares through the twelve nearest points, weights 1/distance^2, clamped to the range of their values; a field
+/// of cells has the value of the nearest cell's centre. The function does not change in directions in which the points
+/// do not spread, as along the normal of a surface.
 class PointField {
  public:
   /// \param samples  one or more, of finite values
-  /// \param within   how far a place outside all cells may be from the nearest of the samples, mm; 0: three times the
-  ///                 median of their distances from each other
+  /// \param within   how far a place outside all cells may be from the nearest of the samples, mm; 0: three times their
+  ///                 median_spacing()
   PointField(FieldSamples samples, double within);
 
   double within() const { return within_; }
@@ -47,7 +47,7 @@ class PointField {
   Cells<2> triangles_;
 };
 
-/// A distance from each of the points to the next, mm, of which half are smaller: asked of a thousand at most.
+/// Median distance from a point to the nearest other one, mm, of about a thousand points at most.
 double median_spacing(const NearPoints& points);
 
 }  // namespace fsi

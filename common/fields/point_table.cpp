@@ -28,7 +28,7 @@ std::vector<std::string> columns_of(const std::string& line) {
   return columns;
 }
 
-/// What stands behind a column's name as its unit, "x_cm", "x [cm]", "x (cm)"; empty: nothing, nothing at all: another name.
+/// The unit behind a column's name: "x_cm", "x [cm]", "x (cm)"; an empty text: none; nullopt: it is another name.
 std::optional<std::string> unit_behind(const std::string& header, const std::string& name) {
   if (header.rfind(name, 0) != 0) return std::nullopt;
   std::string behind = header.substr(name.size());
@@ -44,7 +44,7 @@ std::optional<std::string> unit_behind(const std::string& header, const std::str
   return behind;
 }
 
-/// Where a column is among those of the first line: the one of its name, else the first with a unit behind it.
+/// Index of a column: the one of this name, else the first with a unit behind it; names.size(): there is none.
 std::size_t place_of_column(const std::vector<std::string>& names, const std::string& wanted, std::string& unit) {
   const auto exact = std::find(names.begin(), names.end(), wanted);
   if (exact != names.end()) return static_cast<std::size_t>(exact - names.begin());
@@ -56,7 +56,7 @@ std::size_t place_of_column(const std::vector<std::string>& names, const std::st
   return names.size();
 }
 
-/// Of the units of x, y and z in mm; empty ones are mm.
+/// The unit of a coordinate in mm; an empty one is mm. \throws InputError
 double length_of(const std::string& unit, const std::string& column, const std::string& file) {
   if (unit.empty()) return 1;
   if (const auto length = length_unit(unit)) return *length;

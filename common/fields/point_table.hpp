@@ -15,11 +15,11 @@ struct PointTable {
   std::string length_unit{};   ///< that the coordinates were in, likewise
 };
 
-/// Of a text of comma-separated columns with a line of names: x, y, z in mm and `column`. Further columns are passed over. A unit
-/// may stand behind a name, `x_cm` or `x [cm]`: coordinates are brought to mm, values stay as they are.
+/// Reads comma-separated columns with a line of names: x, y, z in mm and `column`; others are skipped. A unit may stand
+/// behind a name, `x_cm` or `x [cm]`: coordinates are converted to mm, values stay as they are.
 /// \param file    for messages
 /// \param remedy  for a value that is no number, "give it in mm"
-/// \throws InputError saying of `file`, with the line: a column that is missing, what is no number, and fewer than two points
+/// \throws InputError with file and line: a column is missing, a field is no number, there are fewer than two points
 PointTable point_table(const std::string& text, const std::string& column, const std::string& file,
                        const std::string& remedy);
 

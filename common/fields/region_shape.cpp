@@ -57,7 +57,7 @@ double RegionDistance::to_surface(const Point& x) const {
   for (const int t : triangles_[(static_cast<std::size_t>(box[0]) * boxes_[1] + box[1]) * boxes_[2] + box[2]]) {
     const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
     const double away = distance_to_triangle(x, nodes[a], nodes[b], nodes[c]);
-    if (away < nearest) nearest = away;  // of a triangle without area there may be no number
+    if (away < nearest) nearest = away;  // NaN of a triangle without area is not
   }
   return nearest;
 }

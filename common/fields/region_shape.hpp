@@ -21,10 +21,10 @@ struct RegionShape {
   std::shared_ptr<const PaintedSurface> surface;
 };
 
-/// How far points are outside a shape.
+/// Signed distance of points from a shape.
 class RegionDistance {
  public:
-  /// \param reach  mm; what is farther outside may be told as this far
+  /// \param reach  mm; greater distances may be returned as this one
   RegionDistance(const RegionShape& shape, double reach);
   /// mm outside the shape; negative inside.
   double operator()(const Point& x) const;

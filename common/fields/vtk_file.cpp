@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* remedy = "write it anew as .vtu or .vtp";
 
-/// What is wrong with a file, told by read_vtk() with its name.
+/// What is wrong with a file; read_vtk() adds its name.
 struct Damaged : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

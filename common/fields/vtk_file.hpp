@@ -8,7 +8,7 @@
 
 namespace fsi {
 
-/// What a file of VTK's XML formats, .vtu or .vtp, holds: all pieces one behind the other.
+/// Contents of a file of VTK's XML formats, .vtu or .vtp: all pieces, one after the other. Of .vtp only the polygons.
 struct VtkMesh {
   struct Array {
     std::string name;
@@ -22,7 +22,7 @@ struct VtkMesh {
   std::vector<Array> arrays;
 };
 
-/// Arrays as text, base64 or raw, packed by zlib or not, of numbers with the least significant byte first.
+/// Reads arrays as text, base64 or raw, packed by zlib or not, in little-endian order.
 /// \param text  the whole file \param file  for messages \throws InputError for what is damaged or in another form
 VtkMesh read_vtk(const std::string& text, const std::string& file);
 

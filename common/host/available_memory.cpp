@@ -32,7 +32,8 @@ std::function<void(const std::string&)>& notices() {
   return sink;
 }
 
-/// The beginning of a file as text; empty where it cannot be read. Calls the system only.
+/// Reads the beginning of a file as text, by system calls only. \returns whether it could be opened; else `text` is
+/// empty
 template <std::size_t size>
 bool read_text(const char* file, char (&text)[size]) noexcept {
   text[0] = 0;
@@ -50,7 +51,7 @@ std::uint64_t difference(std::uint64_t limit, std::uint64_t used) noexcept {
   return limit > used ? limit - used : 0;
 }
 
-/// The number behind `key` at the begin of a line, `otherwise` where there is none.
+/// The number behind `key` at the beginning of a line, `otherwise` if there is none.
 std::uint64_t number_behind(const char* text, const char* key, std::uint64_t otherwise) noexcept {
   const std::size_t length = std::strlen(key);
   for (const char* line = text; line != nullptr && *line != 0;) {
@@ -61,13 +62,13 @@ std::uint64_t number_behind(const char* text, const char* key, std::uint64_t oth
   return otherwise;
 }
 
-/// What one group leaves: limit less use, file pages that can be dropped not counted as used.
+/// What one control group leaves: limit minus use, without file pages that can be dropped.
 std::uint64_t room_in_group(const char* folder, const char* limit_name, const char* use_name) noexcept {
   char file[1024], text[8192];
   std::snprintf(file, sizeof file, "%s/%s", folder, limit_name);
   if (!read_text(file, text) || text[0] < '0' || text[0] > '9') return unbounded;  // "max"
   const std::uint64_t limit = std::strtoull(text, nullptr, 10);
-  if (limit >= unbounded / 4) return unbounded;  // version 1 says "none" by a huge number
+  if (limit >= unbounded / 4) return unbounded;  // no limit: version 1 says so by a huge number
   std::snprintf(file, sizeof file, "%s/%s", folder, use_name);
   if (!read_text(file, text)) return limit;
   const std::uint64_t used = std::strtoull(text, nullptr, 10);
@@ -76,6 +77,7 @@ std::uint64_t room_in_group(const char* folder, const char* limit_name, const ch
   return difference(limit, difference(used, number_behind(text, "inactive_file ", 0)));
 }
 
+/// Bytes in a column, from 0, of /proc/self/statm, which counts pages.
 std::uint64_t pages(const char* statm, int column) noexcept {
   for (; column > 0 && statm != nullptr; --column) {
     statm = std::strchr(statm, ' ');
@@ -88,13 +90,13 @@ void tighten(MemoryRoom& room, std::uint64_t bytes, const char* bound) noexcept 
   if (bytes < room.bytes) room = {bytes, bound};
 }
 
-/// The name the system knows this process by; a program's own is not known before main().
+/// The name by which the system knows this process, known before main() too.
 void program_name(char (&name)[64]) noexcept {
   if (!read_text("/proc/self/comm", name)) std::snprintf(name, sizeof name, "%s", "fsi");
   if (char* end = std::strchr(name, '\n')) *end = 0;
 }
 
-/// What would help, by program and by what sets the bound.
+/// The remedy, by program and by what sets the bound.
 void write_advice(const char* program, const char* bound, char* text, std::size_t size) noexcept {
   const bool limited = std::strncmp(bound, "ulimit", 6) == 0;
   const char* const raise = limited ? "a higher limit" : "a machine with more memory";
@@ -114,7 +116,7 @@ void write_advice(const char* program, const char* bound, char* text, std::size_
   _exit(1);  // no exit handlers: those of libraries would flush what is half done
 }
 
-/// The first that comes goes on, others wait for the end.
+/// The first thread returns; others wait for the end of the process.
 void enter_the_end() noexcept {
   if (!ending.test_and_set()) return;
   for (;;) pause();

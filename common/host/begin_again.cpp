@@ -35,7 +35,7 @@ void begin_again_with_settings(const char* const* argv, char* const* environment
   if (!starts_dense) with[count++] = dense;
   if (!names_kernels) with[count++] = kernels.data();
   if (!names_pages) with[count++] = pages;
-  std::array<char, 4096> file{};  // by its name: "/proc/self/exe" would be the name that ps shows
+  std::array<char, 4096> file{};  // the program's own name: ps would show "/proc/self/exe"
   if (readlink("/proc/self/exe", file.data(), file.size() - 1) > 0)
     execve(file.data(), const_cast<char* const*>(argv), with.data());
   // Where that is not possible the run goes on as it is.

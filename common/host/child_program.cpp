@@ -21,7 +21,7 @@ namespace {
 
 std::atomic<pid_t> running{0};  // the child, 0: none
 
-/// A pipe whose ends are closed with it.
+/// A pipe whose ends are closed with it. \throws InputError when it cannot be made
 class Pipe {
  public:
   Pipe() {
@@ -59,7 +59,8 @@ pid_t start(const std::vector<std::string>& words, const posix_spawn_file_action
   return child;
 }
 
-/// Its number is its own until its status is taken, so that end_child() never asks a stranger to end.
+/// Waits for the child's status. Its process id stays its own until the status is taken, so that end_child() never
+/// signals another process.
 int status_of(pid_t child) {
   siginfo_t ended{};
   while (::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
@@ -71,7 +72,7 @@ int status_of(pid_t child) {
   return status;
 }
 
-/// Reads both until the child has closed them.
+/// Reads both pipes until the child has closed them.
 void read_all(Pipe& first, std::string& text_of_first, Pipe& second, std::string& text_of_second) {
   std::array<pollfd, 2> waiting{{{first.end(0), POLLIN, 0}, {second.end(0), POLLIN, 0}}};
   const std::array<std::string*, 2> texts{&text_of_first, &text_of_second};

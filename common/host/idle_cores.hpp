@@ -18,7 +18,7 @@ std::vector<long> busy_ticks(const std::string& proc_stat);
 /// Cores that others kept busy between two looks at /proc/stat.
 /// \param before, after  busy_ticks
 /// \param cores          numbers of those that count
-/// \param own            seconds of all cores that this process used in between
+/// \param own            processor seconds that this process used in between, on all cores
 /// \param seconds        between the looks
 double busy_elsewhere(const std::vector<long>& before, const std::vector<long>& after, const std::vector<int>& cores,
                       double ticks_per_second, double own, double seconds);
@@ -30,7 +30,7 @@ int cgroup_cores(const std::string& text);
 class CoreWatch {
  public:
   CoreWatch();
-  /// The mean since the construction, over 50 ms at least: it waits for what is missing.
+  /// The mean since the construction. Waits until 50 ms have passed.
   CoreUse look() const;
 
  private:
@@ -46,16 +46,16 @@ class CoreWatch {
 struct ThreadChoice {
   int count = 1;
   std::string reason;
-  std::string warning{};  ///< of threads that hold each other up; empty: none
+  std::string warning{};  ///< that threads hold each other up; empty: none
 };
 
-/// As asked with --threads; else one per idle core, but none with fewer than `tetrahedra_per_thread`.
-/// \param asked  0: not
+/// As asked with --threads; else one per idle core, but at most one per `tetrahedra_per_thread`, and at least one.
+/// \param asked  0: not asked
 ThreadChoice choose_threads(int asked, std::size_t tetrahedra, const CoreUse& use);
-/// The same; looks at the cores only where that decides.
+/// The same; measures the cores' use only if the choice depends on it.
 ThreadChoice choose_threads(int asked, std::size_t tetrahedra, const CoreWatch& watch);
 
-/// Below it a second thread costs as much as it brings (docs/guide/solvers.md#speed).
+/// With fewer a further thread costs as much as it saves (docs/guide/running.md#threads).
 constexpr std::size_t tetrahedra_per_thread = 10000;
 
 }  // namespace fsi

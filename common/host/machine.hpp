@@ -4,8 +4,8 @@
 
 namespace fsi {
 
-/// The model of the first processor in the text of /proc/cpuinfo, or the numbers of its maker and design where that is all;
-/// "unknown" where there is neither.
+/// The model of the first processor in the text of /proc/cpuinfo; on Arm the numbers of implementer and part; "unknown"
+/// if it has neither.
 std::string processor_in(const std::string& proc_cpuinfo);
 
 /// The model of this machine's processors.

@@ -3,10 +3,10 @@
 // Libraries do not survive a failing allocation: OpenBLAS tries again for ever, METIS and the runtime of OpenMP print
 // something of their own and end the process or abort it, constructors of others crash before main() begins. And a C++
 // exception in a parallel region or a destructor ends in std::terminate. So the programs define the functions of the C
-// library that allocate and that start a thread. Those of a program come before those of all libraries in the order in
-// which the dynamic linker looks for them. They call the next ones in that order.
+// library that allocate and that start a thread. The dynamic linker finds a program's functions before those of all
+// libraries. They call the next ones in its order.
 //
-// A caller that copes with a failure says so by MayFail (host/available_memory.hpp).
+// Callers that handle a failure say so by MayFail (host/available_memory.hpp).
 #include <dlfcn.h>
 #include <malloc.h>
 #include <pthread.h>
@@ -21,7 +21,7 @@
 
 namespace {
 
-/// The function of this name that comes next behind the program's own.
+/// The function of this name that the linker finds behind the program's own.
 template <class Function>
 Function* next(const char* name) noexcept {
   auto* found = reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
@@ -29,8 +29,8 @@ Function* next(const char* name) noexcept {
   return found;
 }
 
-// From here on a request is held against what is available: less than that is granted by the system even where it does
-// not have it, and the process killed when it uses it.
+// From this size on a request is compared with what is available: the system grants memory that it does not have, and
+// kills the process when it uses it.
 constexpr std::size_t large = std::size_t{256} << 20;
 
 bool beyond_available(std::size_t asked) noexcept {
@@ -98,10 +98,10 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
 
 namespace {
 
-/// Bytes below which a fault is put down to memory: a stack that cannot grow by a page.
+/// Bytes available below which a fault is put down to memory.
 constexpr std::uint64_t next_to_nothing = std::uint64_t{1} << 20;
 
-/// A fault where no memory is left is the want of it: a stack that could not grow. Any other stays what it is.
+/// A fault when no memory is left means that a stack could not grow. Any other takes its default action.
 void fault(int signal) {
   if (fsi::available_memory().bytes < next_to_nothing) fsi::end_out_of_memory(0);
   std::signal(signal, SIG_DFL);

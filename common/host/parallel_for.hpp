@@ -14,7 +14,7 @@ namespace detail {
 #define FSI_ONE_COPY [[gnu::noinline, gnu::noclone]]
 #endif
 
-/// One text of machine code whoever calls it: sums come out bit for bit alike with a team and without.
+/// One copy of the machine code for all callers, so that sums have the same bits with a team and without.
 template <class Index, class Body>
 FSI_ONE_COPY void run_part(Index begin, Index end, const Body& body) {
   for (Index i = begin; i < end; ++i) body(i);
@@ -24,11 +24,11 @@ FSI_ONE_COPY void run_part(Index begin, Index end, const Body& body) {
 
 }  // namespace detail
 
-/// Calls body(i) for i = 0 .. count - 1: by all threads, an equal part of successive i each, where `shared` says that the
-/// loop is worth waking them for; else, and where there is one thread, here and without a team. OpenMP's own `if` makes a
-/// one-thread team, which takes as long to begin and end as a sum of some thousand products: for loops that are short and run
-/// often (docs/guide/solvers.md#speed).
-/// \param body  writes nothing that the body of another i reads or writes
+/// Calls body(i) for i = 0 .. count - 1: with `shared` by all threads, an equal part of successive i each; else, or
+/// with one thread, by the caller without a team. OpenMP's own `if` makes a one-thread team, which takes as long to
+/// begin and end as a sum of some thousand products: too long for short loops that run often (docs/archive.md).
+/// \param shared  whether the loop is long enough to wake the threads
+/// \param body    writes nothing that the body of another i reads or writes
 template <class Index, class Body>
 void parallel_for(Index count, bool shared, const Body& body) {
   if (!shared || threads() == 1) {

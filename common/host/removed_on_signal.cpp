@@ -25,14 +25,14 @@ struct Place {
 };
 std::array<Place, 16> places;
 
-std::atomic<int> waiting_for{0};  // how many SignalsWait live
-std::atomic<int> waiting{0};      // the signal that waits, 0: none
+std::atomic<int> waiting_for{0};  // number of SignalsWait objects
+std::atomic<int> waiting{0};      // the signal held back, 0: none
 
-/// Each file of the folder. By system calls: opendir() allocates, which a signal handler may not.
+/// Removes each file of the folder, by system calls: opendir() allocates, which a signal handler may not.
 void remove_files_in(const char* folder) noexcept {
   const int descriptor = ::open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
-  // An entry, by getdents64(2): its number and the next one's place, 8 bytes each; its length, 2; its type, 1; its name.
+  // An entry by getdents64(2): inode and offset, 8 bytes each; length, 2; type, 1; name.
   constexpr std::size_t at_length = 16, at_name = 19;
   alignas(std::uint64_t) std::array<char, 4096> entries;
   for (long count; (count = ::syscall(SYS_getdents64, descriptor, entries.data(), entries.size())) > 0;)

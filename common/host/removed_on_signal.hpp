@@ -14,7 +14,7 @@ enum class FilesInside {
 /// lives. The owner removes it in every other case.
 class RemovedOnSignal {
  public:
-  /// Only a few can be kept; what does not fit stays behind after a signal, which does no harm.
+  /// At most 16 live at a time; what does not fit stays behind after a signal, which does no harm.
   explicit RemovedOnSignal(const std::filesystem::path& path, FilesInside inside = FilesInside::stay) noexcept;
   ~RemovedOnSignal();
   RemovedOnSignal(RemovedOnSignal&& other) noexcept;
@@ -26,21 +26,22 @@ class RemovedOnSignal {
   int place_ = -1;
 };
 
-/// While one lives, a signal that is to end the program at once waits: until what is being made is kept for removal, or
-/// what is no longer kept has been removed.
+/// Holds back a signal that is to end the program at once while an object lives: until a new file is registered for
+/// removal, or one that no longer is has been removed.
 class SignalsWait {
  public:
   SignalsWait() noexcept;
-  /// The last one lets the signal that has come take effect.
+  /// The last one raises the signal that was held back.
   ~SignalsWait();
   SignalsWait(const SignalsWait&) = delete;
   SignalsWait& operator=(const SignalsWait&) = delete;
 };
 
-/// Asked by a signal handler: whether the signal has to wait. It is raised again when it may take effect.
+/// Whether a signal has to wait; it is raised again when it may take effect. For signal handlers.
 bool has_to_wait(int signal) noexcept;
 
-/// Removes them all, the youngest first. May be called by a signal handler.
+/// Removes all that is registered, the last place first, so that a file goes before its folder.
+/// May be called by a signal handler.
 void remove_what_a_signal_leaves() noexcept;
 
 }  // namespace fsi

@@ -1,7 +1,7 @@
-// What the drivers do before the constructors of libraries run: they start themselves again with settings for these.
+// Starts the drivers again with settings for libraries, before the constructors of these run.
 //
-// In main() it is too late where addresses are limited (ulimit -v): the constructor of OpenBLAS has started a thread for
-// each core by then, each with 132 MiB of addresses.
+// In main() it is too late if addresses are limited (ulimit -v): by then the constructor of OpenBLAS has started a
+// thread for each core, each with 132 MiB of addresses.
 #include "host/begin_again.hpp"
 
 namespace {

@@ -29,7 +29,7 @@ bool streams_are_silent() noexcept {
 void guard_standard_streams() {
   for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
     if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
-    // The lowest free descriptor is given out, so that it is this one. In the mode that is of no use: as with a closed
+    // open() returns the lowest free descriptor, which is this one. In the wrong mode on purpose: as with a closed
     // descriptor, reading the input and writing the outputs fail with EBADF.
     const int taken = ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
     if (taken >= 0 && taken != descriptor) ::close(taken);

@@ -4,10 +4,9 @@
 
 namespace fsi {
 
-// The wish that the program end soon: a signal handler notes it, long computations look for it where they can give up what
-// they are doing.
+// A request that the program end soon: a signal handler notes it, long computations look for it where they can stop.
 
-/// Thrown where a computation gives up because the program was asked to end. What it worked on is then as it may be.
+/// Thrown where a computation stops because the program was asked to end. What it worked on may be half done.
 class Stopped : public std::exception {
  public:
   const char* what() const noexcept override { return "asked to end"; }
@@ -19,11 +18,11 @@ void request_stop(int signal) noexcept;
 /// The signal that has been noted; 0: none.
 int requested_stop() noexcept;
 
-/// The same for a computation that looks now and again, on the main thread: the time between two looks is how long a
-/// signal may wait.
+/// The same for a computation that looks repeatedly, on the main thread. Measures the time between two looks, which is
+/// how long a signal may wait.
 int look_for_stop() noexcept;
 
-/// The longest time between two looks since the last call, s; 0: there were no two.
+/// The longest time between two looks since the last call of this function, s; 0 if there was no look.
 double longest_time_between_looks() noexcept;
 
 }  // namespace fsi

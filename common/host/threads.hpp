@@ -2,15 +2,14 @@
 
 namespace fsi {
 
-/// Threads that element loops use from now on; 0 asks for one per core this process may run on. Returns the number set.
+/// Sets the number of threads of parallel loops; 0: one per core that this process may run on. Returns the number set.
 int set_threads(int count);
 /// The number last set; one per available core before that.
 int threads();
 
-/// Lets waiting threads spin for a microsecond or so only, then sleep. On a core that another job wants, a thread that
-/// spins on uses up the time that the others wait for; one that sleeps at once is late where nobody wants its core
-/// (docs/guide/solvers.md#speed). The runtime of OpenMP reads this from the environment before main() begins, so the program
-/// starts itself again; to be called first in main(). Does nothing where OMP_WAIT_POLICY or GOMP_SPINCOUNT is set.
+/// begin_again_with_settings() with this process's environment, so that waiting threads sleep soon. To be called first
+/// in main(): programs linked without settings_before_main.cpp, as beside a sanitizer, start themselves again here; the
+/// others have all settings and go on.
 /// \param argv  as main() has it, ended by a null pointer
 void wait_briefly(const char* const* argv);
 

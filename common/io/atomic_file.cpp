@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// As many bytes as there are up to `size`.
+/// Reads up to `size` bytes. \returns how many there were
 std::size_t read(int descriptor, char* bytes, std::size_t size, const fs::path& shown_as) {
   std::size_t got = 0;
   while (got < size) {
@@ -41,7 +41,7 @@ void require_contents(const fs::path& temporary, std::string_view contents, cons
   };
   const Descriptor descriptor{::open(temporary.c_str(), O_RDONLY | O_CLOEXEC)};
   if (descriptor.number < 0) throw WriteError(shown_as, errno);
-  // The system may drop pages that it has synchronised, so that what is compared comes from the disk.
+  // Lets the system drop its cached pages, so that the bytes compared come from the disk.
   ::posix_fadvise(descriptor.number, 0, 0, POSIX_FADV_DONTNEED);
   std::vector<char> piece(1 << 20);
   std::size_t got = piece.size();

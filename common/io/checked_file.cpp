@@ -22,7 +22,7 @@ constexpr mode_t everybody_but_the_mask = 0666;
   throw WriteError(file, "", "it is no regular file", "remove it or give another name");
 }
 
-/// Some file systems cannot synchronise folders, or anything; there is nothing to wait for then.
+/// Some file systems cannot synchronise folders, or anything: then there is nothing to wait for.
 bool means_not_supported(int number) {
   return number == EINVAL || number == ENOTSUP;
 }
@@ -49,7 +49,7 @@ int open_descriptor(const fs::path& file, int flags, const fs::path& shown_as) {
   }
 }
 
-/// Opens a regular file for writing at its end. A pipe without a reader does not hold the program up.
+/// Opens a regular file for writing at its end. Does not wait for the reader of a pipe.
 int open_regular(const fs::path& file) {
   require_still_regular(file);
   return open_descriptor(file, O_WRONLY | O_CREAT | O_APPEND | O_NONBLOCK, file);
@@ -121,7 +121,7 @@ void CheckedFile::write(std::string_view bytes) {
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail(errno);
-    if (written == 0) fail(EIO);  // nothing was taken and no reason given: not to be tried for ever
+    if (written == 0) fail(EIO);  // nothing written without an error: not to be tried for ever
     size_ += static_cast<std::uint64_t>(written);
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }

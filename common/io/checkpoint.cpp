@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The file begins with a block that HDF5 skips. It names the format and carries the checksum of all bytes behind it, so
-// that damage of any kind is found before the library looks at the file.
+// The file begins with a block that HDF5 skips. It names the format and has the checksum of all bytes behind it, so
+// that any damage is found before the library reads the file.
 constexpr std::size_t block_size = 512;
 constexpr const char* name_of_format = "fsi-duo checkpoint ";
 constexpr const char* signature = "fsi-duo checkpoint 2\nchecksum ";
@@ -76,7 +76,7 @@ void verify(const fs::path& file) {
                      "run from the start, or restart from another folder");
 }
 
-/// "does not hold X" for a name that a checkpoint of this program and case should have.
+/// Refuses a file without an array that a checkpoint of this program and case should have.
 [[noreturn]] void refuse_lacking(const fs::path& file, const std::string& name) {
   throw InputError(file.string(), name, "missing", "the checkpoint comes from another version; run from the start");
 }
@@ -93,7 +93,7 @@ Value single(const fs::path& file, const Hdf5File& hdf5, const std::string& data
 /// An array that is shared out, as its file has it.
 struct SharedStretch {
   std::uint64_t whole = 0;  ///< numbers of a column, of all processes
-  std::uint64_t first = 0;  ///< of them, this process's
+  std::uint64_t first = 0;  ///< the first of them that is this process's
   std::vector<std::vector<double>> columns;
 };
 using SharedValues = std::map<std::string, SharedStretch>;
@@ -128,7 +128,7 @@ SharedValues shared_values(const Checkpoint& checkpoint, const Communicator& pro
   return shared;
 }
 
-/// Everything but what processes write together, for which there is room then.
+/// Writes everything but the arrays that processes write together, for which it reserves room.
 void write_contents(Hdf5File& hdf5, const Checkpoint& checkpoint, const SharedValues& shared) {
   hdf5.write_attribute("/", "program", checkpoint.program);
   hdf5.write_attribute("/", "case_hash", checkpoint.case_hash);

@@ -17,7 +17,7 @@ namespace fsi {
 
 class Hdf5File;
 
-/// All that a run needs to go on as if it had not stopped.
+/// All that a run needs to continue as if it had not stopped.
 struct Checkpoint {
   std::string program;    ///< "fsi-monolithic" or "fsi-partitioned"
   std::string case_hash;  ///< hash_of_case
@@ -26,7 +26,7 @@ struct Checkpoint {
   std::int64_t step = 0;  ///< the last finished step
   double time = 0;        ///< ms
   std::map<std::string, std::vector<double>> arrays;
-  std::map<std::string, ArrayKind> kinds;  ///< of arrays, while the run has them; a file does not tell
+  std::map<std::string, ArrayKind> kinds;  ///< of the arrays of a run; files do not keep them
   std::map<std::string, std::int64_t> integers;
   std::map<std::string, double> reals;
 };
@@ -34,31 +34,30 @@ struct Checkpoint {
 /// DIR/checkpoint.h5
 std::filesystem::path checkpoint_file(const std::filesystem::path& folder);
 
-/// Makes the file in memory, where its checksum is taken, writes it under a temporary name, puts it on disk, reads it
-/// back, and renames it only if it holds the same bytes: a kill or a full disk leaves the previous checkpoint.
+/// Makes the file in memory with its checksum, writes it under a temporary name, puts it on disk, reads it back, and
+/// renames it only if it holds the same bytes: a kill or a full disk leaves the previous checkpoint.
 /// \throws WriteError when the file cannot be written
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
-/// \throws InputError when the file is missing, no checkpoint, one of another version's format, truncated, or its
-/// checksum does not match
+/// \throws InputError when the file is missing, no checkpoint, in another version's format or damaged (checksum)
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 
-/// How processes hold an array of a checkpoint that they share out: each has the numbers of the items that are with it. In
-/// the file the array stands in the whole order, as one process writes it. An array may be empty, at all of them.
+/// How processes share out an array of a checkpoint: each holds the numbers of its items. In the file the array is in
+/// the whole order, as one process writes it. An array may be empty, at all processes.
 struct SharedArray {
   const WholeOrder* order;
   int entries;           ///< numbers per item
-  bool columns = false;  ///< any number of such arrays one after the other, in place of one
+  bool columns = false;  ///< any number of such arrays, one after the other
 };
-/// How an array of a name is held; none: all processes have the same.
+/// How the array of a name is shared out; empty: all processes have the same.
 using ArraySharing = std::function<std::optional<SharedArray>(const std::string& name)>;
 
-/// The same by all processes together, each with its part of the arrays: `sharing` says which are shared out. The file is
-/// that of one process, and can be read by any number of them.
+/// The same for all processes together, each with its part of the arrays; they write a temporary file in place of
+/// memory. The file holds what one process would write, and any number of processes can read it.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint, const Communicator& processes,
                       const ArraySharing& sharing);
 
-/// A checkpoint whose arrays are read one by one, when it is known how they are held. For all processes together.
+/// A checkpoint whose arrays are read one by one, once it is known how they are shared out. For all processes together.
 class CheckpointReader {
  public:
   /// \throws InputError as read_checkpoint()
@@ -69,7 +68,8 @@ class CheckpointReader {
   const Checkpoint& head() const { return head_; }
   /// Names of the arrays.
   const std::vector<std::string>& arrays() const { return arrays_; }
-  /// \throws InputError also when an array is not of the size of the whole order, at all processes
+  /// The part here of an array that is shared out, else all of it.
+  /// \throws InputError also when a shared array does not have the size of the whole order, at all processes
   std::vector<double> array(const std::string& name, const std::optional<SharedArray>& how) const;
 
  private:

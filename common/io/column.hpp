@@ -7,10 +7,10 @@ namespace fsi {
 
 inline constexpr double pascal_per_kilopascal = 1000.0;  ///< tables show pressures in Pa
 
-/// What numbers of a level measure. A restart compares those of one measure by the largest of them, since small ones may
-/// be rounding alone.
+/// What numbers of a level measure. A restart compares numbers of one measure relative to the largest of them, since
+/// small ones may be rounding alone.
 enum class Measure {
-  none,  ///< not compared: places, and what is no state's
+  none,  ///< not compared: places, and numbers that do not follow from the state
   displacement,
   velocity,
   flow,

@@ -8,9 +8,10 @@
 
 namespace fsi {
 
-/// Checks fields.h5 of an earlier run, and the files that follow it, without their values: grids, entries and their times
-/// in order, a dataset of the right shape for all that is marked as written. fields.xdmf is made anew and not read.
-/// \param grids  of the scene, without fields; points may stand behind theirs
+/// Checks fields.h5 of an earlier run, and the files that follow it, without the fields' values: grids, the order of
+/// entries and times, and a dataset of the right shape for each field marked as written. fields.xdmf is not read, since
+/// a restart makes it anew.
+/// \param grids  of the scene, without fields; the file may have further points behind theirs
 /// \param until  ms, of the last level that is taken over
 /// \returns the number of written entries up to there, 0 when there is no fields.h5
 /// \throws InputError when a file is damaged or of another mesh

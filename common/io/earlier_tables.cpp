@@ -28,7 +28,7 @@ bool same(double a, double b, double scale) {
   return std::abs(a - b) <= time_rounding * scale;
 }
 
-/// The table's next row, which must be there. \param last    the step whose row it is
+/// Reads the table's next row, which must exist. \param step  the row's \param last  the checkpoint's
 /// \param blanks  whether cells may be empty, which are read as NaN
 void read_row(TableReader& table, std::int64_t step, std::int64_t last, bool blanks = false) {
   switch (table.next()) {
@@ -44,7 +44,7 @@ void read_row(TableReader& table, std::int64_t step, std::int64_t last, bool bla
       table.refuse_line("holds a number that is not finite");
 }
 
-/// What stands behind the rows that are taken over must be of later steps, whole or not.
+/// Requires that the rows behind those that are taken over are of later steps.
 void check_rest(TableReader& table, std::size_t time_column, double time) {
   for (Found found = table.next(); found != Found::end; found = table.next())
     if (found == Found::row && !(table.row()[time_column] > time + time_rounding * std::abs(time)))
@@ -74,7 +74,7 @@ void copy_beginning(const fs::path& from, const fs::path& to, std::uint64_t byte
   }
 }
 
-/// How many columns the names of rows fill, with the places behind them.
+/// Number of columns that the names of rows and the places behind them fill.
 std::size_t columns_of_names(const ResultTable& table) {
   if (table.names.empty()) return 0;
   return 1 + static_cast<std::size_t>(std::count(table.names[0].begin(), table.names[0].end(), ','));
@@ -180,7 +180,7 @@ EarlierTables::Part EarlierTables::checked_levels(const ResultTable& table, cons
   return part;
 }
 
-/// A row for each name and step, all at one time in the step.
+/// A row for each name and step, those of a step at one time within it.
 EarlierTables::Part EarlierTables::checked_within_steps(const ResultTable& table, const EarlierSteps& steps) const {
   TableReader reader(folder_ / table.file, table.header, 1);
   double before = 0;

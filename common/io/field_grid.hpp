@@ -29,23 +29,25 @@ struct FieldGrid {
   std::vector<int> layer;     ///< M region numbers, written as the cell field "layer"; or empty
   std::vector<FieldDescription> fields;
 
-  /// Where processes share the grid out, each has stretches of its points and cells, of which these are the places and the
-  /// numbers of all. Node numbers of cells are those of the whole grid.
+  /// Where processes share the grid out, each has stretches of its points and cells. These are the places of their
+  /// first ones and the numbers in the whole grid. Node numbers of cells are those of the whole grid.
   struct Stretch {
     std::uint64_t first_point = 0, points = 0;
     std::uint64_t first_cell = 0, cells = 0;
-    bool layered = false;
+    bool layered = false;  ///< whether the whole grid has layers
   };
   std::optional<Stretch> stretch{};
 };
 
-/// Points and cells of the whole grid, N and M, and whether it has layers.
+/// N, points of the whole grid.
 inline std::uint64_t point_count(const FieldGrid& grid) {
   return grid.stretch ? grid.stretch->points : grid.points.size();
 }
+/// Cells of this process.
 inline std::uint64_t cells_here(const FieldGrid& grid) {
   return grid.cells.size() / static_cast<std::size_t>(grid.nodes_per_cell);
 }
+/// M, cells of the whole grid.
 inline std::uint64_t cell_count(const FieldGrid& grid) {
   return grid.stretch ? grid.stretch->cells : cells_here(grid);
 }
@@ -53,21 +55,22 @@ inline bool is_layered(const FieldGrid& grid) {
   return grid.stretch ? grid.stretch->layered : !grid.layer.empty();
 }
 
-/// How many nodes or cells of a grid a field has values at: N or M.
+/// Number of points or cells of the whole grid at which a field has values: N or M.
 inline std::uint64_t places_of(const FieldGrid& grid, const FieldDescription& field) {
   return field.of_cells ? cell_count(grid) : point_count(grid);
 }
-/// The places of them that this process has, and where they begin.
+/// The number of them at this process.
 inline std::uint64_t places_here(const FieldGrid& grid, const FieldDescription& field) {
   return field.of_cells ? cells_here(grid) : grid.points.size();
 }
+/// The place of the first of these in the whole grid.
 inline std::uint64_t first_place(const FieldGrid& grid, const FieldDescription& field) {
   if (!grid.stretch) return 0;
   return field.of_cells ? grid.stretch->first_cell : grid.stretch->first_point;
 }
 
-/// Values by (grid, field): N * components doubles, or M * components for a field of cells; the components of a node or
-/// cell side by side. Where processes share the grid out, those of the stretch here.
+/// Values by (grid, field): N * components doubles, or M * components for a field of cells, in the order (point or
+/// cell, component). Where processes share the grid out, those of this process's stretch.
 using FieldValues = std::map<std::pair<std::string, std::string>, std::vector<double>>;
 
 }  // namespace fsi

@@ -174,7 +174,7 @@ void FieldsPart::make(const fs::path& path, const std::vector<FieldGrid>& grids,
   file.close();
 }
 
-/// The values of a part that processes make together: grids, and entries from sources, each its stretches.
+/// Writes the values of a part that processes make together, each its stretches: grids, and entries from sources.
 void FieldsPart::fill(const fs::path& path, const std::vector<FieldGrid>& grids, const std::vector<FieldStep>& entries,
                       const std::vector<Source>& sources, const Communicator& processes) {
   StretchWriter writer(temporary_name(path), path, processes);
@@ -239,7 +239,7 @@ void FieldsPart::write(std::int64_t place, const std::vector<std::vector<const s
   if (processes_->is_alone()) {
     write_values(place, values);
   } else {
-    at_first(*processes_, [&] { file_.open().close(); });  // it is still there
+    at_first(*processes_, [&] { file_.open().close(); });  // refuses a file that was removed or replaced
     do_together(*processes_, [&] { write_stretches(place, values); });
     at_first(*processes_, [&] { write_flags(place); });
   }
@@ -277,7 +277,7 @@ void FieldsPart::write_flags(std::int64_t place) {
   file.close();
 }
 
-/// What vouches for the values of an entry.
+/// Marks the values of an entry as written.
 void FieldsPart::write_flags(FileInPlace::Opened& file, std::size_t place) const {
   for (const auto& of_grid : places_)
     for (const Places& at : of_grid) {

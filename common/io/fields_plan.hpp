@@ -8,23 +8,24 @@ namespace fsi {
 
 /// An entry of fields.h5.
 struct FieldStep {
-  std::int64_t step = 0;  ///< its number: of the step in a run with equal steps, else of the entry
+  std::int64_t step = 0;  ///< its number: that of the step if entries are counted in steps, else of the entry
   double time = 0;        ///< ms
 };
 
-/// The entries that a run means to write. They are asked for one by one, so that a plan costs nothing, however long.
+/// The entries that a run is to write, as a function, so that a plan costs nothing however long it is.
 struct FieldPlan {
   std::int64_t entries = 0;
-  std::function<FieldStep(std::int64_t)> at;  ///< of 0, ..., entries - 1; ascending in step and time
+  std::function<FieldStep(std::int64_t)> at;  ///< for 0, ..., entries - 1; ascending in step and time
 };
 
 /// Steps 0, every, 2 every, ... and the last one; nothing when every is 0.
-/// \param time_of  of a step, ms; called as long as the plan is used
+/// \param time_of  end of a step, ms; called as long as the plan is used
 /// \param besides  further steps, ascending
 FieldPlan planned_field_steps(std::int64_t last_step, std::int64_t every, std::function<double(std::int64_t)> time_of,
                               const std::vector<std::int64_t>& besides = {});
 
-/// The first of the numbers 0, ..., count - 1 for which `holds`, which from there on holds for all; count if none.
+/// The first of the numbers 0, ..., count - 1 for which `holds`, by bisection; count if none. It must hold for all
+/// after.
 template <class Condition>
 std::int64_t first_that(std::int64_t count, Condition holds) {
   std::int64_t from = 0;

@@ -34,9 +34,9 @@ bool later(double a, double b) {
          });
 }
 
-/// What an earlier run has left up to the time of a restart.
+/// The entries of an earlier run up to the time of a restart.
 struct Kept {
-  /// An entry in a part that does not stay as it is.
+  /// An entry that is moved to another part.
   struct Moved {
     FieldsPart::Source source;
     std::int64_t part;
@@ -102,12 +102,12 @@ struct FieldsWriter::Implementation {
     return step;
   }
 
-  /// Position of a step, total() when it is not planned.
+  /// Position of the entry with a number, total() if there is none.
   std::int64_t position(std::int64_t step) const {
     const auto found = first_that(total(), [&](std::int64_t i) { return entry(i).step >= step; });
     return found < total() && entry(found).step == step ? found : total();
   }
-  /// Of an entry at a time, likewise.
+  /// Position of the entry at a time, likewise.
   std::int64_t position_at(double time) const {
     const auto found = first_that(total(), [&](std::int64_t i) { return !later(time, entry(i).time); });
     return found < total() && !later(entry(found).time, time) ? found : total();
@@ -147,7 +147,7 @@ struct FieldsWriter::Implementation {
     };
     std::error_code error;
     const bool in_place = fs::exists(folder, error) && fs::equivalent(from, folder, error);
-    // A list that is here already must not hold, in between, entries that their file has lost.
+    // In between, the lists in this folder must not have entries that their files have lost.
     if (in_place) list(old.whole * FieldsPart::capacity, listed);
     if (!in_place) at_first(processes, [&] { copy_whole_parts(from, old.whole); });
     move_entries(old);
@@ -180,7 +180,7 @@ struct FieldsWriter::Implementation {
     for (const auto& file : others) fs::remove(file);
   }
 
-  /// The parts behind those that are whole, as far as they have entries; one at least.
+  /// Makes the parts behind those that are whole, as far as they have entries; one at least.
   void move_entries(const Kept& old) {
     parts = old.whole;
     bool downwards = false;  // whether an entry comes into a later part than it was in
@@ -194,7 +194,7 @@ struct FieldsWriter::Implementation {
       }
       prepare(parts, sources);
     }
-    // In the order in which a kill in between leaves each entry in one part at least.
+    // In such an order that after a kill in between each entry is in at least one part.
     at_first(processes, [&] {
       for (std::int64_t k = 0; k < parts - old.whole; ++k)
         replace_by_temporary(file_of(downwards ? parts - 1 - k : old.whole + k));

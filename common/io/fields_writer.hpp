@@ -12,21 +12,21 @@
 
 namespace fsi {
 
-/// Writes the fields of a run: fields.h5, which is followed by fields-0002.h5 and so on where there are more than 256
-/// entries (io/fields_part.hpp), and the time series fields.xdmf, fluid.xdmf and wall.xdmf, which list the finished
-/// entries of all of them (io/xdmf.hpp). They can be read after a kill at any moment. Neither the start nor an entry costs more when many are
-/// planned or have been written; but the list is written anew whenever it has doubled.
+/// Writes the fields of a run: fields.h5, followed by fields-0002.h5 and so on for more than 256 entries
+/// (io/fields_part.hpp), and the time series fields.xdmf, fluid.xdmf and wall.xdmf, which list the finished entries of
+/// all of them (io/xdmf.hpp). They can be read after a kill at any moment. The costs of the start and of an entry do
+/// not grow with the number of entries, but the lists are rewritten whenever they have doubled.
 class FieldsWriter {
  public:
-  /// Creates the first HDF5 file and the list. \throws WriteError
+  /// Creates the first HDF5 file and the lists. \throws WriteError
   /// \param processes  that share the grids out: they make and use their writers together, and must outlive them
   FieldsWriter(const std::filesystem::path& folder, std::vector<FieldGrid> grids, FieldPlan plan,
                const Communicator& processes = Communicator::alone());
 
   /// Continues the fields in folder `from` (may be the same folder): entries up to the time `until` (ms) are kept,
-  /// planned ones up to there are not written again; those behind get numbers behind the kept ones. A missing fields.h5
-  /// in `from` means that nothing is kept. \throws InputError when `from` holds grids of another size or an unreadable
-  /// file
+  /// planned ones up to there are not written again, and later ones get numbers behind the kept ones. Without fields.h5
+  /// in `from` nothing is kept. \throws InputError when `from` holds grids of another size or an unreadable file,
+  /// WriteError
   FieldsWriter(const std::filesystem::path& folder, std::vector<FieldGrid> grids, FieldPlan plan,
                const std::filesystem::path& from, double until, const Communicator& processes = Communicator::alone());
 
@@ -34,13 +34,14 @@ class FieldsWriter {
   FieldsWriter(FieldsWriter&&) noexcept;
   FieldsWriter& operator=(FieldsWriter&&) noexcept;
 
-  /// Whether write() has a place for this step; fields need not be gathered otherwise.
+  /// Whether an entry with this number is planned.
   bool wants(std::int64_t step) const;
   /// The number of the entry planned for a time in ms, if there is one.
   std::optional<std::int64_t> entry_at(double time) const;
 
-  /// Writes all fields of all grids at a planned step. Writing a step again replaces it.
-  /// \throws WriteError when the disk is full, or a file has been removed or replaced
+  /// Writes all fields of all grids to the planned entry of this number. Writing it again replaces it.
+  /// \throws WriteError when the disk is full, or a file has been removed or replaced; std::logic_error when the entry
+  ///         is not planned or `values` have wrong sizes
   void write(std::int64_t step, const FieldValues& values);
 
  private:

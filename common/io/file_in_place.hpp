@@ -7,8 +7,8 @@
 
 namespace fsi {
 
-/// A finished file of which bytes are overwritten later, its length staying as it is. It is opened for each change, so
-/// that one that was removed or replaced meanwhile is noticed. All functions throw WriteError.
+/// A finished file whose bytes are overwritten later without changing its length. It is opened for each change, so that
+/// a file that was removed or replaced meanwhile is noticed. All functions throw WriteError.
 class FileInPlace {
  public:
   /// Takes the file that has this name now.
@@ -28,7 +28,7 @@ class FileInPlace {
     std::string read(std::uint64_t offset, std::size_t size);
     /// Waits until what was written is on disk.
     void sync();
-    /// Errors that the destructor would swallow are thrown.
+    /// Closes the file; unlike the destructor it throws.
     void close();
 
    private:
@@ -39,7 +39,7 @@ class FileInPlace {
     int descriptor_;
   };
 
-  /// Refuses a file that is another one by now, or of another length.
+  /// Opens the file. Refuses one that has been replaced since the constructor, or has another length.
   Opened open() const;
 
  private:

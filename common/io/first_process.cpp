@@ -15,7 +15,7 @@ namespace {
 
 enum class Kind { none, bad_input, not_written, not_converged, other };
 
-/// An error as its process puts it, which is not to be shortened once more.
+/// An error with the message of another process, which is not to be shortened again.
 template <class Error>
 class SaidElsewhere : public Error {
  public:
@@ -28,7 +28,7 @@ class SaidElsewhere : public Error {
 
 struct Failure {
   Kind kind = Kind::none;
-  std::vector<std::string> parts{};  ///< of a WriteError what it is made of, else the message
+  std::vector<std::string> parts{};  ///< of a WriteError its file, key, reason and remedy; else the message
 };
 
 Failure failure_of(const std::exception_ptr& exception) {
@@ -48,7 +48,7 @@ Failure failure_of(const std::exception_ptr& exception) {
   }
 }
 
-const std::string named_in_text;  // the file of a message that is put together already
+const std::string named_in_text;  // no file: the message has it
 
 [[noreturn]] void throw_again(const Failure& failure) {
   const std::string& said = failure.parts.at(0);
@@ -64,7 +64,7 @@ const std::string named_in_text;  // the file of a message that is put together 
   }
 }
 
-/// What the process `rank` has to say, at all of them: each text's length, then its characters.
+/// The failure of process `rank`, at all processes. Each text is sent as its length and characters.
 Failure shared(const Communicator& processes, int rank, Kind kind, const Failure& mine) {
   std::vector<int> numbers;
   if (processes.rank() == rank)

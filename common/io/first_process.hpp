@@ -7,28 +7,28 @@
 
 namespace fsi {
 
-/// Lets all processes know whether one of them has failed: where one hands over an exception, all throw one of the same
-/// kind (InputError, WriteError, ConvergenceError, others) with the message of the first process that failed. So all
-/// end alike, and in order. For all processes together; alone, throws what it is given.
+/// Makes all processes fail if one does: if one passes an exception, all throw one of the same kind (InputError,
+/// WriteError, ConvergenceError, any other as std::runtime_error) with the message of the first process that failed, so
+/// that all end alike. For all processes together; a single process rethrows its exception.
 /// \param mine  null: this process has not failed
 void agree_on_failure(const Communicator& processes, const std::exception_ptr& mine);
 
-/// Each process does its part; if one fails, all do, after that. The action must not wait for other processes once it
-/// may have failed.
+/// Runs the action at each process, then agree_on_failure(). The action must not wait for other processes after a point
+/// where it may have failed.
 void do_together(const Communicator& processes, const std::function<void()>& action);
 
-/// What one process does for all, such as writing a table: the first does it, the others wait for it and throw what it
-/// throws. Alone, just does it.
+/// Runs the action, such as writing a table, at the first process only; the others wait for it and throw what it
+/// throws.
 void at_first(const Communicator& processes, const std::function<void()>& action);
 
-/// Work that the first process does for all while these go on: they are told later of a failure, when all agree on it.
+/// Work that the first process does for all while the others go on; they learn of a failure later, by agree().
 class FirstProcess {
  public:
   /// \param processes  must outlive this
   explicit FirstProcess(const Communicator& processes) : processes_(processes) {}
   FirstProcess(const FirstProcess&) = delete;
   FirstProcess& operator=(const FirstProcess&) = delete;
-  /// Of a program that works by itself.
+  /// For a program without other processes.
   static FirstProcess& alone();
 
   const Communicator& processes() const { return processes_; }
@@ -36,10 +36,10 @@ class FirstProcess {
 
   /// As at_first().
   void now(const std::function<void()>& action) { at_first(processes_, action); }
-  /// At the first process, at others nothing. An InputError is kept for agree(), and nothing more is done until then;
-  /// alone it is thrown at once.
+  /// Runs the action at the first process only. An InputError is kept for agree(), and no further action runs until
+  /// then; a single process throws it at once.
   void later(const std::function<void()>& action);
-  /// For all together: throws at all of them what the first has kept.
+  /// For all processes together: throws at all of them what the first has kept.
   void agree();
 
  private:

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A file without text is about to get it, or to be removed. One that is locked may be so for a moment, by a look at it.
+// A file without text is about to get it, or to be removed. A locked one may be so for a moment, by
+// require_no_run_in().
 constexpr int tries_without_text = 300, tries_with_text = 20;
 constexpr useconds_t pause_microseconds = 10'000;
 constexpr int open_flags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
@@ -55,10 +56,10 @@ KernelLock try_kernel_lock(int descriptor, int operation) {
 }
 
 enum class LockState {
-  free,        ///< nobody's
+  free,        ///< not locked
   left,        ///< of a process of this host that has ended
   held,        ///< of a process that runs
-  unseen,      ///< of another host, or of nobody that it names, and the kernel knows of no lock
+  unseen,      ///< names another host or no process, and the kernel knows of no lock
   in_the_make  ///< without text, and locked
 };
 
@@ -82,7 +83,7 @@ LockState state_of(KernelLock kernel, const std::string& text) {
   throw InputError(folder.string(), "", "a run works in it (" + holder + ")", remedy);
 }
 
-/// Whether a lock may be another one a moment later.
+/// Whether the state of a lock may change in a moment, so that another try makes sense.
 bool may_change(LockState state, const std::string& text, int tries) {
   return (state == LockState::held || state == LockState::in_the_make) &&
          tries < (text.empty() ? tries_without_text : tries_with_text);
@@ -130,7 +131,7 @@ void FolderLock::close_file() {
   descriptor_ = -1;
 }
 
-/// Opens the lock file; \returns whether this made it. No descriptor: it was removed in between, or the folder was.
+/// Opens the lock file. \returns whether it made the file; without a descriptor file or folder was removed in between
 bool FolderLock::open_file() {
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_EXCL | open_flags, 0666);
   if (descriptor_ >= 0) return true;
@@ -143,7 +144,7 @@ bool FolderLock::open_file() {
 bool FolderLock::take(const std::string& program, int tries) {
   const SignalsWait until_it_is_kept_for_removal;
   const auto made = make_folder(folder_);
-  if (!made.empty()) made_ = made;  // anew, when another run has removed what it had made
+  if (!made.empty()) made_ = made;  // again, if another run has removed the folder meanwhile
   require_regular_or_absent(file_, false);
   const bool created = open_file();
   if (descriptor_ < 0) return false;
@@ -162,7 +163,7 @@ bool FolderLock::take(const std::string& program, int tries) {
   return true;
 }
 
-/// Writes which process holds the lock, and keeps what was made for removal by a signal.
+/// Writes which process holds the lock, and registers file and folders for removal by a signal.
 void FolderLock::write_holder(const std::string& program) {
   on_signal_.clear();
   for (auto above = made_.rbegin(); above != made_.rend(); ++above) on_signal_.emplace_back(*above);
@@ -188,7 +189,7 @@ void FolderLock::require_held() const {
 
 void FolderLock::release() {
   const SignalsWait until_it_is_removed;
-  if (is_ours()) ::unlink(file_.c_str());  // before the kernel's lock is given up: whoever waits for it looks again
+  if (is_ours()) ::unlink(file_.c_str());  // before the kernel's lock is released: processes that wait for it try again
   close_file();
   on_signal_.clear();
   for (const auto& made : made_) ::rmdir(made.c_str());  // only empty ones go
@@ -199,7 +200,7 @@ void require_no_run_in(const fs::path& folder, const std::string& remedy) {
   const fs::path file = folder / lock_name;
   for (int tries = 0;; ++tries) {
     const int descriptor = ::open(file.c_str(), O_RDONLY | open_flags);
-    if (descriptor < 0) return;  // none, or what cannot be read: to write there would fail as well
+    if (descriptor < 0) return;  // no lock, or one that cannot be read: writing there would fail as well
     const KernelLock kernel = try_kernel_lock(descriptor, LOCK_SH);
     const std::string text = contents_of(descriptor);
     ::close(descriptor);

@@ -12,28 +12,28 @@ namespace fsi {
 /// Name of the lock file in a result folder.
 constexpr const char* lock_name = "run.lock";
 
-/// One run, one folder: while it lives, no other run can have the folder. The process holds the kernel's lock (flock) on
-/// the file run.lock, which vanishes with the process, however it ends. The file's one line names the process, as it is
-/// said to others: "fsi-monolithic, process 4711 on host gauss". Where a file system has no such locks, the file itself is
-/// the lock, and stays behind when the process is killed.
+/// While it lives, no other run can use the folder. The process holds the kernel's lock (flock) on the file run.lock,
+/// which vanishes with the process, however it ends. The file's one line names the process for messages:
+/// "fsi-monolithic, process 4711 on host gauss". On a file system without such locks the file itself is the lock, and
+/// stays behind when the process is killed.
 ///
-/// fsi-compare locks the folders of its studies alike (compare/fsi_compare/starting/folder_lock.py).
+/// fsi-compare locks the folders of its studies in the same way (compare/fsi_compare/starting/folder_lock.py).
 class FolderLock {
  public:
-  /// Makes the folder where needed and takes its lock. A lock that a process of this host has left behind is taken
-  /// over, see `said`.
-  /// \throws InputError when a run works in the folder, when a lock of another host was left there (locks of some network
-  ///         file systems are known to one host only), or when the folder cannot be made or written
+  /// Makes the folder where needed and takes its lock. Takes over a lock that a process of this host has left behind,
+  /// see said().
+  /// \throws InputError when a run works in the folder, when a lock of another host was left there (locks of some
+  ///         network file systems are known to one host only), or when the folder cannot be made or written
   FolderLock(const std::filesystem::path& folder, const std::string& program);
-  /// Removes the lock, and the folders that were made for it and are empty.
+  /// Removes the lock, and those of the folders made for it that are empty.
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// What was done about a lock that had been left behind; empty: there was none.
+  /// A message on the lock that was taken over; empty: none.
   const std::string& said() const { return said_; }
 
-  /// \throws InputError when somebody has removed the lock, and with it perhaps the folder: another run may be there
+  /// \throws InputError when the lock has been removed, perhaps with the folder: another run may work there
   void require_held() const;
 
  private:
@@ -51,12 +51,12 @@ class FolderLock {
   std::string said_;
 };
 
-/// Refuses to read or to replace what a run is writing. Changes nothing in the folder.
+/// Refuses a folder that a run is writing to. Changes nothing in it.
 /// \param remedy  what the user can do
 /// \throws InputError that names the process and its host
 void require_no_run_in(const std::filesystem::path& folder, const std::string& remedy);
 
-/// Makes a folder with those above it that are missing; \returns the ones made, the deepest first
+/// Makes a folder and the missing ones above it. \returns those that it made, the deepest first
 /// \throws InputError when there is a file of that name, or the folder cannot be made
 std::vector<std::filesystem::path> make_folder(const std::filesystem::path& folder);
 

@@ -37,8 +37,8 @@ hid_t native_type<std::uint8_t>() {
   return H5T_NATIVE_UINT8;
 }
 
-/// No locks, so that ParaView may look at finished steps of a running computation; no stack traces of the library. This is
-/// called before anything else of the library.
+/// No locks, so that ParaView can read finished steps of a running computation; no error messages of the library.
+/// Called before any other function of the library.
 Hdf5Handle access_properties() {
   begin_hdf5();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -102,11 +102,11 @@ Hdf5File Hdf5File::create_in_memory(const std::filesystem::path& shown_as, std::
   const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   constexpr bool backing_store = false;
   errno = 0;
-  // RestartArchive grows by whole multiples of the second argument.
+  // The file's memory grows by whole multiples of the second argument.
   if (H5Pset_fapl_core(access.id(), std::max<std::uint64_t>(size, 1 << 16), backing_store) < 0 ||
       (user_block > 0 && H5Pset_userblock(creation.id(), user_block) < 0))
     throw WriteError(shown_as, errno);
-  // The library looks whether the file exists and would read it: a name beneath a file never does.
+  // The library would read an existing file of this name: a name beneath a file never exists.
   const auto name = shown_as / "in memory";
   Hdf5File created(shown_as, {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose});
   if (!created.file_.valid()) created.refuse_writing("");
@@ -225,7 +225,7 @@ std::vector<Value> Hdf5File::read(const std::string& dataset) const {
 
 namespace {
 
-/// A dataset with a stretch of its numbers chosen in it, which must be whole rows.
+/// A dataset with a selected stretch of its numbers, which must be whole rows.
 struct Part {
   Part(hid_t file, const std::string& dataset, std::uint64_t first, std::uint64_t count)
       : data(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Shared by fields and checkpoints; nothing else should need HDF5.
+// HDF5 for fields and checkpoints; nothing else should need the library.
 
 #include <hdf5.h>
 
@@ -36,15 +36,15 @@ class Hdf5Handle {
 };
 
 /// An HDF5 file of contiguous datasets of double, int32, int64 or uint8. All storage is reserved when a dataset is
-/// created, so that writing its values later changes nothing but raw data. Library messages are silenced; failures of
+/// created, so that writing its values later changes nothing but raw data. Library messages are silenced. Failures of
 /// reading throw InputError with file and dataset, those of writing WriteError.
 ///
-/// The library does not survive that a disk is full: it keeps what it could not write, tries again whenever it closes or
-/// ends, and crashes. So a file that could not be written is left as it is, for the end of the process to close, and the
-/// library does nothing at exit. What must be right to the last byte is made in memory.
+/// The library does not survive a full disk: it keeps what it could not write, tries again whenever it closes or ends,
+/// and crashes. So a file that could not be written is abandoned, the end of the process closes it, and the library
+/// does nothing at exit.
 class Hdf5File {
  public:
-  /// A new file in place of an old one. It is removed again if it is not closed by close(), because of an error.
+  /// A new file in place of an old one. It is removed again unless it is closed by close().
   /// \param shown_as    name in messages; empty: the file's
   /// \param user_block  bytes before what the library writes: 0, or a power of two from 512
   static Hdf5File create(const std::filesystem::path& file, const std::filesystem::path& shown_as = {},
@@ -55,14 +55,14 @@ class Hdf5File {
   /// \param size        bytes expected in it; more are possible
   static Hdf5File create_in_memory(const std::filesystem::path& shown_as, std::uint64_t user_block, std::uint64_t size);
   static Hdf5File open(const std::filesystem::path& file, bool for_writing);
-  /// For writing, by all processes together; what they do with it they do together, in one order, and close it so.
+  /// Opens an existing file for writing, for all processes together: all make the same calls in the same order.
   /// \param shown_as  name in messages
   static Hdf5File open_together(const std::filesystem::path& file, const std::filesystem::path& shown_as,
                                 const Communicator& processes);
 
   bool has(const std::string& path) const;
   std::vector<std::uint64_t> shape(const std::string& dataset) const;
-  /// Where the values of a dataset begin, in bytes from the file's start.
+  /// Where the values of a dataset begin, bytes from the file's start.
   std::uint64_t place_of(const std::string& dataset) const;
   std::vector<std::string> members(const std::string& group) const;  ///< by name
 
@@ -74,17 +74,18 @@ class Hdf5File {
   template <class Value>
   std::vector<Value> read(const std::string& dataset) const;
 
-  /// The numbers from `first` on of a dataset, one row after the other. In a file that is open together each process
-  /// writes its own ones, collectively, perhaps none. \returns false where that failed: then all must still come to the
-  /// next call, and nobody may close the file but abandon it.
+  /// Writes `count` numbers of a dataset, row after row, from number `first` on. In a file of open_together() each
+  /// process writes its own, collectively, perhaps none. \returns false if that failed: all processes must still make
+  /// the next calls, and then abandon the file in place of closing it.
   template <class Value>
   [[nodiscard]] bool write_part(const std::string& dataset, std::uint64_t first, std::uint64_t count,
                                 const Value* values);
+  /// Likewise reads, each process by itself.
   template <class Value>
   std::vector<Value> read_part(const std::string& dataset, std::uint64_t first, std::uint64_t count) const;
-  /// Onto the disk, of a file that is open together. \returns false where that failed
+  /// Puts a file of open_together() on disk. \returns false if that failed
   [[nodiscard]] bool sync_together();
-  /// Leaves a file that could not be written as it is.
+  /// Leaves a file that could not be written unclosed.
   void abandon() { file_.abandon(); }
 
   template <class Value>
@@ -101,13 +102,13 @@ class Hdf5File {
 
   /// Hands everything to the operating system.
   void flush();
-  /// Flushes and closes. A file that was written must be closed by this: its destructor could not tell of an error.
+  /// Flushes and closes. A file that was written must be closed by this, since the destructor cannot report errors.
   void close();
 
  private:
   Hdf5File(std::filesystem::path path, Hdf5Handle handle) : path_(std::move(path)), file_(std::move(handle)) {}
 
-  /// A file that is removed with this object, unless it has been forgotten.
+  /// Removes the file in its destructor, unless forget() was called.
   class Unfinished {
    public:
     Unfinished() = default;
@@ -126,7 +127,7 @@ class Hdf5File {
 
   [[noreturn]] void refuse_reading(const std::string& object) const;
   [[noreturn]] void refuse_writing(const std::string& object);
-  /// Closes part of a file that is written.
+  /// Closes an object of a file that is written.
   void finish(Hdf5Handle& handle, const std::string& object);
 
   std::filesystem::path path_;

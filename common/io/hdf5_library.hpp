@@ -2,9 +2,9 @@
 
 namespace fsi {
 
-/// Begins the HDF5 library so that it does no work when the program ends, where it would write to files that could not be
-/// written before, and crash. To be called before MPI begins, too: the library, if it begins later, has MPI's end do that
-/// work.
+/// Starts the HDF5 library so that it does nothing when the program ends: it would write again to files that could not
+/// be written, and crash. Also to be called before MPI starts: a library that starts later does that work in
+/// MPI_Finalize.
 void begin_hdf5();
 
 }  // namespace fsi

@@ -31,7 +31,7 @@ fs::path last_file(const fs::path& run) {
   }
 }
 
-/// The dataset of a field's last entry that has been written; none: there is no such field.
+/// The dataset of a field's last written entry; empty: there is none.
 std::optional<std::string> last_entry(const Hdf5File& h5, const std::string& grid, const std::string& field) {
   const std::string written = "/steps/written/" + grid + "." + field;
   if (!h5.has(written)) return {};

@@ -23,7 +23,7 @@ namespace {
 
 constexpr const char* begin_of_steps = "step,time_ms,";  // of a table with a row for each step
 
-/// Everything a run leaves in its folder, its tables among them; a folder with nothing else may be emptied for a new run.
+/// Everything that a run leaves in its folder but further parts of fields.h5; `tables` are among it.
 std::vector<std::string> result_files(const std::vector<std::string>& tables) {
   std::vector<std::string> names{"summary.json", "fields.h5",     "fields.xdmf",  "fluid.xdmf",
                                  "wall.xdmf",    "checkpoint.h5", "prestress.h5", "run.log"};
@@ -38,7 +38,7 @@ bool is_result_file(const fs::path& name, const std::vector<std::string>& tables
          FieldsPart::number_of(name.extension() == ".tmp" ? name.stem() : name).has_value();
 }
 
-/// Creates the folder where needed and checks that files can be created in it, before hours are computed.
+/// Creates the folder if needed and checks that files can be created in it, before anything is computed.
 void prepare(const fs::path& folder) {
   make_folder(folder);
   std::error_code error;
@@ -48,7 +48,7 @@ void prepare(const fs::path& folder) {
   fs::remove(probe, error);
 }
 
-/// The results of an earlier run make way; anything else in the folder is not ours to delete.
+/// Removes the results of an earlier run; refuses a folder with anything else.
 void remove_old_results(const fs::path& folder, const std::vector<std::string>& tables) {
   require_results_only(folder, tables);
   std::error_code error;
@@ -83,8 +83,8 @@ std::string summary_text(const fs::path& folder, const char* key) {
   return json[key].get<std::string>();
 }
 
-/// What speaks of finished steps in a folder whose table of steps has no row; empty: nothing does. A run that was ended
-/// in its first step leaves tables with their headers, and fields of the start.
+/// The sign of finished steps in a folder whose table of steps has no row; empty: none. A run that ended in its first
+/// step leaves tables with headers only, and fields of the start.
 std::string results_without_steps(const fs::path& folder, const std::vector<std::string>& tables,
                                   const std::string& status) {
   std::error_code error;

@@ -13,38 +13,39 @@
 
 namespace fsi {
 
-/// Refuses a new run in a folder that holds results of finished steps: whether that run is finished or not, whether its
-/// summary can be read or not, they are worth the time they took. A folder whose run has not come to the end of a step
-/// may be used again.
+/// Refuses a new run in a folder that holds results of finished steps, whether or not that run is finished or its
+/// summary can be read. A folder whose run has not finished a step may be used again.
 /// \param tables  files of all tables that some run may have
 /// \param go_on   the command that continues a run in this folder
-/// \throws InputError that says what the folder holds and how to go on
+/// \throws InputError that says what the folder holds and how to continue
 void require_no_results(const std::filesystem::path& folder, const std::vector<std::string>& tables,
                         const std::string& go_on);
 
-/// Refuses a new run in a folder that holds anything but the regular files of a run: those make way, others are not
-/// ours to delete. \throws InputError
+/// Refuses a new run in a folder that holds anything but the regular files of a run and run.lock, since the run
+/// replaces its contents. \throws InputError
 void require_results_only(const std::filesystem::path& folder, const std::vector<std::string>& tables);
 
-/// Refuses a folder in which the name of a result file is that of something else, such as a folder, a pipe or a device.
-/// \param follow  whether a symbolic link counts as what it leads to: for reading, not for writing
+/// Refuses a folder in which something else has the name of a result file: a folder, a pipe or a device.
+/// \param follow  whether symbolic links are followed: for reading, not for writing
 /// \throws InputError
 void require_regular_results(const std::filesystem::path& folder, const std::vector<std::string>& tables, bool follow);
 
-/// The folder of one run and its CSV tables, each row on disk when its step is done. Of several processes the first one
-/// writes: the others have a folder of this class, too, to which they hand over the same rows.
+/// The folder of one run and its CSV tables. Rows are in the system's hands when write() returns, on disk after
+/// close(). Of several processes the first writes; the others have an object of this class, too, and pass it the same
+/// rows.
 class ResultFolder {
  public:
   /// A new run. Creates the folder; one that holds nothing but result files is emptied.
   /// \throws InputError when the folder holds anything else, or cannot be created or written
   /// \param tables  of the run
   /// \param known   files of all tables that some run may have
-  /// \param first   tells the processes, which make and close the folder together, of rows that could not be written;
-  ///                must outlive this
+  /// \param first   tells the other processes of rows that could not be written; all make and close the folder
+  ///                together; must outlive this
   ResultFolder(std::filesystem::path folder, const std::vector<ResultTable>& tables,
                const std::vector<std::string>& known, FirstProcess& first = FirstProcess::alone());
 
-  /// Continues a run whose tables have been checked: they are copied, or in place cut behind its checkpoint.
+  /// Continues a run whose tables have been checked: copies their rows up to its checkpoint; in the same folder that
+  /// cuts them there.
   /// \throws InputError as above
   ResultFolder(std::filesystem::path folder, const std::vector<ResultTable>& tables,
                const std::vector<std::string>& known, const EarlierTables& earlier,
@@ -52,18 +53,18 @@ class ResultFolder {
 
   const std::filesystem::path& path() const { return folder_; }
 
-  /// Adds rows of a level or step to one of the tables. \throws ConvergenceError before anything is written when a number
-  /// is not finite; WriteError
+  /// Adds rows of a level or step to one of the tables. \throws ConvergenceError before anything is written when a
+  /// number is not finite; WriteError, of several processes at the next FirstProcess::agree()
   void write(const TableRows& rows);
 
-  /// Takes in what the tables hold now as what a restart goes on from.
+  /// Updates the digests to what the tables hold now: for a checkpoint, from which a restart continues.
   void take_digests();
   TableDigests digests() const;
-  /// Puts all tables onto the disk and closes them; nothing may be written after that. \throws WriteError
+  /// Puts all tables on disk and closes them; nothing may be written after that. \throws WriteError
   void close();
 
  private:
-  /// A table with its file, which the first process alone has.
+  /// A table; file and digest are at the first process only.
   struct Open {
     ResultTable table;
     std::optional<CsvFile> file;

@@ -11,8 +11,8 @@ namespace fsi {
 /// How the rows of a table follow the steps of a run.
 enum class RowsPer {
   step,        ///< one for each step, `step,time_ms,...`
-  level,       ///< some for each finished level, `time_ms,...`
-  within_step  ///< some for each step, `time_ms,...`, all at one time within it or at its end
+  level,       ///< one or more for each finished level, `time_ms,...`
+  within_step  ///< one or more for each step, `time_ms,...`, all at one time within it or at its end
 };
 
 /// A table of a result folder.
@@ -20,14 +20,14 @@ struct ResultTable {
   std::string file;
   std::string header;
   RowsPer per = RowsPer::level;
-  /// A row for each of these, what stands between its time and its values, as text: a name, perhaps with places behind it.
-  /// Empty: all columns are numbers.
+  /// One row each, with this text between its time and its values: a name, perhaps with further columns of text. Empty:
+  /// all columns are numbers.
   std::vector<std::string> names{};
-  std::vector<double> places{};     ///< a row for each of these, its first value; empty: there are none
-  std::vector<Measure> measures{};  ///< per value, what a restart compares with the last rows of levels; empty: nothing
-  bool blanks = false;              ///< a value may not exist: an empty cell
-  /// What to say where an earlier run that is gone on with has no such table: key of the case, problem, remedy. Empty: every
-  /// run of the case has it.
+  std::vector<double> places{};     ///< one row each, with this as its first value; empty: no such rows
+  std::vector<Measure> measures{};  ///< per value, for the comparison of a restart with the last level; empty: none
+  bool blanks = false;              ///< whether values may be missing: empty cells
+  /// Message when a restarted run has no such table: key of the case, problem, remedy. Empty: every run of the case has
+  /// it.
   struct Missing {
     std::string key, problem, remedy;
   };
@@ -36,7 +36,7 @@ struct ResultTable {
   std::size_t rows() const;  ///< for a level or a step
 };
 
-/// The values of a row, in the table's units; empty: none exists.
+/// The values of a row, in the table's units; an empty one: the value does not exist.
 using TableRow = std::vector<std::optional<double>>;
 
 /// The rows of a table for a level or a step.
@@ -46,7 +46,7 @@ struct TableRows {
   std::vector<TableRow> rows;
 };
 
-/// A table with a column for each number of a record. \param named  heading of the column of names; empty: none
+/// A table with a column for each column of a record. \param named  heading of the column of names; empty: none
 template <class Record>
 ResultTable table_of(const std::string& file, const Columns<Record>& columns, RowsPer per = RowsPer::level,
                      const std::string& named = "", std::vector<std::string> names = {}) {
@@ -75,13 +75,13 @@ TableRows rows_of(const std::string& file, std::vector<double> lead, const Colum
   return found;
 }
 
-/// The rows as they stand in the file. \throws ConvergenceError when a number is not finite
+/// The rows as text of the file. \throws ConvergenceError when a number is not finite
 std::string text_of(const ResultTable& table, const TableRows& rows);
 
 /// A number as the tables show it: the fewest digits that read back to the same double.
 std::string number_text(double value);
 
-/// The table that every run has, and that says when its steps ended: its first two columns.
+/// The table that every run has; its first two columns are the steps and their ends.
 inline constexpr const char* iterations_file = "iterations.csv";
 
 }  // namespace fsi

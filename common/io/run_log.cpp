@@ -13,7 +13,7 @@ namespace fsi {
 
 namespace {
 
-/// Where the logger's lines go. The library's own file sink loses the errors of flush and close.
+/// The logger's sink. The library's own file sink loses the errors of flush and close.
 class CheckedSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
  public:
   explicit CheckedSink(std::shared_ptr<CheckedFile> file) : file_(std::move(file)) {}
@@ -40,7 +40,7 @@ RunLog::RunLog(const std::filesystem::path& folder, bool append, FirstProcess& f
   if (!file_) return;
   logger_ = std::make_shared<spdlog::logger>("run", std::make_shared<CheckedSink>(file_));
   logger_->set_pattern("%Y-%m-%d %H:%M:%S.%e %-7l %v");
-  // The logger catches what a sink throws and calls this from the handler: the error goes on to the caller that has logged.
+  // The logger catches what a sink throws and calls this in its handler: rethrown, the error reaches the caller.
   logger_->set_error_handler([](const std::string&) { throw; });
 }
 
@@ -48,7 +48,7 @@ RunLog::~RunLog() = default;
 RunLog::RunLog(RunLog&&) noexcept = default;
 RunLog& RunLog::operator=(RunLog&&) noexcept = default;
 
-// One entry, one line. Text goes through "{}": a brace in it is no format directive.
+// One line per entry. By "{}" a brace in the text is no format directive.
 void RunLog::info(const std::string& line) {
   first_->later([&] { logger_->info("{}", printable(line)); });
 }

@@ -14,14 +14,14 @@ namespace fsi {
 
 class CheckedFile;
 
-/// DIR/run.log: time-stamped lines, in the system's hands as soon as they are written. Receives the convergence history.
-/// All functions throw WriteError when the file cannot be written, or has been deleted. Of several processes the first one
-/// writes; the others have a log that keeps silent.
+/// DIR/run.log: time-stamped lines, in the system's hands when a function returns. Receives the convergence history.
+/// All functions throw WriteError when the file cannot be written or has been deleted. Of several processes the first
+/// writes, and failed lines are reported at the next FirstProcess::agree(); the logs of the others do nothing.
 class RunLog {
  public:
-  /// \param append  continue an existing log (restart) instead of starting it afresh
-  /// \param first   tells the processes, which make and close the log together, of lines that could not be written; must
-  ///                outlive this
+  /// \param append  continue an existing log (restart) in place of emptying it
+  /// \param first   tells the other processes of lines that could not be written; all make and close the log together;
+  ///                must outlive this
   explicit RunLog(const std::filesystem::path& folder, bool append = false,
                   FirstProcess& first = FirstProcess::alone());
   ~RunLog();
@@ -32,7 +32,7 @@ class RunLog {
   void warning(const std::string& line);
   void error(const std::string& line);
 
-  /// Onto the disk, and closes; no line may follow.
+  /// Puts the log on disk and closes it; no line may follow.
   void close();
 
  private:

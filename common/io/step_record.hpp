@@ -11,8 +11,8 @@ struct StepRecord {
   std::int64_t outer_iterations = 0;   ///< coupling iterations; 1 in a monolithic step
   std::int64_t newton_iterations = 0;  ///< all Newton iterations of the step
   std::int64_t linear_iterations = 0;  ///< all Krylov iterations of the step; 0 with a direct solver
-  double wall_seconds = 0;
-  double solver_error = 0;  ///< as in StepReport; 0: nothing but rounding
+  double wall_seconds = 0;             ///< wall-clock time
+  double solver_error = 0;             ///< as in StepReport; 0: nothing but rounding
 };
 
 }  // namespace fsi

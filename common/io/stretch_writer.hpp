@@ -10,21 +10,21 @@
 
 namespace fsi {
 
-/// Fills datasets of an HDF5 file that is there already, each process its stretches of them, collectively. Nothing but
-/// their numbers is written. All processes make it, and call the same functions in the same order.
+/// Writes values into existing datasets of an HDF5 file, each process its stretches, collectively; nothing else in the
+/// file changes. All processes construct it and call the same functions in the same order.
 class StretchWriter {
  public:
-  /// \param shown_as  name in messages
+  /// \param shown_as  name in messages \throws WriteError when the file cannot be opened
   StretchWriter(const std::filesystem::path& file, std::filesystem::path shown_as, const Communicator& processes);
 
-  /// \param first   of the dataset's numbers, row after row, the one that this process's begin with
+  /// \param first   index of this process's first number in the dataset, row after row
   /// \param values  of this process, perhaps none
   template <class Value>
   void write(const std::string& dataset, std::uint64_t first, const std::vector<Value>& values) {
     if (!file_.write_part(dataset, first, values.size(), values.data())) note_failure(dataset);
   }
 
-  /// Onto the disk, and closes. \throws WriteError at processes where something could not be written, at others nothing
+  /// Puts the file on disk and closes it. \throws WriteError only at processes where something could not be written
   void close();
 
  private:

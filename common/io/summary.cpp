@@ -15,7 +15,7 @@ nlohmann::json profile_json(const Profile& profile) {
 }
 
 void write_summary(const std::filesystem::path& folder, const nlohmann::json& summary) {
-  // Bytes that are not UTF-8 (a title from a shell, say) must not lose a finished run its summary.
+  // Bytes that are not UTF-8 (a title from a shell, say) are replaced, so that a finished run gets its summary.
   write_atomically(folder / "summary.json",
                    summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }

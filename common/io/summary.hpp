@@ -7,7 +7,7 @@
 
 namespace fsi {
 
-/// {"phases": {NAME: {"seconds", "calls"}}, "counters": {NAME: count}}
+/// A profile as JSON: {"phases": {NAME: {"seconds", "calls"}}, "counters": {NAME: count}}
 nlohmann::json profile_json(const Profile& profile);
 
 /// DIR/summary.json, replaced atomically. The drivers write it at the start with "status": "running", at the end with

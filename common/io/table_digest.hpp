@@ -10,14 +10,14 @@
 
 namespace fsi {
 
-/// What a growing table holds, as a count of bytes and their hash (FNV-1a 64): a checkpoint keeps it, so that a restart
-/// knows the rows that were written up to it from all others. Columns that end with `_s`, times of the clock, do not
-/// count: no two runs write them alike.
+/// The contents of a growing table as a count of bytes and their hash (FNV-1a 64). A checkpoint keeps it, so that a
+/// restart recognises the rows written up to it. Cells of columns that end with `_s`, measured seconds, do not count,
+/// since they differ from run to run.
 class TableDigest {
  public:
   explicit TableDigest(std::filesystem::path file) : file_(std::move(file)) {}
 
-  /// Takes in what the file has got since the last time, or no more than the first `most` bytes of the whole.
+  /// Adds what the file has gained since the last call, up to the first `most` bytes of the file.
   /// \throws InputError when it cannot be read, or is shorter than it was
   void take(std::uint64_t most = UINT64_MAX);
 
@@ -30,7 +30,7 @@ class TableDigest {
   std::filesystem::path file_;
   std::uint64_t read_ = 0, counted_ = 0;  ///< bytes
   Fnv1a hash_;
-  std::string name_;            ///< of the header's column in progress
+  std::string name_;            ///< of the header's current column
   std::vector<bool> left_out_;  ///< by column, once the header is read
   bool in_header_ = true;
   std::size_t column_ = 0;

@@ -15,7 +15,7 @@ namespace fsi {
 
 namespace {
 
-constexpr std::size_t longest_line = 4096;  // bytes; the longest row of numbers has 500
+constexpr std::size_t longest_line = 4096;  // bytes; rows of numbers have 500 at most
 constexpr const char* remedy = "restart from a folder whose tables are whole, or run from the start";
 
 }  // namespace
@@ -68,7 +68,7 @@ TableReader::Found TableReader::next() {
       const auto read = std::from_chars(at, end, number);
       if (read.ec != std::errc() && read.ec != std::errc::result_out_of_range) return Found::no_row;
       stop = read.ptr;
-      // Beyond all numbers: not finite. A word for what is no number is not the empty cell that NaN stands for.
+      // Out of range: infinite. "nan" is infinite, too, since NaN stands for an empty cell.
       if (read.ec != std::errc() || (places_ > 0 && std::isnan(number))) number = HUGE_VAL;
     }
     row_.push_back(number);

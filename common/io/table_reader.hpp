@@ -8,24 +8,24 @@
 
 namespace fsi {
 
-/// Reads a CSV table of numbers, its second column perhaps names, row by row, in bounded memory whatever the file holds.
+/// Reads a CSV table of numbers, perhaps with names from the second column on, row by row in bounded memory.
 class TableReader {
  public:
-  /// \param places  how many columns behind the first are text or say where a row belongs, and are kept as text; with
-  ///                 any, cells behind them may be empty
+  /// \param places  number of columns behind the first that are kept as text: names and places. With any, cells behind
+  ///                 them may be empty
   /// \throws InputError when the file is missing, no regular file, or begins with another line than `header`
   TableReader(std::filesystem::path file, const std::string& header, std::size_t places = 0);
 
-  /// What stands at a place of the table.
+  /// What next() has read.
   enum class Found {
     row,
     no_row,  ///< a line that is no row of numbers as many as the header has columns
     end      ///< the end of the file, or a line without newline: torn off by a kill
   };
-  /// Goes on by a line.
+  /// Reads the next line.
   Found next();
 
-  /// Of the last row found; without the columns kept as text, empty cells being NaN.
+  /// Numbers of the last row found, without the columns kept as text; empty cells are NaN.
   const std::vector<double>& row() const { return row_; }
   /// The columns kept as text, with the commas between them.
   const std::string& place() const { return place_; }

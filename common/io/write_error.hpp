@@ -7,8 +7,8 @@
 
 namespace fsi {
 
-/// A result file that the operating system did not take, because the disk is full, say. What stood on disk before is
-/// untouched or stands beside it; a run that ends with this error can be continued from its last checkpoint.
+/// A result file could not be written, because the disk is full, say. What was on disk before is still there; a run
+/// that ends with this error can be continued from its last checkpoint.
 /// The message reads `FILE: KEY: cannot be written (REASON); REMEDY`.
 class WriteError : public InputError {
  public:

@@ -73,7 +73,7 @@ constexpr std::size_t free_byte = slot_head.size() - 3;  // a blank before ">", 
 constexpr std::string_view slot_tail = "<?slot?>\n", free_tail = "      ?>\n";
 static_assert(slot_tail.size() == free_tail.size());
 
-/// An entry that no other one is longer than: numbers of as many digits as there can be.
+/// The entry with the longest text: its numbers have as many digits as possible.
 ListedEntry longest_entry(const FieldGrid& grid, std::size_t place) {
   ListedEntry entry;
   entry.entry.step = {std::numeric_limits<std::int64_t>::max(), -2.2250738585072014e-308};

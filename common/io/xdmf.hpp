@@ -13,29 +13,28 @@
 
 namespace fsi {
 
-/// A finished entry: its step, the fields that it has, and the HDF5 file beside the document that holds them.
+/// A finished entry: its step, its fields, and the HDF5 file beside the document that holds them.
 struct ListedEntry {
   WrittenEntry entry;
   std::string file;
 };
 
 /// An XDMF 3 document that presents the HDF5 files as time series. It comes in two forms:
-/// - All media (fields.xdmf): a spatial collection of temporal ones. The other way round, time outside, ParaView would
-///   number the media anew in each step ("fluid", "fluid[1]", ...), and a block picked in one step would be lost in the
-///   next.
+/// - All media (fields.xdmf): a spatial collection of temporal ones. With time outside, ParaView would number the media
+///   anew in each step ("fluid", "fluid[1]", ...), and a block picked in one step would be lost in the next.
 /// - One medium (fluid.xdmf, wall.xdmf): its temporal collection alone, which is what meshio.xdmf.TimeSeriesReader and
-///   the other readers of series on one mesh take.
+///   other readers of series on one mesh take.
 /// An attribute has no child but its values, since meshio refuses others: units are <Information> beside them.
 ///
-/// A document lists finished entries only and is a whole document at any moment. The list of each medium has free slots of one
-/// length, and a slot begins with a processing instruction, which readers skip. While a slot is free, that instruction
-/// goes on to the slot's end:
+/// A document lists finished entries only and is complete at any moment. The list of each medium has free slots of one
+/// length. A slot begins with a processing instruction, which readers skip. While the slot is free, that instruction
+/// extends to the slot's end:
 ///     <?slot  >                                      ?>      free
 ///     <?slot  > <Grid> ... </Grid>             <?slot?>      free: the text is still a part of the instruction
 ///     <?slot ?> <Grid> ... </Grid>             <?slot?>      in use
-/// So an entry is added by two writes into reserved space, the second of a single byte. When no slot is free, the document
-/// is written anew with twice as many and replaces the old one by rename: over a run, an entry is written less than three
-/// times.
+/// So an entry is added by two writes into reserved space, the second of a single byte. When no slot is free, the
+/// document is rewritten with twice as many and replaces the old one by rename: over a run, an entry is written fewer
+/// than three times on average.
 /// All functions throw WriteError.
 class XdmfDocument {
  public:
@@ -43,11 +42,11 @@ class XdmfDocument {
 
   /// Of all media.
   XdmfDocument(std::filesystem::path file, std::vector<FieldGrid> grids);
-  /// Of grids[medium] alone. Entries are given with the flags of all grids nevertheless.
+  /// Of grids[medium] alone. Entries still have the flags of all grids.
   XdmfDocument(std::filesystem::path file, const std::vector<FieldGrid>& grids, std::size_t medium);
 
   /// Makes the document, or replaces it, with `count` entries.
-  /// \param total  entries that it will have in the end
+  /// \param total  number of entries that it will have in the end
   void replace(std::int64_t count, const std::function<ListedEntry(std::int64_t)>& entry, std::int64_t total);
 
   /// Lists one more entry.

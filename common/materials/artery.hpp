@@ -12,16 +12,16 @@ namespace fsi {
 
 /// Arterial layer with two families of collagen fibres, active in extension only ([Holzapfel2000]; docs/theory.md,
 /// section 5.4):
-///   Psi = c10/2 (J_1 - 3) + k1/(2 k2) sum over J_i > 1 of (exp(k2 (J_i - 1)^2) - 1),  J_i = I_3^(-1/3) a_i . C a_i.
+///   Psi = c10/2 (J_1 - 3) + s k1/(2 k2) sum over J_i > 1 of (exp(k2 (J_i - 1)^2) - 1),  J_i = I_3^(-1/3) a_i . C a_i.
 /// The paper misprints energy and stress (docs/theory.md, section 12, item 3). The tangent jumps at J_i = 1.
-/// With dispersed fibres it is DispersedArtery for the element loops.
+/// With dispersed fibres element loops take it as DispersedArtery.
 template <class Constant>
 struct ArteryOf {
   using FibreData = Fibres;
   Constant c10 = 0;          ///< kPa, initial shear modulus without fibres
-  Constant k1 = 0;           ///< kPa; at small strains a family has the modulus 4 k1 along its fibres
+  Constant k1 = 0;           ///< kPa; at small strains a family has the modulus 4 s k1 along its fibres
   Constant k2 = 0;           ///< -
-  Constant fibre_scale = 1;  ///< 0.5: the paper's printed fibre stress
+  Constant fibre_scale = 1;  ///< s, factor of the fibres' energy and stress; 0.5: the stress that the paper prints
   Constant alpha = 0;        ///< degrees between fibres and circumference; enters by the fibres' directions alone
   Constant kappa = 0;        ///< dispersion: 0 all fibres of a family parallel, 1/3 evenly in all directions
 
@@ -51,7 +51,7 @@ struct ArteryOf {
   Constant shear_modulus() const { return c10; }
   double fibre_angle() const { return alpha * (std::acos(-1.0) / 180); }
   std::optional<double> own_bulk_modulus() const { return std::nullopt; }
-  /// Two families of stretched fibres, energy k1/2 E_i^2 each with E_i = (1 - 3 kappa) 2 eps cos^2(alpha) nearly.
+  /// Two families of stretched fibres, energy s k1/2 E_i^2 each with E_i = (1 - 3 kappa) 2 eps cos^2(alpha) nearly.
   double fibre_stiffness() const {
     const double aligned = 1 - 3 * kappa;
     return 8 * fibre_scale * k1 * std::pow(std::cos(fibre_angle()), 4) * (aligned * aligned);
@@ -60,8 +60,8 @@ struct ArteryOf {
     return k1 * fibre_scale > 0 ? std::nullopt : std::optional<double>(c10);
   }
 
-  /// With phi(x) = (exp(x) - 1) / x, phi(0) = 1, which is right for every k2 > 0:
-  ///   Psi = c10/2 (J_1 - 3) + k1/2 sum over J_i > 1 of (J_i - 1)^2 phi(k2 (J_i - 1)^2)
+  /// With phi(x) = (exp(x) - 1) / x, phi(0) = 1, accurate for every k2 > 0:
+  ///   Psi = c10/2 (J_1 - 3) + s k1/2 sum over J_i > 1 of (J_i - 1)^2 phi(k2 (J_i - 1)^2)
   template <class T>
   T energy(const Strain<T>& s, const Fibres& fibres) const {
     T psi = Pack(0.5 * c10) * first_invariant_change(s);
@@ -73,7 +73,7 @@ struct ArteryOf {
   }
 
   /// S' = c10 I_3^(-1/3) (I - I_1/3 C^-1)
-  ///    + 2 k1 sum over J_i > 1 of exp(k2 (J_i - 1)^2) (J_i - 1) I_3^(-1/3) (a_i a_i^T - (a_i . C a_i)/3 C^-1)
+  ///    + 2 s k1 sum over J_i > 1 of exp(k2 (J_i - 1)^2) (J_i - 1) I_3^(-1/3) (a_i a_i^T - (a_i . C a_i)/3 C^-1)
   template <class T>
   Sym3<T> stress(const Strain<T>& s, const Fibres& fibres) const {
     Sym3<T> total = Pack(c10) * first_invariant_stress(s);

@@ -12,14 +12,14 @@
 
 namespace fsi {
 
-/// Whether a law's change of volume is measured by something else than J - 1.
+/// Whether a law measures its change of volume otherwise than by J - 1: such laws have no FibreData.
 template <class Law, class = void>
 struct IsCompressible : std::true_type {};
 template <class Law>
 struct IsCompressible<Law, std::void_t<typename Law::FibreData>> : std::false_type {};
 
-/// The laws whose change of volume is not measured by J - 1, as the element loops see them: one type for all, so that
-/// the loops are compiled once. A layer has one of them; choosing it at each point costs nothing beside its arithmetic.
+/// Any law that does not measure its change of volume by J - 1, as the element loops see it: one type for all, so that
+/// the loops are compiled once. Choosing the law at each point costs nothing beside its arithmetic.
 template <class Constant>
 struct CompressibleLawOf {
   using FibreData = NoFibres;
@@ -36,7 +36,7 @@ struct CompressibleLawOf {
     return kind == index_of_law<Law, Material>;
   }
   Constant shear_modulus() const { return mu; }
-  /// Forces balance on the reference configuration.
+  /// Whether forces balance on the reference configuration.
   bool on_reference() const {
     return of_kind(kind, [](auto law) { return decltype(law)::type::on_reference; });
   }
@@ -59,7 +59,7 @@ struct CompressibleLawOf {
   struct Tag {
     using type = Law;
   };
-  /// visit(Tag<Law>{}) of the law at this place.
+  /// visit(Tag<Law>{}) for the law at this place in Material.
   template <std::size_t i = 0, class Visit>
   static auto of_kind(std::size_t kind, const Visit& visit) {
     using Law = std::variant_alternative_t<i, Material>;
@@ -73,7 +73,7 @@ struct CompressibleLawOf {
       return of_kind<i + 1>(kind, visit);
     }
   }
-  /// The place of the last such law.
+  /// The place of Material's last such law.
   template <std::size_t i = std::variant_size_v<Material> - 1>
   static constexpr std::size_t last() {
     if constexpr (IsCompressible<std::variant_alternative_t<i, Material>>::value)

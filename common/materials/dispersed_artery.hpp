@@ -10,8 +10,8 @@ namespace fsi {
 
 /// The artery's law with fibres that are dispersed about their families' directions ([Gasser2006]; docs/theory.md,
 /// section 5.4). With E_i = kappa (J_1 - 3) + (1 - 3 kappa) (J_i - 1)
-///   Psi = c10/2 (J_1 - 3) + k1/(2 k2) sum over E_i > 0 of (exp(k2 E_i^2) - 1).
-/// A type of its own: the loops over parallel fibres know nothing of it.
+///   Psi = c10/2 (J_1 - 3) + s k1/(2 k2) sum over E_i > 0 of (exp(k2 E_i^2) - 1).
+/// A type of its own, so that loops over parallel fibres do not pay for the dispersion.
 template <class Constant>
 struct DispersedArteryOf : ArteryOf<Constant> {
   template <class Other>
@@ -28,7 +28,7 @@ struct DispersedArteryOf : ArteryOf<Constant> {
     return psi;
   }
 
-  /// S' = (c10 + 2 k1 kappa sum of exp(k2 E_i^2) E_i) dJ_1/dC + 2 k1 (1 - 3 kappa) sum of exp(k2 E_i^2) E_i dJ_i/dC,
+  /// S' = (c10 + 2 kappa sum of t_i) dJ_1/dC + 2 (1 - 3 kappa) sum of t_i dJ_i/dC, t_i = s k1 exp(k2 E_i^2) E_i,
   /// sums over E_i > 0
   template <class T>
   Sym3<T> stress(const Strain<T>& s, const Fibres& fibres) const {

@@ -14,7 +14,7 @@ struct ElasticConstants {
 
   double young = 0;        ///< E, kPa
   double poisson = 0;      ///< nu, more than -1 and less than 0.5
-  double lame_lambda = 0;  ///< lambda, kPa; may be negative, not below -2/3 of lame_mu
+  double lame_lambda = 0;  ///< lambda, kPa; more than -2/3 lame_mu
   double lame_mu = 0;      ///< mu, kPa
 
   /// mu, kPa
@@ -23,8 +23,7 @@ struct ElasticConstants {
   double compression_modulus() const {
     return young > 0 ? young / (3 * (1 - 2 * poisson)) : lame_lambda + 2 * lame_mu / 3;
   }
-  /// E / (1 - nu^2), kPa: stress per strain where the strain across vanishes, as around a thin tube held along its
-  /// axis.
+  /// E / (1 - nu^2), kPa: stress per strain where the strain across vanishes, as around a thin tube of fixed length.
   double plane_modulus() const {
     const double mu = shear_modulus(), k = compression_modulus();
     return 4 * mu * (3 * k + mu) / (3 * k + 4 * mu);
@@ -33,7 +32,7 @@ struct ElasticConstants {
   /// The pairs by name, for ParameterSets.
   static ParameterSets parameter_sets() { return {{"young", "poisson"}, {"lame_lambda", "lame_mu"}}; }
 
-  /// Their parameters as those of a Law that is made of them.
+  /// The four constants as parameters of a Law that derives from this.
   template <class Law>
   static std::vector<ParameterOf<Law>> parameters_of() {
     constexpr double infinity = std::numeric_limits<double>::infinity();

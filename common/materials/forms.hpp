@@ -14,10 +14,10 @@ struct Laws {
   static constexpr std::size_t count = sizeof...(Law);
 };
 
-/// As what the element loops see a law of this type: itself, unless a law says otherwise beside its definition.
-///   type             the forms
+/// The forms in which element loops take a law of this type: itself, unless its file specialises this.
+///   type             the list of forms
 ///   decides(name)    whether a parameter decides which of them holds
-///   of(law, varies)  the one that holds for its constants, and where such a parameter varies from point to point
+///   of(law, varies)  the form for the law's constants; varies: whether such a parameter varies from point to point
 template <class Law, class = void>
 struct FormsOf {
   using type = Laws<Law>;
@@ -27,6 +27,7 @@ struct FormsOf {
 
 namespace detail {
 
+/// A list with one more type, unless it has it.
 template <class List, class Law>
 struct WithLaw;
 template <class... Law, class New>
@@ -46,6 +47,7 @@ struct Joined<List, Laws<First, Rest...>> {
   using type = typename Joined<typename WithLaw<List, First>::type, Laws<Rest...>>::type;
 };
 
+/// A list with the forms of all laws of a variant.
 template <class List, class Variant>
 struct FormsOfAll;
 template <class List>
@@ -58,6 +60,7 @@ struct FormsOfAll<List, std::variant<First, Rest...>> {
       typename FormsOfAll<typename Joined<List, typename FormsOf<First>::type>::type, std::variant<Rest...>>::type;
 };
 
+/// A list with those of the others that have element loops of their own.
 template <class List, class Others>
 struct OwnLoops;
 template <class List>

@@ -10,11 +10,11 @@
 
 namespace fsi {
 
-/// The law of Holzapfel, Gasser and Ogden with dispersed fibres ([Gasser2006]) as svMultiPhysics has it (docs/theory.md,
-/// section 5.4): each family with constants of its own, and fibres that resist compression as they resist extension,
+/// The law of Holzapfel, Gasser and Ogden with dispersed fibres ([Gasser2006]) as svMultiPhysics has it
+/// (docs/theory.md, section 5.4): each family with its own constants, fibres that resist compression like extension,
 ///   Psi = c10/2 (J_1 - 3) + sum over i of k1_i/(2 k2_i) (exp(k2_i E_i^2) - 1),
 ///   E_i = kappa (J_1 - 3) + (1 - 3 kappa) (J_i - 1),  J_i = I_3^(-1/3) a_i . C a_i.
-/// `artery` has this energy where E_i > 0, and no fibres elsewhere. Being smooth, this one has a tangent everywhere.
+/// `artery` has this energy where E_i > 0, and no fibres elsewhere. This law is smooth: it has a tangent everywhere.
 template <class Constant>
 struct HolzapfelGasserOgdenOf {
   using FibreData = Fibres;
@@ -22,7 +22,7 @@ struct HolzapfelGasserOgdenOf {
   Constant k1 = 0;          ///< kPa, of the first family, along +alpha; at small strains its modulus is 4 k1
   Constant k2 = 0;          ///< -
   Constant k1_second = -1;  ///< of the second, along -alpha; negative: as the first, see settle()
-  Constant k2_second = 0;
+  Constant k2_second = 0;   ///< -
   Constant kappa = 0;  ///< 0 all fibres of a family parallel, 1/3 evenly in all directions
   Constant alpha = 0;  ///< degrees between fibres and circumference; enters by the fibres' directions alone
 

@@ -15,12 +15,12 @@
 namespace fsi {
 
 /// One wall layer's material: the list of all laws. A new one is a file beside these and a row here. Case files,
-/// `--help-keys`, the element loops, constants that vary, the membrane and the limit load come from it; what a law leaves
-/// out does not compile. A law L states
+/// `--help-keys`, the element loops, constants that vary, the membrane and the limit load follow from it; an incomplete
+/// law does not compile. A law L states
 ///   L::name                  its name in case files
 ///   L::parameters()          its parameters, see ParameterOf
 ///   L::parameter_sets()      those of which exactly one set is given; only where there are any
-///   L::settle()              makes the constants of those that are given; only where there is something to make
+///   L::settle()              derives constants from those that are given; only where there are any to derive
 ///   shear_modulus()          mu of the undeformed isotropic part, kPa
 ///   own_bulk_modulus()       kappa, kPa, where its own parameters give one; empty: the structure's holds
 ///   fibre_stiffness()        what fibres add to Young's modulus along the circumference at small strains, kPa
@@ -31,8 +31,8 @@ namespace fsi {
 ///   FibreData                Fibres, and then fibre_angle() in radians from the circumference, or NoFibres
 ///   constants()              pointers to the constants that energy and stress are made of
 ///   with<Other>              the law with constants of another type: of a pack of points
-///   has_own_loops            whether element loops are compiled for it alone: a minute of compiling for some tenths of a
-///                            wall's seconds. Otherwise it runs through those of constants that vary
+///   has_own_loops            whether element loops are compiled for it alone: a minute of compiling saves some tenths
+///                            of a wall's time. Otherwise it runs through the loops of constants that vary
 /// or, where another measure of the volume goes with it (materials/response.hpp),
 ///   response, energy         of its mu, static
 ///   on_reference             whether forces balance on the reference configuration

@@ -6,7 +6,7 @@
 
 namespace fsi {
 
-/// A law with these values of its parameters, the others at their defaults.
+/// A law with these values of its parameters, the others at their defaults. Names of other parameters are ignored.
 template <class Law>
 Law with_parameters(const ParameterValues& values) {
   Law law;
@@ -17,7 +17,7 @@ Law with_parameters(const ParameterValues& values) {
   return law;
 }
 
-/// As users see them.
+/// A law's parameters as users see them.
 template <class Law>
 std::vector<Parameter> parameters_of_law() {
   std::vector<Parameter> parameters;

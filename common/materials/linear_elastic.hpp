@@ -9,7 +9,7 @@
 namespace fsi {
 
 /// Psi = mu eps : eps + lambda/2 (tr eps)^2, eps the symmetric part of grad d: small strains and small rotations,
-/// docs/theory.md, section 5.8. Everything is linear in d, equilibrium holds on the reference configuration.
+/// docs/theory.md, section 5.8. Everything is linear in d; forces balance on the reference configuration.
 /// Psi' = mu dev eps : dev eps is the energy here, K/2 (tr eps)^2 the pressure's, with g = tr eps.
 struct LinearElastic : ElasticConstants {
   static constexpr const char* name = "linear-elastic";

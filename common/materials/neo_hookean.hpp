@@ -14,8 +14,8 @@ template <class Constant>
 struct NeoHookeanOf {
   using FibreData = NoFibres;
   Constant c10 = 0;      ///< kPa, initial shear modulus
-  Constant young = 0;    ///< or E, kPa, of which c10 = E/(2 (1 + nu)) and a bulk modulus of its own, E/(3 (1 - 2 nu)),
-  Constant poisson = 0;  ///< and nu
+  Constant young = 0;    ///< E, kPa; 0: c10 is given. Else c10 = E/(2 (1 + nu)), own bulk modulus E/(3 (1 - 2 nu))
+  Constant poisson = 0;  ///< nu, with E
 
   template <class Other>
   using with = NeoHookeanOf<Other>;
@@ -30,7 +30,7 @@ struct NeoHookeanOf {
   }
   static ParameterSets parameter_sets() { return {{"c10"}, {"young", "poisson"}}; }
 
-  /// Makes c10 of E and nu where these are given.
+  /// Derives c10 from E and nu where these are given.
   void settle() {
     if (young > 0) c10 = ElasticConstants{young, poisson}.shear_modulus();
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the laws of a fluid's viscosity state besides their parameters.
+// What the laws of a fluid's viscosity share.
 
 #include <string>
 
@@ -8,15 +8,15 @@
 
 namespace fsi {
 
-/// What is wrong with parameters that are each within their bounds, said of one of them.
+/// What is wrong with parameters together, each being within its bounds; `parameter` is the one to blame.
 struct ParameterMismatch {
   std::string parameter, problem, remedy;
 };
 
-/// Of a parameter that must not be more than another one, `limit`, which has this value.
+/// The mismatch of a parameter that is more than another one, `limit`, which has this value.
 ParameterMismatch above_limit(const std::string& parameter, const std::string& limit, double value);
 
-/// Of the exponent: below 1 the fluid thins with the shear rate, above it thickens.
+/// Bounds of the exponent: below 1 the fluid thins with the shear rate, above it thickens.
 inline constexpr Bounds shear_exponent{0, 2, false, true};
 
 namespace quantity {

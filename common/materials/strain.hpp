@@ -4,9 +4,8 @@
 
 namespace fsi {
 
-/// The strain measures that materials are written in: what differs from the undeformed state, without the ones and
-/// threes of that state. So stresses are accurate to rounding however small the strain is, and a load a million million
-/// times smaller has a response as much smaller (docs/theory.md, section 5.1).
+/// The strain measures that materials are written in: differences from the undeformed state, without the ones and
+/// threes of that state. So stresses are accurate to rounding however small the strain (docs/theory.md, section 5.1).
 template <class T>
 struct Strain {
   Sym3<T> change;          ///< C - I, C = F^T F the right Cauchy-Green tensor
@@ -16,8 +15,9 @@ struct Strain {
   T isochoric_change;      ///< I_3^(-1/3) - 1
 };
 
-/// Of a given C - I = A, with I_3 - 1 = tr A + tr cof A + det A: by
+/// The strain of C - I = A by
 ///   cof C = (1 + tr A) I - A + cof A,   r - 1 = (I_3 - 1) / (r^2 + r + 1),   r = I_3^(1/3).
+/// \param i3_change  I_3 - 1
 template <class T>
 inline Strain<T> strain_from(const Sym3<T>& change, const T& i3_change) {
   Strain<T> s;
@@ -46,6 +46,7 @@ inline Sym3<T> strain_change(const Mat3<T>& h) {
   return change;
 }
 
+/// The strain of a displacement.
 /// \param h  grad d
 /// \param f  deformation(h)
 template <class T>
@@ -131,7 +132,7 @@ inline T extension(const Strain<T>& s, const Vec3<Pack>& a) {
 struct Fibres {
   Vec3<Pack> direction[2];
 };
-/// Stands where a material has none.
+/// Stands for the fibres of a material without.
 struct NoFibres {};
 
 }  // namespace fsi

@@ -6,7 +6,7 @@ namespace fsi {
 
 namespace {
 
-/// visit(form) of a material.
+/// visit(form) for the form of a material.
 template <class Visit>
 auto visit_form(const Material& material, bool varies, const Visit& visit) {
   return std::visit(

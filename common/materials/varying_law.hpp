@@ -25,17 +25,17 @@ constexpr std::size_t most_constants(const Laws<Form...>&) {
 }
 }  // namespace detail
 
-/// What the element loops know of a layer's law at one place.
+/// The constants of a layer's law at one place, as the element loops take them.
 template <class Constant>
 struct LawConstants {
-  /// Those of its energy and stress, in the order of its constants(); laws with fewer leave room.
+  /// Those of its energy and stress, in the order of its constants(); laws with fewer do not use the rest.
   std::array<Constant, detail::most_constants(LawForms{})> of_law{};
   Constant shear_modulus{};  ///< mu of the undeformed isotropic part, kPa
   Constant bulk_modulus{};   ///< kPa
   Constant viscosity{};      ///< eta of wall/kelvin_voigt.hpp, kPa ms
 };
 
-/// Of a material. \param of_structure  kappa where the law has none of its own, kPa
+/// The constants of a material, with viscosity 0. \param of_structure  kappa where the law has none of its own, kPa
 LawConstants<double> law_constants(const Material& material, double of_structure);
 
 /// A law at one place.
@@ -48,33 +48,32 @@ struct LawHere {
 struct PointConstants : LawConstants<Pack> {
   Fibres fibres;  ///< of laws that have them
 
-  /// Those of one place, in one lane.
+  /// Sets one lane to the constants of one place.
   void set(int lane, const LawConstants<double>& from);
 };
 
 /// Any law with constants that vary from point to point: one type for all laws, so that the loops over such layers are
-/// compiled once. A layer has one of them. Layers whose constants are constant know of it where their law has no loops of
-/// its own.
+/// compiled once. Layers with one set of constants take it, too, where their law has no loops of its own.
 class VaryingLaw {
  public:
   using FibreData = PointConstants;
   static constexpr bool has_own_loops = true;
 
   VaryingLaw() = default;
-  /// \param varies  whether a parameter does that decides its form, see FormsOf
+  /// \param varies  whether a parameter that decides the law's form varies, see FormsOf
   VaryingLaw(const Material& material, bool varies);
 
   bool is_compressible() const { return form_ == index_of_law<CompressibleLaw, LawForms::variant>; }
-  /// Forces balance on the reference configuration.
+  /// Whether forces balance on the reference configuration.
   bool on_reference() const { return is_compressible() && CompressibleLaw{kind_, 0}.on_reference(); }
 
-  /// S' of the nearly incompressible ones, kPa.
+  /// S' of a law that is not compressible, kPa.
   template <class T>
   Sym3<T> stress(const Strain<T>& s, const PointConstants& at) const {
     return incompressible<0, Sym3<T>>(at, [&](const auto& law, const auto& fibres) { return law.stress(s, fibres); });
   }
 
-  /// Its response to a deformation.
+  /// The law's response to a deformation.
   /// \param h  grad d
   /// \param f  deformation(h)
   template <class T>
@@ -82,7 +81,7 @@ class VaryingLaw {
     if (is_compressible()) return compressible(at.of_law[0]).response(h, f);
     return {f.gradient * stress(strain_of(h, f), at), f.volume_change, f.cofactor_gradient, f.volume_ratio};
   }
-  /// The measure g of the change of volume and G = dg/dF, which no constant enters; the flux is not set.
+  /// The measure g of the change of volume and G = dg/dF, which depend on no constant; the flux is meaningless.
   template <class T>
   Response<T> response(const Mat3<T>& h, const Deformation<T>& f) const {
     if (is_compressible()) return compressible(Pack(0.0)).response(h, f);
@@ -128,10 +127,10 @@ class VaryingLaw {
     }
   }
 
-  std::size_t form_ = 0, kind_ = 0;  // places in LawForms and, of compressible laws, in Material
+  std::size_t form_ = 0, kind_ = 0;  // places in LawForms and, for compressible laws, in Material
 };
 
-/// A layer's law as the element loops see it: the forms with loops of their own, and any other as one that may vary.
+/// A layer's law as the element loops see it: the forms with loops of their own, and VaryingLaw for any other.
 using ElementLaw =
     typename detail::WithLaw<typename detail::OwnLoops<Laws<>, LawForms>::type, VaryingLaw>::type::variant;
 ElementLaw element_law(const Material& material);

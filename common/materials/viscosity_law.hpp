@@ -15,8 +15,8 @@
 namespace fsi {
 
 /// How the viscosity of a generalised Newtonian fluid depends on its shear rate g = sqrt(2 D : D), D the symmetric part
-/// of the velocity's gradient: the table of all there are. A new one is a file beside these and an entry here; case
-/// files and `--help-keys` know it from then on. A law L states
+/// of the velocity's gradient: the list of all laws. A new one is a file beside these and an entry here; case files and
+/// `--help-keys` follow from it. A law L states
 ///   L::name          its name in case files
 ///   L::parameters()  its parameters, see ParameterOf
 ///   problem()        what is wrong with them together; empty: nothing
@@ -31,19 +31,19 @@ struct ViscosityKind {
   const Parameter* find(const std::string& name) const;
 };
 
-/// All kinds by name, in the order of ViscosityLaw. That of a constant viscosity is none of them.
+/// All kinds by name, in the order of ViscosityLaw. A constant viscosity, `newtonian`, is none of them.
 const NameTable<ViscosityKind>& viscosity_laws();
 
-/// What is wrong with a law's parameters together, which one by one are within their bounds.
+/// What is wrong with a law's parameters together, each being within its bounds; empty: nothing.
 std::optional<ParameterMismatch> problem_of(const ViscosityLaw& law);
 
-/// The shear rate, 1/ms, below which a law takes it for this one: fluid at rest has none, and no derivative by it.
+/// Lower shear rates count as this one, 1/ms, and without derivative: a shear rate of zero has none.
 inline constexpr double lowest_shear_rate = 1e-9;
 
-/// The shear rate, 1/ms, whose viscosity stands for all where a scene needs one: 100 1/s.
+/// The shear rate, 1/ms, whose viscosity is taken where a scene needs a single one: 100 1/s.
 inline constexpr double reference_shear_rate = 0.1;
 
-/// A viscosity with its derivative by g^2.
+/// A viscosity with its derivative with respect to g^2.
 struct ShearViscosity {
   Pack value;  ///< kPa ms
   Pack slope;  ///< kPa ms^3
@@ -65,7 +65,8 @@ T shear_rate_squared(const Mat3<T>& l) {
   return sum;
 }
 
-/// The viscosity at a point, with the derivatives that its velocity gradient has.
+/// The viscosity at a point, kPa ms, with the derivatives that its velocity gradient has.
+/// \param l  grad u F^-1, 1/ms
 inline Pack local_viscosity(const ViscosityLaw& law, const Mat3<Pack>& l) {
   return shear_viscosity(law, shear_rate_squared(l)).value;
 }

@@ -39,8 +39,8 @@ struct ScaledBessel {
     j1 *= 0.5 * z;
   }
 
-  /// J_(k-1) = 2 k/z J_k - J_(k+1) downwards from where J is nothing; e^(-i s z) = J_0 + 2 sum (-i s)^k J_k gives the
-  /// scale, with s the sign of Im z: no term of the sum is larger than it.
+  /// J_(k-1) = 2 k/z J_k - J_(k+1) downwards from where J is negligible; e^(-i s z) = J_0 + 2 sum (-i s)^k J_k gives
+  /// the scale, with s the sign of Im z: no term of the sum is larger than it.
   void set_by_recurrence(Complex z) {
     const double sign = z.imag() < 0 ? -1 : 1;
     const Complex turn(0, -sign);

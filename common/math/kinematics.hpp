@@ -4,7 +4,7 @@
 
 namespace fsi {
 
-/// Deformation x = X + d: F = I + grad d, its volume ratio and its inverse.
+/// Deformation x = X + d: F = I + grad d, its cofactor tensor and its volume ratio.
 template <class T>
 struct Deformation {
   Mat3<T> gradient;           ///< F
@@ -13,8 +13,8 @@ struct Deformation {
   T volume_ratio;             ///< J
 };
 
-/// J - 1 from H = grad d as tr H + (sum of principal 2x2 minors) + det H. Not det(I + H) - 1, whose cancellation shows
-/// at large bulk moduli (docs/theory.md, section 2.2).
+/// J - 1 from H = grad d as tr H + (sum of principal 2x2 minors) + det H (docs/theory.md, section 2.2). The
+/// cancellation in det(I + H) - 1 would show at large bulk moduli.
 template <class T>
 inline T volume_change(const Mat3<T>& h) {
   const T m0 = h(1, 1) * h(2, 2) - h(1, 2) * h(2, 1);
@@ -25,6 +25,7 @@ inline T volume_change(const Mat3<T>& h) {
   return (h(0, 0) + h(1, 1) + h(2, 2)) + (m0 + m1 + m2) + determinant;
 }
 
+/// Of H = grad d.
 template <class T>
 inline Deformation<T> deformation(const Mat3<T>& displacement_gradient) {
   Deformation<T> f;

@@ -22,7 +22,8 @@ struct Pack {
   Lanes lanes;
 
   Pack() = default;
-  // A number stands for a pack of equal lanes. Less zero, not plus zero: that leaves -0 as it is, and so no instruction.
+  // A number stands for a pack of equal lanes. Minus zero, not plus zero: x - 0 is x also for -0, so that the compiler
+  // drops the operation.
   Pack(double x) : lanes(x - Lanes{}) {}  // NOLINT
   explicit Pack(Lanes x) : lanes(x) {}
 
@@ -90,9 +91,9 @@ inline Pack sqrt(Pack x) {
 }
 namespace detail {
 
-/// exp(x) = scale (1 + rest): scale = 2^k, rest = exp(r) - 1, r = x - k ln 2, |r| <= (ln 2) / 2, as [Cody1980] reduces x. By
-/// Taylor's series up to r^13/13!, whose remainder is 4e-18. For |x| < 700. Errors of exp() and phi(): 0.8 and 1.6 units in
-/// the last place (tests/unit/math/test_pack.cpp).
+/// exp(x) = scale (1 + rest): scale = 2^k, rest = exp(r) - 1, r = x - k ln 2, |r| <= (ln 2) / 2, as [Cody1980] reduces
+/// x. By Taylor's series up to r^13/13!, whose remainder is 4e-18. For |x| < 700. Errors of exp() and phi(): 0.8 and
+/// 1.6 units in the last place (tests/unit/math/test_pack.cpp).
 struct SplitExponential {
   explicit SplitExponential(Pack x) {
     const Pack shift(6755399441055744.0);  // 1.5 * 2^52: a sum with it holds k in its last bits
@@ -117,7 +118,7 @@ struct SplitExponential {
 
 }  // namespace detail
 
-/// Of usual numbers all lanes at once: calls of the library lane by lane take five times as long.
+/// All lanes at once where every |x| < 700, else library calls lane by lane, which take five times as long.
 inline Pack exp(Pack x) {
   if (!detail::SplitExponential::serves(x)) return each(x, [](double v) { return std::exp(v); });
   const detail::SplitExponential e(x);
@@ -138,15 +139,15 @@ inline Pack phi_slope(Pack x) {
     return 0.5 * (sum + 1);
   });
 }
-/// Of usual numbers all lanes at once, without a division: r = x^(-1/3) from a guess within 4 %, which a third of the
-/// exponent gives, by two steps of the series (1 - e)^(-1/3) = 1 + e/3 + 2/9 e^2 + 14/81 e^3 + ..., e = 1 - x r^3. Then
-/// x r^2 and one step of Newton's.
+/// All lanes at once where every x is between 1e-60 and 1e60, else library calls. Without a division: r = x^(-1/3) from
+/// a guess within 4 %, which a third of the exponent gives, by two steps of the series (1 - e)^(-1/3) = 1 + e/3 +
+/// 2/9 e^2 + 14/81 e^3 + ..., e = 1 - x r^3. Then x r^2 and one Newton step.
 inline Pack cbrt(Pack x) {
   if (any(~((x > Pack(1e-60)) & (Pack(1e60) > x)))) return each(x, [](double v) { return std::cbrt(v); });
   Pack::Mask bits;
   __builtin_memcpy(&bits, &x.lanes, sizeof(bits));
-  // Of the upper 22 bits, exponent and first ten of the fraction; 0x55555 / 2^20 is a third. The constant, four thirds of
-  // the exponent's bias and a little less, makes the guess too large and too small by as much.
+  // The upper 22 bits are the exponent and the first ten bits of the fraction; 0x55555 / 2^20 is a third. The constant,
+  // four thirds of the exponent's bias and a little less, makes the guess too large and too small by as much.
   bits = (std::int64_t{0x553ef000} << 32) - (((bits >> 42) * 0x55555 >> 20) << 42);
   Pack r;
   __builtin_memcpy(&r.lanes, &bits, sizeof(bits));

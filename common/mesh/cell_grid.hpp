@@ -16,7 +16,7 @@
 
 namespace fsi {
 
-/// \tparam Mesh  a mesh or a part of one
+/// The map of a cell. \tparam Mesh  a mesh or a part of one
 template <int Dim, int Order, template <int, int> class Mesh>
 CellMap<Dim, Order> map_of(const Mesh<Dim, Order>& mesh, int cell) {
   CellMap<Dim, Order> map;
@@ -37,7 +37,7 @@ std::array<Point, nodes_of_simplex(Dim, Order)> control_points(const Mesh<Dim, O
   return x;
 }
 
-/// Cells sorted into the boxes of a regular grid that their bounding boxes touch.
+/// Cells sorted into the boxes of a regular grid that their bounding boxes touch, to find those near a point.
 class CellGrid {
  public:
   template <int Dim, int Order, template <int, int> class Mesh>

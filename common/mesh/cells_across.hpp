@@ -13,7 +13,7 @@ struct CellsAcross {
   double cells() const { return width / edge; }
 };
 
-/// Of the volume `fluid`, the surface around it being all of its boundary that has no name. Empty where there is none.
+/// Of the volume `fluid`; A is its boundary without the facets of named surfaces. Empty if the volume or A is missing.
 template <int Order>
 std::optional<CellsAcross> cells_across(const SimplexMesh<3, Order>& mesh);
 

@@ -22,7 +22,7 @@ namespace fsi {
 inline constexpr const char* conforming_remedy =
     "mesh fluid and wall together, with one shared surface (gmsh: BooleanFragments or Coherence before meshing)";
 
-/// A mesh that is being checked, what the scene asks of it, and what several checks say of both.
+/// A mesh that is being checked, what the scene needs of it, and what several checks share.
 template <int Dim, int Order>
 struct CheckedMesh {
   using Mesh = SimplexMesh<Dim, Order>;
@@ -57,7 +57,7 @@ struct CheckedMesh {
     return (1.0 / Dim) * sum;
   }
 
-  /// Null: it is no facet of a cell.
+  /// The cells of a facet; null if no cell has it.
   const FacetCells* cells_of(const FacetKey<Dim>& key) const {
     const auto found = std::lower_bound(facet_cells.begin(), facet_cells.end(), key,
                                         [](const FacetCells& one, const auto& sought) { return one.key < sought; });
@@ -92,7 +92,7 @@ struct CheckedMesh {
     for (const auto& plane : planes) visit(plane.group->facets);
   }
 
-  /// What a surface of another name would have to be told, for remedies; empty when the mesh has none, else with ", or ".
+  /// For remedies, ending in ", or ": how to use a surface of another name instead; empty if there is none.
   std::string other_name_for(const std::string& missed, const std::vector<int>& regions) const {
     const auto names = unused_surfaces(regions);
     if (names.empty()) return "";
@@ -106,7 +106,7 @@ struct CheckedMesh {
     return fmt::format("if {} is meant, give that name, or ", one_of(names));
   }
 
-  /// Of a wall that ends where it should go on.
+  /// For remedies, ending in ", or ": volumes that the case leaves out may continue the wall; empty if there are none.
   std::string left_out_volumes() const {
     if (needs.left_out.empty()) return "";
     return fmt::format("give {} of the mesh, which the case leaves out, a section [structure.layers.{}], or ",
@@ -114,7 +114,7 @@ struct CheckedMesh {
   }
 
  private:
-  /// Surfaces on the outside of these volumes that the scene has no use for: one of them may be what is missed.
+  /// Surfaces on the outside of these volumes that the scene does not use: one of them may be the missing one.
   std::vector<std::string> unused_surfaces(const std::vector<int>& regions) const {
     std::vector<std::string> used{group::inlet, group::outlet, group::wall_ends, group::outer, group::inner};
     used.insert(used.end(), needs.openings.begin(), needs.openings.end());
@@ -133,7 +133,7 @@ struct CheckedMesh {
     return found;
   }
 
-  /// What `fixed` of a support says of a surface that cannot move.
+  /// The value of `fixed` that clamps the surface of a support.
   const char* all_components() const {
     if (Dim == 3) return R"(["x", "y", "z"])";
     return axisymmetric() ? R"(["r", "z"])" : R"(["x", "y"])";

@@ -7,10 +7,9 @@
 
 namespace fsi {
 
-/// What det J = det dx/d(lambda_1, .., lambda_Dim) does over a quadratic cell, lambda being barycentric coordinates; in
-/// mm^Dim, Dim! times what a reference cell of the same lambda has for volume.
+/// det J = det dx/d(lambda_1, .., lambda_Dim) over a quadratic cell, mm^Dim; lambda are barycentric coordinates.
 struct CellJacobian {
-  double least;   ///< smallest value found; within 1 % of the mean above the true minimum where positive
+  double least;   ///< smallest value found; if positive, at most 1 % of the mean above the true minimum
   double mean;    ///< over the reference cell; Dim! times the cell's volume
   Point where;    ///< of `least`, mm
   bool positive;  ///< shown to be so in the whole cell
@@ -18,15 +17,15 @@ struct CellJacobian {
 };
 
 /// Bounds from the Bernstein form of det J, a polynomial of degree Dim: its coefficients enclose it, the outer ones are
-/// its values at the vertices [Johnen2013]. All positive: so is det J. A value at a vertex that is not: the cell is bad.
-/// Undecided: the cell is halved in its longest reference edge and asked again, some 20 halvings deep at most; a cell
-/// still undecided then touches zero to rounding and counts as bad.
+/// its values at the vertices [Johnen2013]. If all are positive, so is det J; if one at a vertex is not, the cell is
+/// bad. Otherwise the cell is halved at its longest reference edge, and so on, 20 halvings deep and into 4000 parts at
+/// most. What is undecided then counts as bad, and `least` is less accurate.
 /// \param x  nodes of the cell, mid-edge nodes as mesh/mid_edge_nodes.hpp orders them
 template <int Dim>
 CellJacobian cell_jacobian(const std::array<Point, nodes_of_simplex(Dim, 2)>& x);
 
-/// Whether the coefficients of the cell as a whole are all positive: then det J is, everywhere. False: ask cell_jacobian(),
-/// which takes longer.
+/// Whether all coefficients of the undivided cell are positive, and so det J everywhere. If not, cell_jacobian()
+/// decides, which takes longer.
 template <int Dim>
 bool is_surely_positive(const std::array<Point, nodes_of_simplex(Dim, 2)>& x);
 

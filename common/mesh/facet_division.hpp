@@ -13,7 +13,7 @@ namespace fsi {
 template <int Dim>
 struct FacetDivision {
   std::vector<std::array<double, 3>> points;  ///< barycentric coordinates; of an edge the third is 0
-  std::vector<std::array<int, 3>> parts;      ///< by places in `points`; an edge's last point stands twice
+  std::vector<std::array<int, 3>> parts;      ///< indices into `points`; an edge has its last point twice
 };
 
 template <int Dim>

@@ -18,8 +18,8 @@ struct FacetUse {
   int local;  ///< facet opposite local vertex `local` of the cell
 };
 
-/// Facets of cells that takes(cell, key) is true for, sorted by key, then cell: the users of one facet stand side by side.
-/// \param expected  number of them, as far as it is known
+/// Uses of the facets for which takes(cell, key) is true, sorted by key, then cell: those of one facet are adjacent.
+/// \param expected  their number, to reserve memory
 template <int Dim, int Order, class Takes>
 std::vector<FacetUse<Dim>> sorted_facet_uses(const SimplexMesh<Dim, Order>& mesh, Takes takes,
                                              std::size_t expected = 0) {
@@ -38,7 +38,7 @@ std::vector<FacetUse<Dim>> sorted_facet_uses(const SimplexMesh<Dim, Order>& mesh
   return uses;
 }
 
-/// All facets of all cells, likewise.
+/// The uses of all facets, in the same order.
 template <int Dim, int Order>
 std::vector<FacetUse<Dim>> sorted_facet_uses(const SimplexMesh<Dim, Order>& mesh) {
   return sorted_facet_uses(

@@ -10,8 +10,8 @@
 
 namespace fsi {
 
-/// Places in a cell of the nodes of its facets, facet i opposite vertex i; vertices first, then mid-edge nodes. Facets of
-/// a positively oriented cell look out of it.
+/// Local node numbers of a cell's facets, facet i opposite vertex i; vertices first, then mid-edge nodes. Normals point
+/// out of a positively oriented cell.
 template <int Dim, int Order>
 struct OutwardFacets {
   static constexpr int count = Dim + 1;
@@ -72,6 +72,7 @@ FacetKey<Dim> facet_key(const std::array<int, Nodes>& facet) {
   return key;
 }
 
+/// Hash of a FacetKey, for unordered containers.
 struct FacetKeyHash {
   template <std::size_t Vertices>
   std::size_t operator()(const std::array<int, Vertices>& key) const {

@@ -6,8 +6,8 @@
 
 namespace fsi {
 
-/// Nodes of a medium beyond those that a process holds of it, whose values it needs now and then: what is made of several
-/// rings of cells around a node. They are numbered behind the nodes here. Processes make and ask it together.
+/// Nodes of a medium that a process does not hold but needs values of, as for what is made of several rings of cells
+/// around a node. They are numbered behind the nodes here. Constructor and with_far() are collective.
 class FarNodes {
  public:
   FarNodes() = default;

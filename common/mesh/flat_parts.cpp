@@ -73,7 +73,7 @@ std::string all_places(const std::vector<FlatRegion>& parts) {
   return all.empty() ? "the surface has no flat part with a sharp rim" : "flat parts are at " + listed(all);
 }
 
-/// Most of it: a name may leave out a triangle at the rim, or take one more.
+/// Whether half of it or more is: a group may leave out a triangle at the rim, or have one more.
 template <int Order>
 bool is_named(const FlatParts<Order>& flat, const FlatRegion& part, const std::set<FacetKey<3>>& named) {
   const auto in_groups = std::count_if(part.triangles.begin(), part.triangles.end(),

@@ -19,18 +19,18 @@ struct FlatPart {
 
 /// Adds a facet group for each of `wanted`: the flat part of the fluid's boundary (mesh/flat_regions.hpp) on which its
 /// point lies, within the mean length of the part's edges.
-/// \throws InputError for a mesh without a volume `fluid`, for a point on no flat part, with the nearest one, for two on one
-/// part, and for a name that a surface has
+/// \throws InputError for a mesh without a volume `fluid`, for a point on no flat part (naming the nearest), for two
+///         points on one part, and for a name that a surface has
 template <int Order>
 void name_flat_parts(SimplexMesh<3, Order>& mesh, const std::vector<FlatPart>& wanted);
 
-/// The flat parts of the fluid's boundary that are in no named surface and no side of another volume, for the most part;
-/// largest first. Triangles are places in boundary_facets() of the fluid.
+/// The flat parts of the fluid's boundary of which less than half is in named surfaces or sides of other volumes,
+/// largest first. Triangles are indices into boundary_facets() of the fluid.
 /// \throws InputError for a mesh without a volume `fluid`
 template <int Order>
 std::vector<FlatRegion> unnamed_flat_parts(const SimplexMesh<3, Order>& mesh);
 
-/// Names them end_1, end_2 and so on; numbers that a surface has are left out. \return what was named, a sentence
+/// Names these parts end_1, end_2 and so on, but for names that are taken. \return a sentence on what was named
 /// \throws InputError where there is none, and for a mesh without a volume `fluid`
 template <int Order>
 std::string name_flat_ends(SimplexMesh<3, Order>& mesh);
@@ -42,7 +42,8 @@ std::string name_flat_ends(SimplexMesh<3, Order>& mesh);
 template <int Order>
 void require_flat_parts_named(const SimplexMesh<3, Order>& mesh, const std::vector<Point>& closed);
 
-/// Where such parts are, with normals and areas, for messages.
+/// Places, normals and areas of all flat parts of the fluid's boundary, of six at most, for messages.
+/// \throws InputError for a mesh without a volume `fluid`
 template <int Order>
 std::string places_of_flat_parts(const SimplexMesh<3, Order>& mesh);
 

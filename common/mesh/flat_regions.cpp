@@ -149,8 +149,8 @@ class FlatRegions {
     return found;
   }
 
-  /// The plane of least squares through the nodes: along the mean normal n of the triangles heights are a linear function
-  /// of two coordinates across it, whose slopes turn n.
+  /// The plane of least squares through the nodes: along the mean normal n of the triangles heights are a linear
+  /// function of two coordinates across it, whose slopes turn n.
   Plane fitted(const std::vector<int>& region) const {
     Point normal{0, 0, 0}, at{0, 0, 0};
     for (const int t : region) normal = normal + area_[t];
@@ -219,9 +219,9 @@ class FlatRegions {
     return steps == rim.size();
   }
 
-  /// By how much the surface turns away to the inner side of the plane at an edge of the rim, radians; 0 when it does not.
-  /// Normals are the means of the triangles inside and outside that meet the edge: a strip of a tube's side is bent itself,
-  /// and does not end in a crease.
+  /// By how much the surface turns away to the inner side of the plane at an edge of the rim, radians; 0 when it does
+  /// not. Normals are the means of the triangles inside and outside that meet the edge: a strip of a tube's side is
+  /// bent itself, and does not end in a crease.
   double angle_behind(int a, int b, const std::set<int>& in, const Plane& plane) const {
     Point inside{0, 0, 0}, outside{0, 0, 0};
     double height = 0;

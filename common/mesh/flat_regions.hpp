@@ -19,13 +19,13 @@ struct FlatRegion {
 };
 
 /// The flat parts of a closed surface of triangles, largest first. A part is found by its plane and by its rim:
-/// - its nodes lie within a quarter of the edges' length of one plane, the least-squares one, and its triangles face
-///   along the plane's normal: nodes may be off by a tenth of an edge, as those of segmented surfaces are. Of long triangles
-///   1.5 times the shortest edge counts as that length;
-/// - it has one rim, a closed line as round as three by one or rounder, of five edges or more;
-/// - along nearly all of the rim the surface has a crease of more than 30 degrees, on average of 60 or more, to the inner side
-///   of the plane. A strip of a coarse tube's side turns by less. Where two branches meet (the carina), the surface rises
-///   out of any plane in one direction, however flat it is.
+/// - its nodes lie within a quarter of the edges' length of the least-squares plane, and its triangles face along the
+///   plane's normal: nodes of segmented surfaces are off by a tenth of an edge. Of long triangles 1.5 times the
+///   shortest edge counts as that length;
+/// - it has one rim, a closed line of five edges or more, with 4 pi area / length^2 of 0.4 or more;
+/// - along 0.9 of the rim the surface has a crease of more than 30 degrees, on average of 60 or more, to the inner side
+///   of the plane. A strip of a coarse tube's side turns by less. Where two branches meet (the carina), the surface
+///   rises out of any plane in one direction, however flat it is.
 std::vector<FlatRegion> flat_regions(const std::vector<Point>& nodes, const std::vector<SurfaceTriangle>& triangles);
 
 }  // namespace fsi

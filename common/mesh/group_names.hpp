@@ -5,8 +5,8 @@
 
 namespace fsi {
 
-/// Names of physical groups with a meaning of their own (docs/theory.md, section 1.4). Every other volume is a wall
-/// layer named in the case file; every other surface is ignored by the programs.
+/// Names of physical groups with a meaning of their own (docs/theory.md, section 1.4). Other volumes are wall layers,
+/// other surfaces openings, supports or closed faces, as the case file says.
 namespace group {
 inline constexpr const char* fluid = "fluid";  ///< volume
 inline constexpr const char* inlet = "inlet";  ///< surfaces from here on
@@ -15,7 +15,7 @@ inline constexpr const char* wall_ends = "wall_ends";  ///< clamped end faces of
 inline constexpr const char* outer = "outer";          ///< free outer face of the wall, optional
 inline constexpr const char* inner = "inner";          ///< loaded face of a wall without fluid
 inline constexpr const char* wall = "wall";            ///< where a fluid alone has its wall, optional
-/// Names of a fluid's surface that say themselves that it sticks there: no case need mention them.
+/// Surfaces whose names say that the fluid sticks there: a case need not list them.
 constexpr bool is_no_opening(std::string_view name) {
   return name == wall || name == inner;
 }
@@ -28,7 +28,7 @@ constexpr bool is_symmetry_plane(std::string_view name) {
   return name == "symmetry" || name.substr(0, 9) == "symmetry_";
 }
 inline constexpr const char* oblique_symmetry = "symmetry_1";  ///< that of a sector which is normal to no axis
-inline constexpr std::array<const char*, 5> surfaces{inlet, outlet, wall_ends, outer, inner};  ///< and those planes
+inline constexpr std::array<const char*, 5> surfaces{inlet, outlet, wall_ends, outer, inner};  ///< not symmetry planes
 }  // namespace group
 
 }  // namespace fsi

@@ -93,7 +93,7 @@ class InterfaceChecks {
     return free;
   }
 
-  /// Free faces of fluid and wall that lie on each other: they look like an interface and would act as two walls.
+  /// Refuses free faces of fluid and wall that lie on each other: they look like an interface and act as two walls.
   void faces_that_meet_unshared() const {
     const auto free_faces = [&](const std::vector<int>& regions, const std::vector<const char*>& named) {
       FacetSet skip;
@@ -129,7 +129,7 @@ class InterfaceChecks {
       largest = std::max(largest, walls.back().size);
     }
     std::sort(walls.begin(), walls.end(), [](const Placed& a, const Placed& b) { return a.x < b.x; });
-    // Of edges the vector along them: it turns with the normal, which is all that is asked of it.
+    // Of edges the vector along them, which turns with the normal: only angles count here.
     const auto area = [&](const Facet& f) {
       if constexpr (Dim == 3)
         return triangle_area_vector(checked_.mesh.nodes[f[0]], checked_.mesh.nodes[f[1]], checked_.mesh.nodes[f[2]]);

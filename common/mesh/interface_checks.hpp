@@ -4,8 +4,8 @@
 
 namespace fsi {
 
-/// Of a scene of fluid and wall: they share facets, meet nowhere without sharing nodes, and what bounds the interface is
-/// clamped, in a plane of symmetry, on the axis or free in an opening.
+/// Checks a scene of fluid and wall: they share facets, meet nowhere without sharing nodes, and the interface's rim is
+/// clamped, in a plane of symmetry, on the axis or free at an opening. \throws InputError
 template <int Dim, int Order>
 void check_interface(const CheckedMesh<Dim, Order>& checked);
 

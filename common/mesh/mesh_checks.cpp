@@ -86,7 +86,7 @@ class Checks {
       for (std::size_t c = 0; c < checked_.mesh.cells.size(); ++c) {
         std::array<Point, nodes_of_simplex(Dim, 2)> x;
         for (std::size_t i = 0; i < x.size(); ++i) x[i] = checked_.mesh.nodes[checked_.mesh.cells[c][i]];
-        if (is_surely_positive<Dim>(x)) continue;  // most are, and are told so in a tenth of the time
+        if (is_surely_positive<Dim>(x)) continue;  // true of most, in a tenth of the time
         if (const auto jacobian = cell_jacobian<Dim>(x); !jacobian.positive)
           checked_.fail(fmt::format("{} {} of {}", Words::cell, c + 1, checked_.region_of(static_cast<int>(c))),
                         bad_curved_cell(jacobian), curved_cell_remedy);

@@ -20,22 +20,25 @@ struct SceneMeshNeeds {
   std::vector<std::string> holding = {"wall_ends"};   ///< of all surfaces, those that hold the wall
   std::vector<std::string> clamping = {"wall_ends"};  ///< those where it cannot move at all
   std::vector<std::string> left_out{};  ///< volumes of the file that the scene does not have, for remedies
-  /// Of triangle meshes: what is there called a volume is a physical surface, and what is called a surface a curve.
+  /// Of triangle meshes, whose volumes are physical surfaces and whose surfaces are physical curves.
   TriangleGeometry geometry = TriangleGeometry::axisymmetric;
 };
 
-/// Refuses meshes that a scene cannot be computed on. `file` is for the messages only.
-/// Throws InputError for: a missing volume or surface group; a facet with more than two cells, or with both on one side
-/// (folded mesh); nodes in the same place; quadratic cells whose Jacobian is not positive everywhere; surface facets
-/// that are no facets of the volumes they belong to, or that lie between two cells; a surface `symmetry_x` (y, z) that
-/// is not normal to x (y, z) everywhere; fluid in several pieces; wall pieces that nothing supports: no face in
-/// a surface that holds the wall or a symmetry plane, nor an axis of symmetry; with fluid and wall: no shared facet, faces that meet
-/// without sharing nodes, or a node of the interface's rim that is neither in a surface that clamps it, nor in a symmetry plane, nor
-/// on the axis of an axisymmetric mesh, nor in a surface of `supports` where an opening begins.
+/// Refuses meshes that a scene cannot be computed on. `file` is for the messages only. Throws InputError for: a missing
+/// volume or surface group; nodes in the same place; quadratic cells whose Jacobian is not positive everywhere; a facet
+/// with more than two cells, or with both on one side (folded mesh); surface facets that are no facets of the volumes
+/// they belong to, that lie between two cells, or that are in two openings or in an opening and a symmetry plane; a
+/// surface `symmetry_x` (y, z) that is not normal to x (y, z) everywhere, another symmetry plane that is not flat; an
+/// axis whose quadratic sides are not straight; fluid in several pieces; pieces of a wall, unless it is axisymmetric,
+/// without a face in a symmetry plane or a surface that holds the wall; with fluid and wall: no shared facet, faces
+/// that meet without sharing nodes, or a node of the interface's rim that is neither in a surface that clamps it, nor
+/// in a symmetry plane, nor on the axis of an axisymmetric mesh, nor in a surface of `supports` where an opening
+/// begins.
 template <int Dim, int Order>
 void check_scene_mesh(const SimplexMesh<Dim, Order>& mesh, const SceneMeshNeeds& needs, const std::string& file);
 
-/// The same checks, of which each says the first thing that it refuses. Empty for a mesh that check_scene_mesh() takes.
+/// What each of these checks refuses first; those that need sound facets are skipped without them. Empty for a mesh
+/// that check_scene_mesh() takes.
 template <int Dim, int Order>
 std::vector<MeshFault> scene_mesh_faults(const SimplexMesh<Dim, Order>& mesh, const SceneMeshNeeds& needs,
                                          const std::string& file);

@@ -4,7 +4,7 @@
 
 namespace fsi {
 
-/// Something that no driver takes of a mesh, for callers that want to hear of all of it.
+/// A reason why drivers refuse a mesh, for callers that collect all of them.
 struct MeshFault {
   enum class Kind {
     unused_nodes,

@@ -52,7 +52,7 @@ MeshShare share_mesh(const SimplexMesh<Dim, Order>& mesh, const Communicator& pr
   {
     std::vector<int> offsets, columns, weights;
     nodes_around(mesh, EvenStretch(static_cast<std::int64_t>(mesh.nodes.size()), processes), offsets, columns);
-    // What a node costs grows with its row: with the elements around it, and the products with it.
+    // The cost of a node grows with its row: with the elements around it, and the products with it.
     for (std::size_t a = 0; a + 1 < offsets.size(); ++a) weights.push_back(std::max(1, offsets[a + 1] - offsets[a]));
     share.owner = partition_of_graph(offsets, columns, weights, processes);
   }

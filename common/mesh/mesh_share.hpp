@@ -20,11 +20,11 @@ struct MeshShare {
   const Communicator* processes = nullptr;
   std::vector<int> owner;  ///< per node of the mesh
   std::vector<int> held;   ///< nodes that this process holds, ascending
-  /// Nodes of the mesh that processes have to tell each other of, ascending; items are mesh nodes.
+  /// What is exchanged with each neighbouring process: numbers of mesh nodes, ascending.
   std::vector<Exchange::Neighbour> neighbours;
 
   bool owns(int node) const { return owner[node] == processes->rank(); }
-  /// Sums over cells, or facets, count each at one process: at the owner of its first node.
+  /// Sums over cells or facets count each at one process, the owner of its node of least number.
   template <class Nodes>
   bool counts(const Nodes& nodes) const {
     return owns(*std::min_element(nodes.begin(), nodes.end()));
@@ -36,18 +36,19 @@ struct MeshShare {
 };
 
 /// Shares out the nodes of a mesh so that processes have about the same work and few cells touch nodes of several.
+/// Collective.
 template <int Dim, int Order>
 MeshShare share_mesh(const SimplexMesh<Dim, Order>& mesh, const Communicator& processes);
 
-/// From the numbers of a medium's whole part of the mesh to those of the part of it that this process holds.
+/// Maps numbers of a medium's whole part of the mesh to those of the part of it that this process holds.
 class PartRestriction {
  public:
-  /// \param whole  must outlive this
+  /// Both must outlive this.
   PartRestriction(const PartNodes& whole, const MeshShare& mesh);
 
   /// Per node here, its number in the whole part; ascending.
   const std::vector<int>& whole_nodes() const { return share_->whole_node; }
-  /// Here, of a node of the whole part; -1: not here.
+  /// The number here of a node of the whole part; -1: not here.
   int local(int whole_node) const { return local_[whole_node]; }
   bool owns_whole(int whole_node) const { return local_[whole_node] >= 0 && share_->owned[local_[whole_node]] != 0; }
   /// The process that owns it.
@@ -69,15 +70,15 @@ class PartRestriction {
   /// Nodes of the whole part that are here, in numbers here, in their order.
   std::vector<int> nodes(const std::vector<int>& whole) const;
 
-  /// The facets (cells, ...) of the whole part that touch a node of this process, in numbers here: those that rows of
-  /// its nodes feel.
+  /// The facets (cells, ...) of the whole part that touch a node of this process, in numbers here: those that
+  /// contribute to rows of its nodes.
   template <class Facet>
   std::vector<Facet> facets(const std::vector<Facet>& whole) const {
     return those<Facet>(whole, [this](const Facet& facet) {
       return std::any_of(facet.begin(), facet.end(), [this](int node) { return owns_whole(node); });
     });
   }
-  /// Of these the ones that sums count here.
+  /// Those of them that sums count here.
   template <class Facet>
   std::vector<Facet> counted_facets(const std::vector<Facet>& whole) const {
     return those<Facet>(whole, [this](const Facet& facet) { return counts(facet); });

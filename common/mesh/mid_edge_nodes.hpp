@@ -65,8 +65,8 @@ SimplexMesh<Dim, 2> with_mid_edge_nodes(const SimplexMesh<Dim, 1>& mesh) {
   return quadratic;
 }
 
-/// The mesh of the vertices alone: quadratic cells and facets become straight ones between the same vertices. Nodes that
-/// are no vertex of any cell are dropped, the others keep their order; cells, regions and groups stay as they are.
+/// The mesh of the vertices alone: quadratic cells and facets become straight ones between the same vertices. Nodes
+/// that are no vertex of any cell are dropped, the others keep their order; cells, regions and groups stay as they are.
 template <int Dim>
 SimplexMesh<Dim, 1> without_mid_edge_nodes(const SimplexMesh<Dim, 2>& mesh) {
   SimplexMesh<Dim, 1> linear;

@@ -31,9 +31,9 @@ std::array<int, Nodes> reversed(const std::array<int, Nodes>& simplex) {
   return result;
 }
 
-/// A mesh and its image in the plane where coordinate `axis` is zero, as one conforming mesh. Nodes with that coordinate
-/// exactly zero are shared; cells and nodes of the image follow those of the mesh. Facets in the plane lie inside the
-/// new mesh: they are left out, and with them groups of nothing else.
+/// A mesh and its image in the plane where coordinate `axis` is zero, as one conforming mesh. Nodes with that
+/// coordinate exactly zero are shared; cells and nodes of the image follow those of the mesh. Facets in the plane lie
+/// inside the new mesh: they are left out, and with them groups of nothing else.
 template <int Dim, int Order>
 SimplexMesh<Dim, Order> joined_with_mirror_image(const SimplexMesh<Dim, Order>& mesh, int axis) {
   SimplexMesh<Dim, Order> joined;

@@ -7,7 +7,7 @@
 
 namespace fsi {
 
-/// What an opening of a lumen looks like. Of quadratic facets the flat triangles between the vertices.
+/// The shape of an opening of a lumen. Quadratic facets count as the flat triangles between their vertices.
 struct OpeningShape {
   std::size_t triangles = 0;
   double area = 0;          ///< mm^2
@@ -30,8 +30,8 @@ OpeningShape shape_of_opening(const std::vector<Point>& nodes, const std::vector
 /// "12.6 mm^2, radius 2 mm, at (0, 0, 0) mm, flat, round": what it is, as a part of a sentence.
 std::string to_text(const OpeningShape& shape);
 
-/// What a disk cut across a vessel has not: "is one triangle", "is bent, ...", "has 2 rims, ..."; empty: nothing of this. That it
-/// is not round is no fault.
+/// How it differs from a disk cut across a vessel: "is one triangle", "is bent, ...", "has 2 rims, ..."; empty: not at
+/// all. That it is not round does not count.
 std::string said_of(const OpeningShape& shape);
 
 }  // namespace fsi

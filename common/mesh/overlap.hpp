@@ -14,9 +14,9 @@ struct Overlap {
   Point first{};          ///< where one of them does, mm
 };
 
-/// Where cells lie in each other: a place in a cell near one of its vertices, a tenth of the way to its middle, lies in another cell,
-/// too, where every barycentric coordinate is 0.001 at least. Places are looked for in cells near them only
-/// (mesh/cell_grid.hpp). Cells that cross without such a place in each other are not seen, cells without volume not looked at.
+/// Cells that reach into each other: a point of a cell, a tenth of the way from a vertex to the centre, lies in another
+/// cell, too, with barycentric coordinates of 0.001 or more. Cells that cross without such a point are not found; flat
+/// and inverted ones are left out.
 template <int Dim, int Order>
 std::vector<Overlap> overlaps(const SimplexMesh<Dim, Order>& mesh);
 

@@ -46,8 +46,8 @@ inline Point triangle_area_vector(const Point& a, const Point& b, const Point& c
   return 0.5 * cross(b - a, c - a);
 }
 
-/// u x v of two vectors of a triangle mesh's plane, mm^2; positive when v lies counter-clockwise of u, seen with r (or x)
-/// to the right and z (or y) upwards. Such vectors are (r, 0, z) or (x, y, 0), so one of the two terms is zero.
+/// u x v of two vectors of a triangle mesh's plane, mm^2; positive when v lies counter-clockwise of u, seen with r (or
+/// x) to the right and z (or y) upwards. Such vectors are (r, 0, z) or (x, y, 0), so one of the two terms is zero.
 inline double planar_cross(const Point& u, const Point& v) {
   return (u[0] * v[2] - u[2] * v[0]) + (u[0] * v[1] - u[1] * v[0]);
 }

@@ -21,8 +21,7 @@ double smallest_dihedral(const std::array<Point, 4>& corners);
 /// Smallest of the three angles of a triangle, in degrees; 60 when regular.
 double smallest_angle(const std::array<Point, 3>& corners);
 
-/// Figures that tell whether a mesh is fit for use.
-/// Mean ratios and angles are those of the straight cells between the vertices.
+/// Quality of a mesh. Mean ratios and angles are those of the straight cells between the vertices.
 struct MeshQuality {
   struct Region {
     std::string name;
@@ -32,10 +31,10 @@ struct MeshQuality {
     double mean_eta = 0;      ///< mean of the mean ratios
     double min_angle = 0;     ///< degrees; smallest dihedral angle of tetrahedra, smallest angle of triangles
     double min_jacobian = 1;  ///< smallest ratio of least to mean det J in a cell; 1 where cells are straight
-    int layers = 0;           ///< element layers across, see element_layers(); 0 where the question has no answer
-    std::size_t poor = 0;     ///< elements beyond poor_eta, poor_angle or poor_jacobian
-    int worst = -1;           ///< the element of the smallest mean ratio, or most curved: its number in the mesh,
-    Point worst_at{};         ///< and its centre, mm
+    int layers = 0;           ///< element layers across, see element_layers(); 0 where it is undefined
+    std::size_t poor = 0;     ///< elements below poor_eta, poor_angle or poor_jacobian
+    int worst = -1;           ///< number in the mesh, from 0, of the element with the smallest eta or least/mean det J
+    Point worst_at{};         ///< its centre, mm
   };
   int dimension = 3, order = 1;
   std::size_t nodes = 0;
@@ -47,19 +46,19 @@ struct MeshQuality {
   std::vector<Region> regions;
 };
 
-/// Element layers across a shell-like region: the fewest element edges, all inside the region, that lead from one of
-/// its faces to the other. Faces are the connected parts of its boundary without `wall_ends` and the planes of symmetry.
-/// 0 when there are not exactly two of them (a solid region such as the fluid has one).
+/// Element layers across a shell-like region: the fewest element edges, all inside the region, from one of its faces to
+/// the other. Faces are the connected parts of its boundary without `wall_ends` and the planes of symmetry. 0 when
+/// there are not exactly two of them (a solid region such as the fluid has one).
 template <int Dim, int Order>
 int element_layers(const SimplexMesh<Dim, Order>& mesh, int region);
 
 template <int Dim, int Order>
 MeshQuality measure_quality(const SimplexMesh<Dim, Order>& mesh);
 
-/// A mean ratio below this, or a (dihedral) angle below that, makes the linear systems hard and the answer poor: the
-/// stabilisation's length and the stiffness differ by more than ten between the directions of such an element.
+/// Below this mean ratio linear systems are hard to solve and results poor: the stabilisation's length and the
+/// stiffness differ by more than ten between the directions of such an element.
 constexpr double poor_eta = 0.2;
-constexpr double poor_angle = 5;  ///< degrees
+constexpr double poor_angle = 5;  ///< the same of a (dihedral) angle, degrees
 /// Where det J falls below this part of its mean in the element, quadratic shape functions interpolate poorly.
 constexpr double poor_jacobian = 0.2;
 

@@ -13,9 +13,9 @@ struct Renumbering {
 };
 
 /// Reverse Cuthill-McKee order of the nodes [Cuthill1969], each connected part started from a node at the end of a long
-/// path (the pseudo-peripheral node of [George1979]); cells by their smallest new node.
-/// Of quadratic cells the vertices are ordered; a mid-edge node comes among those that end at the later of its two.
-/// Keeps matrix rows of neighbours close in memory. Depends on nothing but the mesh: ties go by old index.
+/// path (the pseudo-peripheral node of [George1979]); cells by their smallest new node. In quadratic meshes the
+/// vertices are ordered so; a mid-edge node comes before the later of its two vertices. Keeps matrix rows of neighbours
+/// close in memory. Depends on nothing but the mesh: ties go by old index.
 template <int Dim, int Order>
 Renumbering reverse_cuthill_mckee(const SimplexMesh<Dim, Order>& mesh);
 

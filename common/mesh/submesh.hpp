@@ -149,7 +149,7 @@ Submesh<Dim, Order> split_between_regions(const Submesh<Dim, Order>& part) {
   return split;
 }
 
-/// Names, in facets of the part's boundary, the copies that the cell behind each facet has in place of the originals.
+/// Replaces, in facets of the part's boundary, the originals by the copies that the cell behind each facet has.
 template <int Dim, int Order>
 void name_copies_of_cells(const Submesh<Dim, Order>& part, std::vector<typename Submesh<Dim, Order>::Facet>& facets) {
   if (!part.has_copies()) return;

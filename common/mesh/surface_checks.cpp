@@ -101,7 +101,7 @@ class SurfaceChecks {
             fmt::format("put every {} into one of the two groups only", Dim == 3 ? "face" : "side"));
   }
 
-  /// What can hold a wall whose ends are clamped nowhere: an axis or planes of symmetry.
+  /// Whether an axis or planes of symmetry may hold a wall whose ends are clamped nowhere.
   bool supported_by_symmetry() const {
     if (Dim == 2 && checked_.needs.geometry == TriangleGeometry::axisymmetric) return true;
     return !checked_.planes.empty();

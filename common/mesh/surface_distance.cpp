@@ -12,8 +12,8 @@ namespace fsi {
 
 namespace {
 
-/// Weights of a triangle's corners at the point of it that is nearest to x, by the region of corners, edges and face that x
-/// lies above (C. Ericson, Real-Time Collision Detection, section 5.1.5).
+/// Weights of a triangle's corners at the point of it that is nearest to x, by the region of corners, edges and face
+/// that x lies above (C. Ericson, Real-Time Collision Detection, section 5.1.5).
 std::array<double, 3> nearest_weights(const Point& x, const Point& a, const Point& b, const Point& c) {
   const Point ab = b - a, ac = c - a, ax = x - a, bx = x - b, cx = x - c;
   const double a_ab = dot(ab, ax), a_ac = dot(ac, ax);

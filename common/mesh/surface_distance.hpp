@@ -8,7 +8,7 @@
 
 namespace fsi {
 
-/// The point of a surface that is nearest to another one.
+/// The point of a surface that is nearest to a given one.
 struct NearestPoint {
   double distance = std::numeric_limits<double>::infinity();  ///< mm
   Point at{};                                                 ///< mm
@@ -16,8 +16,8 @@ struct NearestPoint {
   std::array<double, 3> weights{};                            ///< of the facet's nodes there, 1 together
 };
 
-/// Distances from a surface of triangles, or from a line of edges: an edge (a, b) is the triangle (a, b, b). By a tree of
-/// boxes, so that one question costs the logarithm of the number of facets.
+/// Distances from a surface of triangles, or from a line of edges: an edge (a, b) is the triangle (a, b, b). With a
+/// tree of boxes a query costs the logarithm of the number of facets.
 class SurfaceDistance {
  public:
   using Facet = std::array<int, 3>;
@@ -27,7 +27,7 @@ class SurfaceDistance {
 
   const std::vector<Facet>& facets() const { return facets_; }
 
-  /// \param guess  a facet that may be near; it changes the time that this takes alone
+  /// \param guess  a facet that may be near: saves time, and is the one returned of several at equal distance
   NearestPoint nearest(const Point& x, int guess = -1) const;
 
  private:

@@ -19,7 +19,7 @@ namespace {
 constexpr double leaning_away = 0.5;   // cosine of 60 degrees
 constexpr double looks_one_way = 0.5;  // of a piece's area, the least that its mean normal has
 
-/// The facet's normal times its size. Of edges in the plane y = 0 or z = 0, of which one coordinate of all nodes is zero.
+/// The facet's normal times its size. Edges lie in the plane y = 0 or z = 0, so that one of the two terms is zero.
 template <int Dim, std::size_t Nodes>
 Point area_vector(const std::vector<Point>& nodes, const std::array<int, Nodes>& f) {
   if constexpr (Dim == 3) {
@@ -30,7 +30,7 @@ Point area_vector(const std::vector<Point>& nodes, const std::array<int, Nodes>&
   }
 }
 
-/// Of some facets, those connected by shared sides.
+/// The parts of some facets that shared sides connect, the largest first.
 template <int Dim, std::size_t Nodes>
 std::vector<SurfacePiece> connected(const std::vector<Point>& nodes, const std::vector<std::array<int, Nodes>>& surface,
                                     const std::vector<std::size_t>& some) {

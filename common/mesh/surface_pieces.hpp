@@ -14,12 +14,12 @@ struct SurfacePiece {
   double size = 0;                  ///< mm^2; of edges mm
 };
 
-/// How a surface that should be one flat opening falls apart.
+/// The parts of a surface that should be one flat opening.
 struct SurfacePieces {
   /// Connected by shared edges, in two dimensions by shared vertices; the largest first.
   std::vector<SurfacePiece> pieces;
-  /// Facets that lean away from the mean plane of their piece by more than 60 degrees, in connected parts, the largest first; a
-  /// piece whose facets look all round has none. A facet of the side beside a disk is one; a curved opening has none.
+  /// Facets whose normal is more than 60 degrees from the mean of their piece, in connected parts, the largest first. A
+  /// facet of the side beside a disk is one; a curved opening has none, nor has a piece whose facets look all round.
   std::vector<SurfacePiece> leaning;
 
   bool whole() const { return pieces.size() < 2 && leaning.empty(); }
@@ -33,7 +33,7 @@ SurfacePieces pieces_of(const std::vector<Point>& nodes, const std::vector<std::
 template <int Dim>
 std::string places_of(const std::vector<SurfacePiece>& pieces);
 
-/// What is wrong with a surface as an opening, "is in 2 pieces, ..."; empty: nothing of this.
+/// What is wrong with a surface as an opening, "is in 2 pieces: ..."; empty: nothing.
 template <int Dim>
 std::string said_of(const SurfacePieces& pieces);
 

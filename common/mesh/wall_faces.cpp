@@ -137,7 +137,8 @@ struct Layer {
   std::vector<BoundaryFacet<Dim, Order>> boundary;
 };
 
-/// The wall's regions from inside outwards, each with neighbours before and behind it alone; empty where they lie otherwise.
+/// The wall's regions from inside outwards, each with neighbours before and behind it alone; empty where they lie
+/// otherwise.
 template <int Dim, int Order>
 std::vector<Layer<Dim, Order>> layers_of(const SimplexMesh<Dim, Order>& mesh, const FacetsOfWall<Dim, Order>& wall) {
   std::vector<Layer<Dim, Order>> layers, left;

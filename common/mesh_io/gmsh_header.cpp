@@ -111,7 +111,7 @@ class Header {
       fail(fmt::format("expected the begin of a section at byte {}", position_));
   }
 
-  /// A section of nodes or elements; false where it is not worth going on.
+  /// Passes over a section of nodes or elements; false where its end cannot be found, or only slowly.
   template <class BytesOfOne>
   bool walk(const char* what, std::uint64_t least, const BytesOfOne& bytes_of_one) {
     const auto blocks = next<std::int64_t>(), total = next<std::int64_t>();

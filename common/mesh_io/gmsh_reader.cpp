@@ -79,7 +79,7 @@ class Reader {
     throw InputError(file_, key, problem, remedy);
   }
 
-  /// What a caller may want to hear of together with all else that is wrong.
+  /// Collects a fault where the caller asks for all of them; else throws it.
   void fault(MeshFault::Kind kind, const std::string& key, const std::string& problem,
              const std::string& remedy) const {
     if (faults_ == nullptr) fail(key, problem, remedy);
@@ -313,7 +313,7 @@ class Reader {
     }
 
     const auto is_fluid = [&](int cell) { return mesh_.regions[mesh_.cell_region[cell]] == group::fluid; };
-    for (int pass = 0; pass < 2; ++pass)  // fluid cells first: they have the first word on orientation
+    for (int pass = 0; pass < 2; ++pass)  // fluid cells first: they orient what they share
       for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
         if (is_fluid(static_cast<int>(c)) != (pass == 0)) continue;
         for (const auto& facet : outward_facets<Dim, Order>(mesh_.cells[c]))

@@ -14,7 +14,7 @@ namespace fsi {
 /// InputError with the section as key and the line (text) or byte offset (binary).
 class GmshScanner {
  public:
-  /// Loads the whole file. Throws when it is missing, a folder or unreadable.
+  /// Loads the whole file. Throws when it is missing, a folder, unreadable or too large for the memory.
   explicit GmshScanner(const std::filesystem::path& path);
 
   /// Whether the file begins with this text.
@@ -35,22 +35,21 @@ class GmshScanner {
   std::int32_t integer(const char* what);
   /// An 8-byte unsigned number (a `size_t` of the format); must fit 63 bits.
   std::int64_t tag(const char* what);
-  /// A number of things that each need at least `bytes_each` more bytes of binary data; held against what is left.
+  /// A number of things that each need `bytes_each` more bytes of binary data or more; compared with what is left.
   std::int64_t count(const char* what, std::size_t bytes_each);
   /// The same, written as a line of text whether the file is binary or not.
   std::int64_t text_count(const char* what, std::size_t bytes_each);
-  /// An 8-byte real, finite.
+  /// An 8-byte real, of 1e30 at most.
   double real(const char* what);
 
-  /// Text tokens, whether the file is binary or not.
-  std::string word();
-  std::int32_t text_integer(const char* what);
-  std::string quoted(const char* what);
-  /// The bytes behind the current line, for the binary marker of byte order.
-  void end_line();
-  std::int32_t binary_integer(const char* what);
+  // Whether the file is binary or not:
+  std::string word();                             ///< text up to the next blank
+  std::int32_t text_integer(const char* what);    ///< as text
+  std::string quoted(const char* what);           ///< text in double quotes, on one line
+  void end_line();                                ///< expects nothing but blanks up to the next line
+  std::int32_t binary_integer(const char* what);  ///< 4 bytes
 
-  /// Throws InputError about the section read now.
+  /// Throws InputError about the current section.
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy = default_remedy) const;
 
   static constexpr const char* default_remedy = "the file is truncated or damaged; write it again with gmsh";

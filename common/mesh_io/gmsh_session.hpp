@@ -24,7 +24,7 @@ class GmshSession {
   GmshSession(const GmshSession&) = delete;
   GmshSession& operator=(const GmshSession&) = delete;
 
-  /// What went wrong last, to be asked where a call has thrown: the type thrown differs between versions of the library.
+  /// The last error, for use where a call has thrown: the type thrown differs between versions of the library.
   static std::string last_error() {
     std::string said;
     gmsh::logger::getLastError(said);

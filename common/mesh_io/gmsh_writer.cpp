@@ -24,8 +24,8 @@ constexpr int gmsh_simplex(int dim, int order) {
   return numbers[dim - 1][order - 1];
 }
 
-/// Adds node tags in gmsh's order: vertices first, then the middles of the edges. Its quadratic tetrahedron has the last
-/// two edges the other way round.
+/// Adds node tags in gmsh's order: vertices first, then the middles of the edges. Its quadratic tetrahedron has the
+/// last two edges the other way round.
 template <std::size_t Nodes>
 void add_tags(const std::array<int, Nodes>& simplex, std::vector<std::size_t>& tags) {
   for (const int node : simplex) tags.push_back(node + 1);

@@ -59,8 +59,9 @@ class TurnedStack {
   double length_, turn_;
 };
 
-/// Cross-sections stacked in line at given heights. Nodes are coloured like a chessboard over rings and steps; diagonals
-/// start at one colour in even slabs and at the other in odd ones, so that they alternate both ways on every cylinder.
+/// Cross-sections stacked in line at given heights. Nodes are coloured like a chessboard over rings and steps;
+/// diagonals start at one colour in even slabs and at the other in odd ones, so that they alternate both ways on every
+/// cylinder.
 class LinedUpStack {
  public:
   LinedUpStack(const CrossSection& section, std::vector<double> heights)

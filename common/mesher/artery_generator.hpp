@@ -5,8 +5,8 @@
 
 namespace fsi {
 
-/// A conforming mesh with volumes `fluid`, `media`, `adventitia` and surfaces `inlet` (z = 0), `outlet`, `wall_ends`,
-/// `outer`. Every node of an interface or of the outer face lies on its cylinder.
+/// A conforming mesh with volumes `fluid`, `media`, `adventitia` (unless its thickness is 0) and surfaces `inlet`
+/// (z = 0), `outlet`, `wall_ends`, `outer`. Every node of an interface or of the outer face lies on its cylinder.
 ///
 /// The cross-section (a hexagonal pattern of triangles bent into the disk, then rings of triangles) is extruded into
 /// prisms, turned half a step from station to station and back, and each prism cut into three tetrahedra. Sizes are met
@@ -16,8 +16,8 @@ TetrahedralMesh generate_artery(const ArteryOptions& options);
 
 /// A mesh of the same volumes and surfaces by numbers of cells, which may be graded, of the whole tube or of a sector
 /// between planes of symmetry (see ring_section()), whose surfaces are `symmetry_y`, and `symmetry_x` or `symmetry_1`:
-/// nodes on the first two have y = 0 or x = 0 exactly. Stations stand in line; diagonals alternate around and along, so that the mesh is as stiff
-/// one way around as the other. Throws InputError with the fsi-mesh option at fault.
+/// nodes on the first two have y = 0 or x = 0 exactly. Stations stand in line; diagonals alternate around and along, so
+/// that the mesh is as stiff one way around as the other. Throws InputError with the fsi-mesh option at fault.
 TetrahedralMesh generate_artery(const ArteryShape& shape, const ArteryCells& cells, int sector_degrees = 360);
 
 /// The meridian section of the artery for axisymmetric scenes: triangles with nodes (r, 0, z), counter-clockwise seen

@@ -29,7 +29,7 @@ class EdgeMiddles {
   }
   int at(int a, int b) const { return node_.at(key(a, b)); }
 
-  /// Of an edge, the same for both directions.
+  /// A number for an edge, the same for both directions.
   static std::uint64_t key(int a, int b) {
     const auto [low, high] = std::minmax(a, b);
     return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
@@ -39,8 +39,7 @@ class EdgeMiddles {
   std::unordered_map<std::uint64_t, int> node_;
 };
 
-/// What the nodes of a quadratic simplex count half way between two of them, in its own coordinates: its shape functions
-/// there.
+/// The shape functions of a quadratic simplex half way between its nodes p and q, in barycentric coordinates.
 template <int Dim>
 std::array<double, nodes_of_simplex(Dim, 2)> weights_between(int p, int q) {
   std::array<double, Dim + 1> lambda{};
@@ -60,7 +59,7 @@ std::array<double, nodes_of_simplex(Dim, 2)> weights_between(int p, int q) {
   return weights;
 }
 
-/// Half way between the nodes p and q of a quadratic cell, in its own coordinates; mm.
+/// The point half way between the nodes p and q of a quadratic cell, in barycentric coordinates; mm.
 template <int Dim>
 Point point_between(const std::vector<Point>& nodes, const std::array<int, nodes_of_simplex(Dim, 2)>& cell, int p,
                     int q) {
@@ -70,7 +69,7 @@ Point point_between(const std::vector<Point>& nodes, const std::array<int, nodes
   return x;
 }
 
-/// Refuses a part of a cell that the reader of meshes would refuse.
+/// Refuses a part of a cell that read_gmsh() would refuse as inverted or degenerate.
 /// \param cell  vertices first
 /// \param sign  of its volume, as its vertices stand: 1 or -1
 /// \throws InputError where the straight cell between the vertices is inverted or flat

@@ -21,7 +21,7 @@ constexpr double sharpness = 8;  // of the soft minimum
 constexpr double most_exponent = 60;
 constexpr double gain = 5e-3;  // of the penalty, below which a move is none
 
-/// Tops that slide.
+/// The tops of columns, and the quality of the prisms below them.
 class SlidingTops {
  public:
   /// \param height  part of the thickness that the columns have
@@ -50,7 +50,8 @@ class SlidingTops {
     for (std::size_t f = 0; f < ground.facets.size(); ++f) quality_.push_back(quality(static_cast<int>(f)));
   }
 
-  /// Brings the tops of poor prisms, and those around them, to the middle of their neighbours', all at once, some times.
+  /// Moves the tops of poor prisms and those around them half way to the mean of their neighbours', all at once, 4
+  /// times.
   void spread() {
     constexpr int times = 4;
     for (int i = 0; i < times; ++i) {
@@ -68,7 +69,7 @@ class SlidingTops {
     }
   }
 
-  /// Moves tops until no prism is poor, or none can be bettered. Returns the smallest quality.
+  /// Moves tops until no prism is poor or no move helps. Returns the smallest quality.
   double slide() {
     constexpr int most_rounds = 100;
     for (int round = 0; round < most_rounds; ++round) {
@@ -112,7 +113,7 @@ class SlidingTops {
     return least;
   }
 
-  /// What a top makes of the cells around it: large where one is poor.
+  /// Penalty of a top for the cells around it: large where one is poor.
   double penalty(int node) const {
     double sum = 0;
     for (const int f : around_[node])
@@ -156,8 +157,8 @@ class SlidingTops {
     return nodes;
   }
 
-  /// Moves a top to the best of some places around it: the middle of its neighbours', half of the way there, and those one
-  /// step away. Shortens the step where none is better.
+  /// Moves a top to the best of some places around it: the mean of its neighbours', half of the way there, and those
+  /// one step away. Halves the step where none is better; false once it is too short.
   bool better(int node) {
     const auto& planes = ground_.planes[node];
     if (planes.size() > 1) return false;
@@ -238,7 +239,7 @@ std::vector<Point> column_tops(const ColumnGround& ground, const OffsetDistance&
   };
   SlidingTops at_once(ground, offset, along_normals(1), 1);
   if (at_once.slide() > 0) return at_once.tops();
-  // Bit by bit, each from where the one before slid to.
+  // In small rises, each from where the one before slid to.
   std::vector<Point> tops;
   for (int rise = 1; rise <= rises; ++rise) {
     const double reach = static_cast<double>(rise) / rises;

@@ -25,7 +25,7 @@ std::unordered_set<std::uint64_t> edges_on_boundary(const SimplexMesh<Dim, Order
   for (const auto& group : mesh.facet_groups)
     if (group::is_symmetry_plane(group.name))
       for (const auto& facet : group.facets) mirrors.insert(facet_key<Dim>(facet));
-  // Meridian sections lie in the plane y = 0; where a plane mesh does, too, its side x = 0 is taken for an axis.
+  // Meridian sections lie in the plane y = 0; those drawn in z = 0 are taken for plane ones.
   const bool section =
       Dim == 2 && std::all_of(mesh.nodes.begin(), mesh.nodes.end(), [](const Point& x) { return x[1] == 0; });
   std::unordered_set<std::uint64_t> edges;

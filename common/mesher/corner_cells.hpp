@@ -6,17 +6,18 @@
 
 namespace fsi {
 
-/// Cells of the fluid in corners of its boundary, which the Taylor-Hood element cannot have: every edge of theirs lies on the
-/// boundary, and so do all edges of all cells around one of their vertices. Where the velocity is given on that boundary no
-/// free velocity is left beside the pressure of the vertex, which then has no equation [Boffi1997]. Openings count as such a
-/// boundary, since a case may give the flow there, planes of symmetry and the axis of revolution do not: along them the fluid moves.
+/// Cells of the fluid in corners of its boundary, with which the Taylor-Hood element has no solution: all their edges
+/// lie on the boundary, as do all edges of all cells around one of their vertices. Where the velocity is given there,
+/// no free velocity is left beside the pressure of the vertex, which then has no equation [Boffi1997]. Openings count
+/// as boundary, since a case may give the flow there; planes of symmetry and the axis of revolution do not, since the
+/// fluid moves along them.
 /// \return their numbers, ascending; empty without a volume `fluid`
 template <int Dim, int Order>
 std::vector<int> corner_cells(const SimplexMesh<Dim, Order>& mesh);
 
-/// Divides cells at their centres of gravity, a tetrahedron in four, a triangle in three. Nothing changes on their sides, so
-/// neighbours still fit. Of quadratic cells the parts are those of the curved cell: edges and faces stay where they are.
-/// \param cells  numbers, ascending. The first part of each keeps its place; new cells and nodes follow behind the others.
+/// Divides cells at their centres, a tetrahedron in four, a triangle in three. Their sides do not change, so that the
+/// mesh stays conforming; curved edges and faces stay where they are.
+/// \param cells  numbers, ascending. The first part of each keeps its place; new cells and nodes follow the others.
 template <int Dim, int Order>
 SimplexMesh<Dim, Order> divided_at_centres(SimplexMesh<Dim, Order> mesh, const std::vector<int>& cells);
 

@@ -8,14 +8,15 @@
 
 namespace fsi {
 
-/// Adds the curves of columns of prisms that end on a surface with curved edges. Below the middle of an edge of the surface a column
-/// stands in the mean direction of those on its ends, with nodes at the mean of their distances from the surface: on cylinders
-/// and spheres those of concentric ones. An edge across a column's side has its node half way between the middles of the edges
-/// below and above, one along a column is straight.
+/// Adds the curves of columns of prisms that end on a surface with curved edges. Below the middle of an edge of the
+/// surface a column stands in the mean direction of those below its ends, with nodes at the mean of their distances
+/// from the surface: on cylinders and spheres those of concentric ones. The diagonal of a column's side has its node
+/// half way between the middles of the edges below and above; edges along columns are straight.
 /// \param surface  the curved edges of the surface, which are kept
 EdgeCurves with_columns(const TetrahedralMesh& mesh, const Levels& levels, const EdgeCurves& surface);
 
-/// straighten_folded() of columns as a whole: takes the curves of edges of the surface away, with all below, until no cell is folded.
+/// straighten_folded() for whole columns: takes away curves of the surface's edges, and with each those below, until no
+/// cell is folded.
 /// \return the middles of the surface's edges that are straight now, mm
 std::vector<Point> straighten_folded_columns(const TetrahedralMesh& mesh, const Levels& levels, EdgeCurves& surface);
 

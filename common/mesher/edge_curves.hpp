@@ -8,11 +8,11 @@
 
 namespace fsi {
 
-/// Where the nodes in the middles of edges lie, mm, by the edges' ends, the smaller number first. Edges that are not there are
-/// straight, their nodes half way.
+/// Mid-edge nodes, mm, by the edges' ends, the smaller number first. Edges that are not there are straight, their nodes
+/// half way.
 using EdgeCurves = std::map<std::pair<int, int>, Point>;
 
-/// All middles of a quadratic mesh's edges, in the numbers of without_mid_edge_nodes().
+/// All mid-edge nodes of a quadratic mesh, in the numbers of without_mid_edge_nodes().
 EdgeCurves curves_of(const SimplexMesh<3, 2>& mesh);
 
 /// with_mid_edge_nodes(), the edges curved.

@@ -40,15 +40,15 @@ void require_constants(const std::filesystem::path& script, const std::map<std::
   }
 }
 
-/// What the reader says of a mesh, said of the script that it was made by.
+/// Repeats an error about the mesh as one about the script that made it.
 [[noreturn]] void refuse_mesh(const std::filesystem::path& script, const std::filesystem::path& file,
                               std::string said) {
   if (const auto name = file.string(); said.rfind(name + ": ", 0) == 0) said.erase(0, name.size() + 2);
   throw InputError(script.string(), "", "its mesh: " + said, "correct the script; gmsh itself shows the mesh");
 }
 
-/// The sizes in place of all that the script says of sizes: those of points, curves and fields, and its least and largest
-/// one. They would keep cells as long as they were where the error asks for shorter ones.
+/// Puts the sizes in place of all of the script's: those of points, curves and fields, and its bounds. These would keep
+/// cells as long as they were where the error asks for shorter ones.
 void set_sizes(const SizeField& sizes) {
   const std::size_t numbers = 4 * (static_cast<std::size_t>(sizes.dimension) + 1);
   const int view = gmsh::view::add("sizes");

@@ -19,9 +19,9 @@ using AnyMesh = std::variant<SimplexMesh<2, 1>, SimplexMesh<2, 2>, SimplexMesh<3
 /// \param numbers  constants of the script (DefineConstant) that get other values
 /// \param order    1: straight edges; 2: quadratic cells with nodes on the shape
 /// \param near     the file that the mesh is for: a temporary one is written beside it
-/// \param sizes    of the cells, in place of those of the script but for its bounds; null: the script's
-/// \throws InputError for a script that is missing, is refused by gmsh, defines no physical groups or none of the
-///         numbers, and for what read_gmsh() refuses
+/// \param sizes    of the cells, in place of all sizes of the script; null: the script's
+/// \throws InputError for a script that is missing, is refused by gmsh, defines no physical groups or not a constant of
+///         `numbers`, and for what read_gmsh() refuses
 AnyMesh mesh_of_geo_script(const std::filesystem::path& script, const std::map<std::string, double>& numbers, int order,
                            const std::filesystem::path& near, const SizeField* sizes = nullptr);
 

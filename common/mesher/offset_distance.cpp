@@ -19,8 +19,8 @@ constexpr double least_slope = 0.05;  // of the distance along the way; below it
 
 /// A half space that a point is to be moved into.
 struct HalfSpace {
-  Point inwards;   ///< of the point's ways, in its planes
-  double missing;  ///< mm along the unit normal, from where the point was when `moved` was zero
+  Point inwards;   ///< its unit normal's part in the planes that the point moves in
+  double missing;  ///< mm: a way leads into it if its scalar product with `inwards` is this or more
 };
 
 /// The shortest way into all half spaces, by projecting onto one after the other (Hildreth's method).

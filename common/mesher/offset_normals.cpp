@@ -15,7 +15,8 @@ namespace {
 
 using Facet = TetrahedralMesh::Facet;
 
-/// Unit vertex normals by Max's weights, sin(angle) / (|e1| |e2|): the cross product over the squared edges.
+/// Vertex normals of any length by [Max1999]'s weights sin(angle) / (|e1| |e2|): the cross product over the squared
+/// edges.
 std::map<int, Point> vertex_normals(const std::vector<Point>& nodes, const std::vector<Facet>& facets) {
   std::map<int, Point> normals;
   for (const auto& facet : facets)
@@ -51,7 +52,7 @@ Point unit(const Point& v) {
   return (1 / norm(v)) * v;
 }
 
-/// Normals averaged with their neighbours', and laid into the plane of the opening on rims.
+/// Makes normals unit, averaged with their neighbours', and on rims in the plane of the opening.
 void smooth(std::map<int, Point>& normals, const std::vector<Facet>& facets, const NodePlanes& planes, int times) {
   std::map<int, std::set<int>> neighbours;
   for (const auto& facet : facets)

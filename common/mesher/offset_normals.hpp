@@ -19,7 +19,7 @@ struct OffsetNormals {
 /// neighbours'; on rims they lie in the plane of the opening there.
 /// \param smoothing  times that they are averaged
 /// \param sides      what lies beyond the rims, where that is not one opening a rim
-/// \throws InputError for an edge of three facets, and for a rim that is not flat, with its place
+/// \throws InputError for an edge of three facets or more, and for a rim that is not flat, with its place
 OffsetNormals offset_normals(const std::vector<Point>& nodes, const std::vector<TetrahedralMesh::Facet>& facets,
                              int smoothing, const RimSides& sides = {});
 

@@ -17,24 +17,24 @@ struct Levels {
 
 /// A level to be made.
 struct NewLevel {
-  double height = 0;  ///< of the whole way along the columns
+  double height = 0;  ///< part of the whole way along the columns
   int region = 0;     ///< of the cells below it
 };
 
-/// Adds the nodes level by level, so that a level's numbers are in the order of the level below: each at its height times the
-/// column's way from its node.
+/// Adds the nodes level by level, so that a level's numbers are in the order of the level below.
+/// \param ways  mm, by node: the column's vector from it
 Levels raise_levels(const std::vector<NewLevel>& made, const std::map<int, Point>& ways, TetrahedralMesh& mesh);
 
-/// The same with the places of each column's nodes, mm.
+/// The same from the places of each column's nodes, mm.
 /// \param regions  of the cells below each level \param columns  by node, a point for each level
 Levels raise_levels(const std::vector<int>& regions, const std::map<int, std::vector<Point>>& columns,
                     TetrahedralMesh& mesh);
 
-/// Tetrahedra of a prism (a0, b0, c0) below (a1, b1, c1), cut along the diagonals from the nodes of least number of each
-/// quadrilateral: by the order of the numbers at the bottom.
+/// Tetrahedra of a prism, cut along the diagonal of each quadrilateral from the node of least number at the bottom.
 std::array<TetrahedralMesh::Cell, 3> prism_cells(std::array<int, 3> below, std::array<int, 3> above);
 
-/// Fills the columns with prisms, each cut into three tetrahedra by the order of its nodes, so that neighbours fit [Dompierre1999].
+/// Fills the columns with prisms, each cut into three tetrahedra by the order of its nodes, so that the mesh is
+/// conforming [Dompierre1999].
 /// \param facets  their normals look along the columns
 void fill_with_prisms(const std::vector<TetrahedralMesh::Facet>& facets, const Levels& levels, TetrahedralMesh& mesh);
 

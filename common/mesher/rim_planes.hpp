@@ -10,15 +10,15 @@ namespace fsi {
 
 using RimEdge = std::pair<int, int>;  ///< nodes, in the direction in which the facet runs through them
 
-/// What lies beyond a rim: for each of its edges (smaller node first) a number, the same for edges of one surface, which has a
-/// normal. Edges that are not there are of one surface without a normal.
+/// What lies beyond a rim: for each of its edges (smaller node first) the number of a surface, which has a normal.
+/// Edges that are not there belong to one surface without a normal.
 struct RimSides {
   std::map<RimEdge, int> surface;
   std::vector<Point> normals;  ///< unit, by that number
 };
 
-/// Unit normals, square to each other, of the planes that the nodes of rims lie in: one per node, two where two surfaces
-/// meet, as an opening and a plane of symmetry do.
+/// Unit normals, perpendicular to each other, of the planes that the nodes of rims lie in: one per node, two where two
+/// surfaces meet, as an opening and a plane of symmetry do.
 using NodePlanes = std::map<int, std::vector<Point>>;
 
 /// A rim that runs around one surface lies in the plane that fits it; a part of one lies in the plane of its surface.

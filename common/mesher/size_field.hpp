@@ -10,7 +10,7 @@
 
 namespace fsi {
 
-/// How long the edges of cells are to be, linear on simplices.
+/// The edge lengths that cells are to have, linear on simplices.
 struct SizeField {
   int dimension = 3;
   /// Of each simplex the x of its vertices, their y, their z, and the lengths there, mm: gmsh's list data of scalars.
@@ -26,7 +26,7 @@ struct SizeField {
   }
 };
 
-/// That of a mesh: at a vertex the mean of the straight edges that meet there.
+/// The edge lengths of a mesh: at a vertex the mean of the straight edges that meet there.
 template <int Dim, int Order>
 SizeField sizes_of(const SimplexMesh<Dim, Order>& mesh) {
   std::vector<double> sum(mesh.nodes.size(), 0.0), count(mesh.nodes.size(), 0.0);

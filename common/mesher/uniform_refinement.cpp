@@ -34,8 +34,8 @@ template <>
 struct Children<2> {
   static constexpr std::array<std::array<int, 3>, 4> vertices{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {4, 5, 3}}};
 };
-/// [Bey1995], algorithm "RefineTetrahedron3D"; the diagonal is that between the middles of the edges 02 and 13. Children
-/// keep this order of their vertices, which turns some of them inside out, until they are finished.
+/// [Bey1995], algorithm "RefineTetrahedron3D"; the diagonal is that between the middles of the edges 02 and 13.
+/// Children keep this order of their vertices, which turns some of them inside out, until they are finished.
 template <>
 struct Children<3> {
   static constexpr std::array<std::array<int, 4>, 8> vertices{
@@ -101,7 +101,7 @@ constexpr double bytes_per_cell(int order) {
   return order == 1 ? 300 : 800;
 }
 
-/// One cutting after the other.
+/// A mesh that is cut repeatedly.
 template <int Dim, int Order>
 class Refinement {
   using Mesh = SimplexMesh<Dim, Order>;

@@ -6,12 +6,13 @@
 
 namespace fsi {
 
-/// Each triangle into four and each tetrahedron into eight, `times` over, by the middles of the edges ("red" refinement).
-/// Regions and groups stay; those of a facet hold its two or four parts. Nodes keep their numbers, new ones follow.
+/// Cuts each triangle into four and each tetrahedron into eight, `times` over, by the middles of the edges (red
+/// refinement). Regions and groups stay; those of a facet hold its two or four parts. Nodes keep their numbers, new
+/// ones follow.
 ///
 /// A straight cell has straight children. A quadratic one is cut in its own coordinates: new nodes are
-/// x(lambda) = sum N_i(lambda) x_i of the cell, so that children have the shape of the cell, curved faces and edges stay
-/// where they were, and det J of a child is that of the cell, divided by 2^Dim.
+/// x(lambda) = sum N_i(lambda) x_i of the cell, so that children have the shape of the cell, curved faces and edges
+/// stay where they were, and det J of a child is that of the cell, divided by 2^Dim.
 ///
 /// Children of a triangle are similar to it. Of a tetrahedron four are; the octahedron between them is cut in four
 /// along the shortest of its diagonals, and their children in the order of [Bey1995], by which not more than two shapes
@@ -29,7 +30,7 @@ namespace fsi {
 template <int Dim, int Order>
 SimplexMesh<Dim, Order> refine_uniformly(const SimplexMesh<Dim, Order>& mesh, int times, const std::string& file);
 
-inline constexpr double least_child_ratio = 0.75;
+inline constexpr double least_child_ratio = 0.75;  ///< of mean ratios, see refine_uniformly()
 
 /// Numbers of what uniform refinement makes, without making it.
 struct RefinedCounts {

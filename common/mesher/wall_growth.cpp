@@ -35,7 +35,7 @@ bool is_named(const TetrahedralMesh& mesh, const std::string& name) {
   return mesh.facets(name) != nullptr;
 }
 
-/// The names of volumes and surfaces that the mesh is to get.
+/// Refuses layers and surfaces to be made whose names are taken.
 void require_new_names(const TetrahedralMesh& lumen, const std::vector<GrownLayer>& layers) {
   std::set<std::string> names(lumen.regions.begin(), lumen.regions.end());
   for (const auto& layer : layers)
@@ -48,7 +48,8 @@ void require_new_names(const TetrahedralMesh& lumen, const std::vector<GrownLaye
                        "rename it in the lumen's mesh");
 }
 
-/// What lies beyond the rims of the facets that the wall grows on: the named surfaces of the lumen, by number of the group.
+/// What lies beyond the rims of the facets that the wall grows on: the named surfaces of the lumen, by number of the
+/// group.
 RimSides sides_of_rims(const TetrahedralMesh& lumen, const std::vector<Facet>& facets) {
   std::set<FacetKey<3>> grown;
   for (const auto& facet : facets) grown.insert(facet_key<3>(facet));
@@ -176,7 +177,7 @@ void name_sides(TetrahedralMesh& mesh, const std::vector<RimEdge>& rim, const Ri
                    "give thinner layers, a smoother surface, or smaller facets there");
 }
 
-/// Refuses nodes that had to go round what they have no room in, and the facets between them through it.
+/// Refuses a wall that has no room, so that facets of its outer face cut through it.
 void require_room(const ReachedThickness& reached) {
   if (reached.least_between < no_room) refuse_fold(reached.least_between_at);
 }

@@ -17,9 +17,10 @@ struct GrownLayer {
   int elements = 1;      ///< through it
 };
 
+/// How a wall is grown on a lumen.
 struct WallGrowth {
   std::vector<GrownLayer> layers;  ///< from the lumen outwards
-  /// The fluid's surface that the wall grows on; empty: what no named surface but `inner` holds.
+  /// The fluid's surface that the wall grows on; empty: all of the fluid's boundary in no named surface but `inner`.
   std::string on;
   /// Thickness of the whole wall at each node that it grows on, mm; empty: the layers have their own everywhere.
   std::map<int, double> total;
@@ -35,7 +36,7 @@ std::vector<TetrahedralMesh::Facet> facets_to_grow_on(const TetrahedralMesh& lum
 OffsetNormals normals_to_grow_along(const TetrahedralMesh& lumen, const std::vector<TetrahedralMesh::Facet>& facets,
                                     int smoothing);
 
-/// How thick a wall became, over what was asked for. Nodes are those in the middles of edges, too.
+/// The thickness of a wall over what was asked for. Nodes include mid-edge nodes.
 struct ReachedThickness {
   double least = 1, most = 1;   ///< distances of the outer surface's nodes from the surface that the wall grew on
   Point least_at{}, most_at{};  ///< mm
@@ -46,30 +47,32 @@ struct ReachedThickness {
   Point least_between_at{};     ///< mm
 };
 inline constexpr double thickness_tolerance = 0.05;
-inline constexpr double between_tolerance = 0.8;  ///< below it a user is told
+inline constexpr double between_tolerance = 0.8;  ///< of least_between, below which there is a warning
 
-/// Sentences on where the thickness is not what was asked for: at nodes, which is seldom, and between them, where the surface
-/// bends round sharper than its facets.
+/// Sentences on where the thickness is not what was asked for: at nodes, and between them where the surface bends round
+/// sharper than its facets.
 std::vector<std::string> warnings_of(const ReachedThickness& reached);
 
+/// A lumen with its wall, and the thickness that was reached.
 struct GrownWall {
   TetrahedralMesh mesh;
   ReachedThickness reached;
 };
 
-/// Grows a wall on the lumen's surface. Each layer ends where the distance from the surface is its own, the nodes along smoothed
-/// vertex normals, [Max1999]'s, which are those of a sphere or a cylinder up to rounding; on the rims they lie in the plane of
-/// the opening there, or of symmetry, so that the wall ends in it. Where the columns would fold, as in creases, their nodes
-/// slide along the offset surface (mesher/column_tops.hpp). Columns of prisms between surface and offset are each cut into
-/// three tetrahedra by the order of their nodes, so that neighbours fit.
+/// Grows a wall on the lumen's surface. Each layer ends at its distance from the surface. Its nodes lie along smoothed
+/// vertex normals (offset_normals()); on rims these lie in the plane of the opening or of symmetry there, so that the
+/// wall ends in it. Where the columns would fold, as in creases, their nodes slide along the offset surface
+/// (mesher/column_tops.hpp). Columns are filled by fill_with_prisms().
 ///
-/// The result has the lumen's cells and groups (but `on`), a volume per layer, and the surfaces `outer` and `wall_ends`. What
-/// lies in a plane of symmetry is added to its group.
+/// The result has the lumen's cells and groups (but `on`), a volume per layer, and the surfaces `outer` and
+/// `wall_ends`. What lies in a plane of symmetry is added to its group.
 /// \param lumen  with a volume `fluid`
-/// \throws InputError naming the fsi-mesh option at fault: no surface left to grow on, a name twice, an opening whose rim
-///         is not flat, and a wall that folds, with the place
+/// \throws InputError naming the fsi-mesh option at fault: no surface left to grow on, a name twice, an opening whose
+///         rim is not flat, and a wall that folds or has less than a quarter of its thickness between nodes,
+///         with the place
 GrownWall grow_wall(const TetrahedralMesh& lumen, const WallGrowth& growth);
 
+/// The same with quadratic cells.
 struct QuadraticWall {
   SimplexMesh<3, 2> mesh;
   ReachedThickness reached;
@@ -77,11 +80,13 @@ struct QuadraticWall {
       straightened;  ///< mm, middles of the lumen's edges over which the wall's are straight: curved, they fold cells
 };
 
-/// The same with quadratic cells on a lumen whose edges are curved. Distances are those from the curved surface. The columns on the
-/// middles of its edges lie between those on their ends, with nodes at the layers' distances, too; an edge across a column's
-/// side has its node half way between the middles of the edges below and above, one through a layer half way.
+/// The same with quadratic cells on a lumen whose edges are curved. Distances are those from the curved surface.
+/// Columns on the middles of its edges lie between those on the ends, with nodes at the layers' distances, too; the
+/// diagonal of a column's side has its node half way between the middles of the edges below and above; edges through
+/// layers are straight.
 /// \param curves  of the lumen's edges, in its numbers
-/// \param bendable  whether the lumen's curved edges may be made straight where cells fold; else those of the wall alone
+/// \param bendable  whether the lumen's curved edges may be made straight where cells fold; else those of the wall
+///         alone
 QuadraticWall grow_quadratic_wall(const TetrahedralMesh& lumen, EdgeCurves curves, bool bendable,
                                   const WallGrowth& growth);
 

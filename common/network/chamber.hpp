@@ -7,9 +7,9 @@
 
 namespace fsi {
 
-/// A chamber of the heart: E(t) = E_min + (E_max - E_min) e(t), with the activation of [Korakianitis2006] for ventricles:
-/// t being the time since the begin of its contraction in a period,
-///   e = (1 - cos(pi t / T_1)) / 2 up to T_1,   (1 + cos(pi (t - T_1) / (T_2 - T_1))) / 2 up to T_2,   0 behind.
+/// A chamber of the heart: E(t) = E_min + (E_max - E_min) e(t), with the activation of ventricles in
+/// [Korakianitis2006], t being the time since the beginning of its contraction in a period,
+///   e = (1 - cos(pi t / T_1)) / 2 up to T_1,   (1 + cos(pi (t - T_1) / (T_2 - T_1))) / 2 up to T_2,   0 after.
 class Chamber : public TimeVaryingElastance {
  public:
   double minimum = 1;    ///< E_min, kPa/mm^3

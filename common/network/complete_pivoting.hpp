@@ -5,8 +5,8 @@
 
 namespace fsi {
 
-/// A small square matrix, factorised by elimination with complete pivoting, rows and columns scaled to their largest entries
-/// first ([Golub2013]): says what is determined where the matrix is singular.
+/// A small square matrix, factorised by elimination with complete pivoting, rows and columns first scaled to their
+/// largest entries ([Golub2013]): says what is determined where the matrix is singular.
 class CompletePivoting {
  public:
   /// \param matrix  row by row, of `size` rows and columns
@@ -17,7 +17,8 @@ class CompletePivoting {
   /// Columns without pivot: unknowns that the equations leave open.
   std::vector<std::size_t> open_columns() const;
 
-  /// A solution of A x = b, zero in open columns. \returns the largest part of b, in units of scaled rows, that no x gives
+  /// A solution of A x = b, zero in open columns.
+  /// \returns the largest residual that no x removes, in units of the scaled rows
   double solve(const std::vector<double>& right, std::vector<double>& x) const;
 
  private:

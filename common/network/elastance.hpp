@@ -11,7 +11,7 @@
 
 namespace fsi {
 
-/// dV/dt = q, dp = E(t) (V - V_0); y = V ([Suga1973]). What gives E says where.
+/// dV/dt = q, dp = E(t) (V - V_0); y = V ([Suga1973]). Subclasses give E.
 class TimeVaryingElastance : public NetworkElement {
  public:
   double initial_volume = 0;     ///< V at the start, mm^3

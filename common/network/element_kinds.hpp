@@ -22,8 +22,8 @@ struct NetworkElementKind {
                                                 const std::function<double(double)>& course);
 };
 
-/// All elements by name: the table of all there are. A new one is a file beside these and a row here; case files,
-/// `--help-keys` and everything that asks a network know it from then on. An element E is a NetworkElement that states
+/// All elements by name. A new one is a file beside these and a row here; case files, `--help-keys` and all users of
+/// networks follow. An element E is a NetworkElement that states
 ///   E::name          its name in case files
 ///   E::parameters()  its parameters, see ParameterOf
 const NameTable<NetworkElementKind>& network_element_kinds();

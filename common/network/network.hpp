@@ -14,16 +14,16 @@ namespace fsi {
 struct NetworkState {
   std::vector<double> pressures;  ///< of nodes, kPa
   std::vector<double> flows;      ///< of elements from their first end to their second, mm^3/ms
-  bool settled = true;            ///< false: a valve finds neither open nor closed; what stands here is of no use
-  std::size_t unsettled = 0;      ///< the element, if it is not
+  bool settled = true;            ///< false: the iteration of a valve did not converge; pressures and flows are void
+  std::size_t unsettled = 0;      ///< number of that valve's element
 };
 
-/// Lumped elements between nodes (docs/theory.md, section 3.10). The unknowns are the pressures of nodes and the flows of
-/// elements; the equations are
+/// Lumped elements between nodes (docs/theory.md, section 3.10). The unknowns are the pressures of nodes and the flows
+/// of elements; the equations are
 ///   sum of the flows that leave a node = what enters it from outside (Kirchhoff), and that of each element.
 /// Some nodes are openings of a vessel, and what leaves the vessel there enters from outside: the network gives their
-/// pressures as a function of all these flows Q, p = F(Q), with its derivatives. Elements keep numbers y that time schemes
-/// march. Units: kPa, mm^3/ms, ms, mm^3.
+/// pressures as a function of all these flows Q, p = F(Q), with its derivatives. Elements keep numbers y that time
+/// schemes integrate. Units: kPa, mm^3/ms, ms, mm^3.
 class Network {
  public:
   static constexpr int ground = -1;  ///< in place of a node's number
@@ -51,15 +51,15 @@ class Network {
   std::vector<double> kept(const NetworkMoment& at, const double* reference, const NetworkState& state) const;
   /// dy/dt.
   std::vector<double> rates(const NetworkState& state) const;
-  /// Of all that is stored, mm^3: between a node and the ground. What lies between two nodes takes from one what it gives to
-  /// the other. \param kept  y
+  /// Stored between nodes and the ground, mm^3. What lies between two nodes takes from one what it gives to the other.
+  /// \param kept  y
   double volume(const double* kept) const;
 
   /// Pressures and flows. \param reference  r, size() numbers; y itself where at.lag = 0
   /// \param inflows  Q into the nodes that are openings, mm^3/ms
   NetworkState solve(const NetworkMoment& at, const double* reference, const std::vector<double>& inflows) const;
-  /// Of a finished level, from what elements keep. Where the pressure at an opening is not determined by that, since only
-  /// inertances lie behind, it is that given. \param pressures  of the fluid at openings, kPa
+  /// At a finished level, from what elements keep. Where that does not determine the pressure at an opening, since only
+  /// inertances lie behind, it is the one given. \param pressures  of the fluid at openings, kPa
   NetworkState at_level(double time, const double* kept, const std::vector<double>& inflows,
                         const std::vector<double>& pressures) const;
   /// dF_i/dQ_j of a solution, openings() numbers a row, kPa ms/mm^3.
@@ -68,9 +68,10 @@ class Network {
   /// dq/d(dp) of each element that switches, mm^3/(kPa ms); 0 of others.
   std::vector<double> conductances(const NetworkMoment& at, const double* reference, const NetworkState& state) const;
 
-  /// The Jacobian of the equations, of pressures, then flows; columns of openings' pressures last in the order of pivots.
+  /// The Jacobian of the equations by pressures, then flows; openings' pressures are last in the order of pivots.
   CompletePivoting jacobian(const NetworkMoment& at, const double* reference, const NetworkState& state) const;
-  /// What of the start contradicts itself: of what is kept then without flow at openings, mm^3/ms; 0: nothing.
+  /// How far the initial values contradict each other without flow at openings; 0: not at all. In units of scaled rows
+  /// (CompletePivoting::solve): of a node's row mm^3/ms.
   double contradiction_at_start() const;
 
   /// Of a node, or the ground, kPa.
@@ -78,7 +79,7 @@ class Network {
     return node == ground ? ground_pressure_ : state.pressures[static_cast<std::size_t>(node)];
   }
 
-  /// Whether it joins no source and no resistance to the ground: what it stores together with the vessel stays.
+  /// Whether only elements that keep a volume lead to the ground: the volume of network and vessel together stays.
   bool is_closed() const;
   /// Independent loops, the ground being a node.
   int loops() const;
@@ -96,8 +97,8 @@ class Network {
   /// Newton's method from a state.
   NetworkState solve_from(NetworkState state, const NetworkMoment& at, const double* reference,
                           const std::vector<double>& inflows) const;
-  /// Residual of the valves, as pressures: the sum of squares; `worst` becomes the one of the largest, `rounded` whether all of
-  /// it is rounding.
+  /// Sum of squares of the valves' residuals, as pressures, kPa^2.
+  /// \param worst    set to the valve of the largest \param rounded  set to whether all of it is rounding
   double lack_of_valves(const std::vector<NetworkElement::Equation>& equations, const NetworkState& state,
                         std::size_t& worst, bool& rounded) const;
 

@@ -60,7 +60,7 @@ Fault ends(const Network& network) {
   return std::nullopt;
 }
 
-/// Nodes that are joined to a node, the ground being no node unless it is that.
+/// Nodes that a chain of elements joins to one of `from`; chains lead through the ground only if `through_ground`.
 std::vector<bool> joined_to(const Network& network, const std::vector<int>& from, bool through_ground) {
   std::vector<bool> reached(network.nodes().size() + 1, false);  // the ground is the last
   const auto place = [&](int node) {

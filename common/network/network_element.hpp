@@ -14,8 +14,8 @@ struct NetworkMoment {
 };
 
 /// A lumped element between two nodes of a network (docs/theory.md, section 3.10): an equation between the drop of the
-/// pressure from its first end to its second, and the flow that way. It may keep a number y of its own, a volume or a flow,
-/// which time schemes march like any other quantity. Units: kPa, mm^3/ms, ms, mm^3.
+/// pressure from its first end to its second, and the flow that way. It may keep a number y of its own, a volume or a
+/// flow, which time schemes march like any other quantity. Units: kPa, mm^3/ms, ms, mm^3.
 class NetworkElement {
  public:
   /// f(drop, flow) = 0, with the derivatives of f.
@@ -31,7 +31,7 @@ class NetworkElement {
   virtual Keeps keeps() const { return Keeps::nothing; }
   /// y at the start.
   virtual double start() const { return 0; }
-  /// y where these are drop and flow.
+  /// y at a balance with this drop and flow.
   virtual double kept(const NetworkMoment& /*at*/, double reference, double /*drop*/, double /*flow*/) const {
     return reference;
   }
@@ -44,9 +44,9 @@ class NetworkElement {
   };
   virtual std::optional<Contradiction> contradiction() const { return std::nullopt; }
 
-  /// Whether f is no affine function: of what opens and closes by the drop.
+  /// Whether f is not affine, since the element opens and closes by the drop.
   virtual bool switches() const { return false; }
-  /// kPa ms/mm^3, by which f of one that switches, a flow, is weighed against pressures.
+  /// kPa ms/mm^3: weight of f, a flow, against pressures, of an element that switches.
   virtual double resistance_of_residual() const { return 1; }
   /// ms, with which it repeats itself; 0: it does not.
   virtual double period() const { return 0; }

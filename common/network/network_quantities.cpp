@@ -2,7 +2,7 @@
 
 namespace fsi::quantity {
 
-// Any size of them is a vessel's or a heart's of some animal: no value gives a wrong unit away.
+// No usual range: some animal's vessel or heart has any value, so that none reveals a wrong unit.
 
 const Quantity& inertance() {
   static const Quantity q{"kPa ms^2/mm^3", {}};

@@ -11,11 +11,11 @@
 
 namespace fsi {
 
-/// What lets fluid pass one way, from its first end to its second. Closed it leaks; it opens over a width w of the drop, so
-/// that the flow is a smooth function of it:
+/// A valve, open from its first end to its second. Closed it leaks; it opens over a width w of the drop, so that the
+/// flow is a smooth function of the drop:
 ///   q = (l + (1 - l) s(dp / w)) q_o(dp),   s(x) = 3 x^2 - 2 x^3 in [0, 1], 0 before, 1 behind,
 ///   q_o: R q_o + B |q_o| q_o = dp.
-/// The flow has the sign of the drop and grows with it: the element takes energy, and a network of such has one solution.
+/// The flow has the sign of the drop and grows with it: the valve dissipates, and a network of such has one solution.
 /// The quadratic loss is that of [Mynard2012].
 class Valve : public NetworkElement {
  public:

@@ -13,24 +13,24 @@ constexpr double tiny_increment = 1e-8;       // likewise: what is left of the r
 constexpr double kept_forcing = 0.05;      // loosest linear tolerance with a kept Jacobian, which contracts by 5 to 20
 constexpr double doubted_forcing = 1e-3;   // where residuals have said too little of errors
 constexpr double smallest_forcing = 1e-6;  // more digits of one increment never pay
-constexpr int most_switches = 6;           // of whole steps that are taken across them
+constexpr int most_switches = 6;           // iterations that end with outdated(); then no growth is accepted for it
 constexpr double rounding_margin = 4;      // residuals up to so many times their rounding error are all rounding
 
 const char* const failure_at_start = "the start holds an inverted element or a value that is not finite";
 const char* const failure_at_limit = "the iteration limit was reached";
 
-/// Which residuals are nothing but rounding. To say so takes as long as two products with the Jacobian: few iterations ask.
+/// Which residuals are nothing but rounding. Costs about two products with the Jacobian, so that few iterations ask.
 class Rounding {
  public:
   explicit Rounding(NewtonProblem& problem) : problem_(problem) {}
-  /// From now on that of another iterate.
+  /// The iterate is another one: the bound is computed anew when it is asked for.
   void renew() { bound_ = unknown; }
   bool is_all_of(double residual) {
     if (bound_ == unknown) bound_ = rounding_margin * problem_.rounding();
     return residual <= bound_;
   }
-  /// Whether an iteration that left this part of the residual has to be judged: not where the part is what kept Jacobians
-  /// leave and the increment is none of the last digits. Should that be all rounding, the next iteration leaves more.
+  /// Whether an iteration that left this part of the residual has to be judged: not where the part is what kept
+  /// Jacobians leave. Should that be all rounding, the next iteration leaves more.
   static bool is_likely(double left) { return !(left > 1e-3 && left < 0.4); }
 
  private:
@@ -40,14 +40,14 @@ class Rounding {
   double bound_ = unknown;
 };
 
-/// Moves by the increment, halving the step until the residual has not grown, or is all rounding, or until it exists and the
-/// iterate comes closer to the solution by the natural measure: |J^-1 R|, J being a new Jacobian, has fallen by a fourth of
-/// the step at least ([Deuflhard2011], section 3.3). For where a thin wall bends, residuals grow with the square of a good
-/// increment, and a step on which they fall is none to speak of. The step length goes to the iteration, 0 when even the
-/// shortest would not do (the iterate is then where it was). A whole step across which something opens or closes is taken, if
-/// `may_switch`, though the residual grows: with the derivatives behind it the next one comes back, where a shorter one would
-/// creep up to the place where they jump. \returns the residual
-/// It has moved by the whole increment already.
+/// Backtracking from an iterate that has already moved by the whole increment: halves the step until the residual has
+/// not grown, or is all rounding, or until it exists and the natural monotonicity test holds: |J^-1 R|, J being a new
+/// Jacobian, has fallen by a fourth of the step at least ([Deuflhard2011], section 3.3). For where a thin wall bends,
+/// residuals grow with the square of a good increment, and steps on which they fall are tiny. A whole step across which
+/// something opens or closes is taken, if `may_switch`, though the residual grows: with the derivatives behind it the
+/// next one comes back, where shorter ones would creep up to the jump.
+/// \param iteration  gets the step's length, 0 when even the shortest fails (the iterate is then where it was)
+/// \returns the residual
 double backtrack(NewtonProblem& problem, double last_residual, Rounding& rounding, double increment, int max_halvings,
                  bool may_switch, NewtonIteration& iteration) {
   constexpr double looseness = 0.1;  // of distances
@@ -86,9 +86,9 @@ double forcing_term(const NewtonOptions& options, bool renewed, double ratio, do
   return std::max(eta, smallest_forcing);
 }
 
-/// Whether an iteration shows that the start was far from the solution, by those before it. The last digits do not count. A kept
-/// Jacobian whose increments are each at most half of the one before leaves all that would follow, a half, a quarter, ... of its
-/// last one, to a new Jacobian's first increment.
+/// Whether an iteration, beside those before it, shows that the start was far from the solution. The last digits do not
+/// count. A new Jacobian's first increment takes over all that would follow from a kept one whose increments are
+/// halved, a half, a quarter, ... of its last one.
 bool strays(const NewtonIteration& now, const std::vector<NewtonIteration>& before) {
   constexpr double straight = 0.5, all_that_follow = straight / (1 - straight), small = 0.01;
   if (now.step < 1) return true;
@@ -98,17 +98,17 @@ bool strays(const NewtonIteration& now, const std::vector<NewtonIteration>& befo
          now.increment > small * before.front().increment;
 }
 
-/// What an increment left of the residual tells what is left of the error: the increments to come, if each is `left` of
-/// the one before ([Deuflhard2011], section 2.1). The ratio of increments would tell it of the increment before, and of
-/// a new Jacobian nothing: its next increment is shorter by far.
+/// Estimates the error by the increments to come, if each is `left`, the part of the residual that the last one left,
+/// of the one before ([Deuflhard2011], section 2.1). The ratio of increments would estimate the error of the increment
+/// before, and for a new Jacobian nothing: its next increment is shorter by far.
 double estimated_error(double relative_increment, double left) {
   if (!(left < 1)) return 0;  // it no longer falls: rounding
   return relative_increment * left / (1 - left);
 }
 
-/// What the increments of one call tell of the error. The residual adds up rows of different units: where one kind of them
-/// is most of it, it falls though the others' error does not. So the ratio of the increments, squared for a new Jacobian,
-/// has a say in what is left; of a first one, which has none, no more than this is believed.
+/// Estimates the error from the increments of one call. The residual adds up rows of different units: where one kind
+/// dominates, it falls though the others' error does not. So what is left is at least the ratio of increments, squared
+/// for a new Jacobian; for a first increment, which has no ratio, at least `first_ratio`.
 class ErrorWatch {
  public:
   /// \param change   NewtonProblem::relative_increment() of the last increment
@@ -121,8 +121,7 @@ class ErrorWatch {
     last_left_ = left;
     return to_come(change, std::max(left, ratio));
   }
-  /// The same of an increment of a kept Jacobian, before it is known what that leaves of the residual: by what the one before
-  /// left. Infinite of a first one.
+  /// The same for an increment of a kept Jacobian before its residual is known. Infinite for a first one.
   double foresee(double change) const {
     return last_change_ > 0 ? to_come(change, std::max(last_left_, change / last_change_)) : infinite;
   }
@@ -220,8 +219,8 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     if (reference == 0) reference = increment;
 
     bool accurate = iteration.increment <= options.tolerance * reference;
-    // Increments that grow while residuals fall, as where a wall bends and linear systems are solved to a tenth, show that
-    // residuals say little of errors: then both must be small, and linear solves have more digits from there on.
+    // Increments that grow while residuals fall, as where a wall bends and linear systems are solved to a tenth, show
+    // that residuals say little about errors: then both must be small, and linear solves get more digits from there on.
     if (report.count() > 1) grown = grown || iteration.increment > report.iterations[report.count() - 2].increment;
     if (const double change = problem.relative_increment(); options.error_tolerance > 0 && std::isfinite(change))
       accurate =

@@ -77,7 +77,7 @@ class EnergyObserver : public Observer {
 
   std::vector<ResultTable> tables() const override {
     ResultTable table = table_of(energy_file, columns_, RowsPer::step);
-    // With the energy balance switched off a run writes no such table, and may be continued alike.
+    // Runs with the energy balance switched off write no such table.
     table.missing = {"output.energy", "is wanted, but the earlier run wrote none",
                      "continue with --set output.energy=false"};
     return {table};

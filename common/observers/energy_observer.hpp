@@ -9,10 +9,10 @@ namespace fsi {
 
 inline constexpr const char* energy_file = "energy.csv";
 
-/// Columns of energy.csv behind the step and its time: those of the parts that a scene has.
+/// Columns of energy.csv after the step and its time: those that apply to a scene with these parts.
 Columns<EnergyRecord> energy_columns(const EnergyParts& parts);
 
-/// The balance of energy of each step, docs/energy.md; null where the case wants none.
+/// energy.csv, the balance of energy of each step (docs/energy.md); null where the case switches it off.
 template <int n>
 std::unique_ptr<Observer> make_energy_observer(const RunView<n>& watched);
 

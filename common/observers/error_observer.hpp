@@ -6,7 +6,7 @@
 
 namespace fsi {
 
-/// Takes the error indicator of each level into its mean over the run, which fields show; null where a case wants none.
+/// Adds the error indicator of each level to its mean over the run, a field of fields.h5; null where a case has none.
 template <int n>
 std::unique_ptr<Observer> make_error_observer(const RunView<n>& watched);
 

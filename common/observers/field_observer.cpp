@@ -36,10 +36,10 @@ class FieldObserver : public Observer {
       entries_ = 0;
   }
   void look(const State& level) override {
-    // What is shown behind that level is not there for a restart.
+    // A restart does not find entries of later levels.
     if (fields_->write(level) && level.time <= shown_until(watched_.scene, watched_.state)) ++entries_;
   }
-  /// The fields of the earlier run, as far as this one goes on with them. \throws InputError
+  /// \throws InputError where the earlier run's entries up to the last level observed are not all there
   void keep(RestartArchive& archive) override {
     if (archive.recalls() ? archive.has(entries_name) : entries_ > 0)
       archive.integer(entries_name, entries_, {0, 1e15, true});

@@ -6,7 +6,7 @@
 
 namespace fsi {
 
-/// Writes the fields of the levels that the case asks for, and knows how many there are.
+/// Writes the fields of the levels that the case asks for. A restart refuses fields.h5 if entries are missing.
 template <int n>
 std::unique_ptr<Observer> make_field_observer(const RunView<n>& watched);
 

@@ -47,7 +47,7 @@ std::vector<double> spread(const std::vector<int>& nodes, const std::vector<doub
   return field;
 }
 
-/// A level as fields see it. What several of them are made of is found once, when the first asks.
+/// A level as fields see it. Quantities that several fields need are computed once, on first use.
 template <int n>
 class Level {
  public:
@@ -102,13 +102,14 @@ class Level {
   mutable std::array<std::array<std::optional<CellErrors>, 2>, 2> errors_;
 };
 
-/// What a grid has.
+/// What decides which fields a grid has.
 struct GridFacts {
   bool fluid, moves, flows, fibres, thickness, statistics, errors, mean_errors;
   const std::map<std::string, std::vector<double>>& constants;  ///< of the wall that vary
 };
 
-/// At vertices: linear between them. In layers: at nodes, and at mid-edge nodes between layers once for each.
+/// Where a field has values. Vertices: it is linear between them. Layers: at nodes, with a value per layer at mid-edge
+/// nodes between layers with vertices of their own.
 enum class Place { nodes, vertices, layers, cells };
 
 /// A field of fields.h5: the name in output.fields that asks for it, which grids have it, and its values.
@@ -118,7 +119,7 @@ struct OutputField {
   std::string_view asked_by;  ///< empty: by a key of its own, output.statistics or output.error_indicator
   int components;
   const char* unit;
-  Place at;  ///< where it has values
+  Place at;
   bool (*exists)(const GridFacts& grid);
   std::vector<double> (*values)(const Level<n>& level, bool fluid);
 };
@@ -143,7 +144,7 @@ constexpr bool in_wall_errors(const GridFacts& grid) {
   return !grid.fluid && grid.errors;
 }
 
-/// The constants of layers that fields show where they are not the same in the whole wall, and their units.
+/// Constants that are fields where they are not the same in the whole wall, and their units.
 constexpr std::array<std::pair<std::string_view, const char*>, 13> constants_of_walls{{{"c10", "kPa"},
                                                                                        {"c01", "kPa"},
                                                                                        {"k1", "kPa"},
@@ -248,7 +249,7 @@ constexpr std::array<OutputField<n>, 19 + constants_of_walls.size()> output_fiel
      constant_field<n, 11>(),
      constant_field<n, 12>()}};
 
-/// Whether every name of output.fields asks for a field, and every field is asked for by one of these or by none.
+/// Whether every name of output.fields asks for a field, and every field is asked for by one of these names or none.
 template <int n>
 constexpr bool all_asked_for() {
   for (const auto name : output_field_list) {

@@ -14,31 +14,32 @@
 
 namespace fsi {
 
-/// Whether a case wants fields of any kind.
+/// Whether a case writes fields of any kind.
 inline bool writes_fields(const Case& setup) {
   const auto& output = setup.output;
   return output.every > 0 && (!output.fields.empty() || (output.derived.statistics && output.derived.period) ||
                               output.derived.error_indicator);
 }
 
-/// fields.h5 and fields.xdmf of a run: the fields that the case asks for and the scene has, one grid per medium. Cells
-/// keep their mid-edge nodes; there pressures are the mean of the edge's ends, as their shape functions have it. Where layers have vertices of their own, the nodes between these are written once for each.
+/// Field files of a run: the fields that the case asks for and the scene has, one grid per medium. Cells keep their
+/// mid-edge nodes; there pressures are the mean of the edge's ends, as their shape functions have it. Where layers have
+/// vertices of their own, the mid-edge nodes between these are written once for each layer.
 template <int n>
 class FieldOutput {
  public:
-  /// Nothing is written when the case wants no fields.
-  /// \param derived         what fields are made of that are not the solution itself; must outlive this, as the scene
+  /// Nothing is written when the case asks for no fields.
+  /// \param scene, derived  must outlive this
   /// \param grids           of the media, without fields
-  /// \param shares          of these grids, where processes share them out; else empty
+  /// \param shares          of these grids, where processes share them; else empty
   /// \param axis            must outlive this
   /// \param restarted_from  result folder that the run continues; empty: a new run
-  /// \param until           ms, of the last level that the run there has written, or 0
+  /// \param until           ms, time of the last level in that folder to keep; 0 in a new run
   FieldOutput(const Case& setup, const Scene<n>& scene, const DerivedQuantities<n>& derived,
               std::vector<FieldGrid> grids, std::vector<GridShare> shares, const TimeAxis& axis,
               const std::filesystem::path& folder, const std::filesystem::path& restarted_from, double until);
 
-  /// Writes the state's fields if an entry is planned for its time. Returns whether there is one. For all processes that
-  /// share the scene out together.
+  /// Writes the state's fields if an entry is planned for its time. Collective over the processes that share the scene.
+  /// \returns whether one is planned
   bool write(const State& state);
 
  private:

@@ -8,7 +8,8 @@ namespace fsi {
 
 inline constexpr const char* surfaces_file = "surfaces.csv";
 
-/// Forces of the fluid on the surfaces that a case names, at the balances of the steps; null where it names none.
+/// surfaces.csv, forces of the fluid on the surfaces that a case names, at the last balance of each step
+/// (docs/theory.md, section 11a.4); null where it names none.
 template <int n>
 std::unique_ptr<Observer> make_force_observer(const RunView<n>& watched);
 

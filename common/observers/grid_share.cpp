@@ -55,7 +55,7 @@ GridShare share_out(FieldGrid& whole, const PartNodes& here) {
   for (const Middle& middle : separate_middles<n>(whole)) {
     const int node = local[middle.node];
     if (node < 0 || share.owned[node] == 0) continue;
-    // The cells around an own node are here, so that the ends of its edge are.
+    // All cells around an own node are here, and so the ends of its edge.
     Middle mine{node, node, {local[middle.ends[0]], local[middle.ends[1]]}};
     assert(mine.ends[0] >= 0 && mine.ends[1] >= 0);
     if (middle.point != middle.node) {

@@ -10,9 +10,9 @@ namespace fsi {
 
 namespace {
 
-/// Tractions are looked at in the first of so many steps: one assembly of both media.
+/// Tractions are evaluated in one of so many steps, since that takes an assembly of both media.
 constexpr int weighed_every = 10;
-/// Of the interface's own motion, or load, above which a user is warned.
+/// Share of the interface's motion or traction above which the user is warned.
 constexpr double tolerable_share = 0.01;
 
 template <int n>

@@ -6,8 +6,8 @@
 
 namespace fsi {
 
-/// Whether fluid and wall keep together, for the summary: diagnostics/interface_watch.hpp. Null where they do not meet, or
-/// nothing moves in time.
+/// How far fluid and wall come apart at the interface (diagnostics/interface_watch.hpp), for the summary, and a warning
+/// above 1 %. Null in scenes without interface and in statics.
 template <int n>
 std::unique_ptr<Observer> make_interface_observer(const RunView<n>& watched);
 

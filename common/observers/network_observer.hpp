@@ -8,7 +8,7 @@ namespace fsi {
 
 inline constexpr const char* network_file = "network.csv";
 
-/// What network.csv shows of a level, in cases with [network]; null in others.
+/// network.csv, in cases with [network]; null in others.
 template <int n>
 std::unique_ptr<Observer> make_network_observer(const RunView<n>& watched);
 

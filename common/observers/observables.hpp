@@ -14,12 +14,11 @@ inline constexpr const char* points_file = "points.csv";
 inline constexpr const char* lines_file = "lines.csv";
 inline constexpr const char* planes_file = "planes.csv";
 
-/// What tables show of each level: centre-line pressure, inner-wall displacement, flow, samples. Parts that a scene does not
-/// have cost nothing.
+/// Tables of levels: centre-line pressure, inner-wall displacement, flow, samples; those that a scene has.
 template <int n>
 std::unique_ptr<Observer> make_observables(const RunView<n>& watched);
 
-/// kPa, at the points of the centre line. For all processes together. \param fluid  (u, p)
+/// Pressure at the points of the centre line, kPa. Collective over processes. \param fluid  (u, p), mixed layout
 template <int n>
 std::vector<double> centre_line_pressure(const ObservationPoints& points, const std::vector<double>& fluid,
                                          const Communicator& processes);

@@ -9,8 +9,8 @@
 
 namespace fsi {
 
-/// Interpolation of a nodal field at one point: the sum of weights times the values at the nodes of a part. Where the part
-/// is shared out among processes, each has the entries of its own nodes, and the value is the sum over the processes.
+/// Interpolation of a nodal field at one point: the sum of weights times the values at the nodes of a part. Processes
+/// that share the part have the entries of their own nodes each, and the value is the sum over the processes.
 struct NodalSample {
   std::vector<int> nodes;
   std::vector<double> weights;
@@ -22,27 +22,28 @@ struct InnerWallSample {
   Point direction;  ///< of space, unit length, away from the axis
 };
 
-/// A point at which a case wants fields: in the fluid, or in the wall.
+/// A point in the fluid or in the wall at which a case asks for fields.
 struct SampledPoint {
   std::string name;  ///< of the point or its line
   double s = 0;      ///< mm, along the line from its beginning
   Point at;          ///< reference coordinates, mm
-  bool in_fluid;
+  bool in_fluid;  ///< else in the wall
   NodalSample vectors, scalars;
 };
 
+/// A plane at which a case asks for flow and pressure.
 struct SampledPlane {
   std::string name;
   std::shared_ptr<const PlaneCut> cut;
 };
 
-/// What a case asks for by name, in the order of the names; points that lie in no cell are left out.
+/// Samples that a case asks for by name, in the order of the names, without points that lie in no cell.
 struct RequestedSamples {
   std::vector<SampledPoint> points, lines;
   std::vector<SampledPlane> planes;
 };
 
-/// Where the tables of a run look at the fields. Empty where a scene has no such line.
+/// Where the tables of a run sample the fields. Lines are empty where a scene has none.
 struct ObservationPoints {
   Axis axis;
   std::vector<double> centre_z;            ///< mm along the axis
@@ -52,7 +53,7 @@ struct ObservationPoints {
   int angles = 1;
   RequestedSamples requested;
   std::vector<std::string> notes;     ///< what was decided here, for the log
-  std::vector<std::string> warnings;  ///< what could not be had, a line each
+  std::vector<std::string> warnings;  ///< samples left out, a line each
 };
 
 }  // namespace fsi

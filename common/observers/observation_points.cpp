@@ -33,7 +33,7 @@ Point centre_of(const std::vector<Point>& nodes, const Facets& surface) {
   return (1 / count) * sum;
 }
 
-/// Pieces of a surface whose facets share nodes.
+/// Number of connected pieces of a surface; facets that share a node are connected.
 template <class Facets>
 int pieces_of(const Facets& surface) {
   const auto nodes = facet_nodes(surface);

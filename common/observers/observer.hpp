@@ -12,52 +12,52 @@
 
 namespace fsi {
 
-/// A step that has just been finished, as a watcher sees it.
+/// A step that has just been finished, as observers see it.
 struct FinishedStep {
   const StepRecord& record;  ///< what it took
   const StepReport& report;
   const State& state;  ///< at its end
 };
 
-/// An observer of a run, which changes nothing of it. Which observers a case has, and where a new one is entered:
-/// observers.cpp. Processes that share a scene call all of these together, and all get the same rows.
+/// An observer of a run, which does not change it. The table of all kinds: observers.cpp. All functions are collective
+/// over the processes that share a scene, and all processes get the same rows.
 class Observer {
  public:
   virtual ~Observer() = default;
 
   /// The tables that it fills, with their columns.
   virtual std::vector<ResultTable> tables() const { return {}; }
-  /// Whether it looks at StepReport::balances.
+  /// Whether it needs StepReport::balances.
   virtual bool wants_balances() const { return false; }
-  /// The run begins, or goes on, from a state; the result folder is there.
+  /// The run begins, or continues, from a state; the result folder exists.
   virtual void begin(const State& /*state*/) {}
 
-  /// What the tables of levels show of one. A restart asks for them again, and what has a measure must be the same.
+  /// Rows of the tables of levels. A restart computes them again, and columns with a measure must agree.
   virtual std::vector<TableRows> rows_at(const State& /*level*/) const { return {}; }
-  /// Takes in a level whose pressures are known: of a new run the first, then each once.
+  /// Takes in a level whose pressures are known: each once, in a new run also the initial one.
   virtual void look(const State& /*level*/) {}
   /// Rows of the tables of steps.
   virtual std::vector<TableRows> after_step(const FinishedStep& /*step*/) { return {}; }
 
-  /// Whether the run has come to what it was to come to, and may end before its time.
+  /// Whether the run has reached its aim and may end early.
   virtual bool wants_end() const { return false; }
 
-  /// The run has come to its end, and all levels have been looked at.
+  /// The run has come to its end, after look() at all levels.
   virtual void end() {}
 
-  /// What it needs to go on after a restart. The names get the watcher's own word before them (observers.cpp).
+  /// Saves or recalls its state for a restart. The names get the observer's prefix (observers.cpp).
   virtual void keep(RestartArchive& /*archive*/) {}
-  /// The phase of the profile that the seconds of after_step() count for; levels count as output.
+  /// The phase of the profile for after_step(); levels count as "output".
   virtual const char* phase() const { return "output"; }
 };
 
-/// Where a watcher says what belongs into no table.
+/// Receives what belongs in no table.
 class Messages {
  public:
   virtual ~Messages() = default;
-  /// To the user: a line on the console and in the log.
+  /// A warning to the user: a line on the console and in the log.
   virtual void warn(const std::string& said) = 0;
-  /// The same of what is as it should be.
+  /// A message that is no warning, likewise.
   virtual void say(const std::string& said) = 0;
   /// An entry of the summary.
   virtual void note(const std::string& key, const nlohmann::json& value) = 0;

@@ -22,15 +22,15 @@ namespace fsi {
 
 namespace {
 
-/// A kind of watcher.
+/// A kind of observer.
 template <int n>
 struct Kind {
-  const char* word;                                              ///< before the names of what it keeps for a restart
+  const char* word;                                              ///< prefix of its names in the restart archive
   std::vector<const char*> files;                                ///< of the tables that it may fill
   std::unique_ptr<Observer> (*make)(const RunView<n>& watched);  ///< null where the case does not ask for it
 };
 
-/// All there are, in the order in which they look. A new one is a row here.
+/// All kinds, in the order in which they are called. A new one is a row here.
 template <int n>
 const std::vector<Kind<n>>& kinds() {
   static const std::vector<Kind<n>> rows{

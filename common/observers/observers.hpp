@@ -12,7 +12,7 @@
 
 namespace fsi {
 
-/// All observers of a run, in the order in which they look.
+/// All observers of a run, in the order in which they are called.
 class Observers {
  public:
   /// Those that a case asks for.
@@ -23,21 +23,21 @@ class Observers {
   const std::vector<ResultTable>& tables() const { return tables_; }
   bool want_balances() const;
   void begin(const State& state) const;
-  /// The first level of a new run, which no table shows.
+  /// The initial level of a new run, which tables do not show.
   void look(const State& level) const;
-  /// A level, with its rows.
+  /// A level, whose rows are written.
   void look(const State& level, ResultFolder& folder) const;
   void after_step(const FinishedStep& step, ResultFolder& folder) const;
-  /// Refuses tables of an earlier run whose last rows the level, from its checkpoint, does not give again. \throws InputError
+  /// \throws InputError if the last rows of an earlier run's tables differ from those of the level in its checkpoint
   void require_same(const State& level, const EarlierTables& earlier) const;
-  /// Whether one of them has seen what the run was for.
+  /// Whether one of them wants the run to end, see Observer::wants_end().
   bool want_end() const;
   void end() const;
   void keep(RestartArchive& archive) const;
 
  private:
   struct Entry {
-    std::string word;  ///< before the names in the memory
+    std::string word;  ///< prefix of its names in the restart archive
     std::unique_ptr<Observer> observer;
   };
   std::vector<Entry> observers_;
@@ -45,9 +45,9 @@ class Observers {
   Profile& profile_;
 };
 
-/// Files of all tables that some run may have.
+/// Files of all tables that a run may have.
 std::vector<std::string> table_files();
-/// What the names of all that watchers keep for a restart begin with.
+/// Prefixes of the names that observers have in a restart archive.
 std::vector<std::string> words_of_observers();
 
 }  // namespace fsi

@@ -6,7 +6,7 @@ namespace fsi {
 
 namespace {
 
-/// What openings.csv says of an opening at a level.
+/// Numbers of openings.csv for one opening at a level.
 struct OpeningRecord {
   double flow = 0;      ///< mm^3/ms, out of the fluid
   double pressure = 0;  ///< of the fluid, mean over the surface, kPa; written in Pa

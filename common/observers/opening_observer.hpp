@@ -8,7 +8,7 @@ namespace fsi {
 
 inline constexpr const char* openings_file = "openings.csv";
 
-/// What openings.csv shows of a level, in cases with [[opening]]; null in others.
+/// openings.csv, in cases with [[opening]]; null where a case, or its mesh, has none.
 template <int n>
 std::unique_ptr<Observer> make_opening_observer(const RunView<n>& watched);
 

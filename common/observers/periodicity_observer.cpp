@@ -18,11 +18,11 @@ namespace fsi {
 
 namespace {
 
-constexpr std::size_t numbers_of_change = 10;  // that a restart needs
+constexpr std::size_t numbers_of_change = 10;  // in the restart archive, per PeriodChange
 
-/// The opening whose law remembers longest.
+/// The opening whose law has the longest time constant.
 struct SlowestLaw {
-  std::string opening;       ///< empty: none remembers
+  std::string opening;       ///< empty: none has any
   double time_constant = 0;  ///< ms
 };
 
@@ -107,7 +107,7 @@ class PeriodicityObserver : public Observer {
     for (const PeriodChange& c : changes_) {
       numbers.insert(numbers.end(), {c.end, c.pressure, c.flow, c.displacement});
       numbers.insert(numbers.end(), c.mean.begin(), c.mean.end());
-      // A memory holds finite numbers only.
+      // Restart archives hold finite numbers only.
       for (const double left : c.contraction) numbers.push_back(std::isnan(left) ? unknown : left);
     }
     archive.array("period_changes", ArrayKind::alike, numbers);
@@ -128,7 +128,7 @@ class PeriodicityObserver : public Observer {
 
   PeriodicStanding standing() const { return standing_of(changes_, demand_); }
 
-  /// "4.5 % are left of its start, which falls to 0.819 of itself a period"
+  /// "its mean is about 4.5 % from the periodic state, to which each period leaves 0.819 of the way"
   std::string text_of_distance(const PeriodicStanding& standing) const {
     if (!standing.distance)
       return changes_.size() < 2 ? "how far the periodic state is shows after the next period"
@@ -138,7 +138,7 @@ class PeriodicityObserver : public Observer {
     return left + fmt::format(", to which each period leaves {:.3g} of the way", *standing.contraction);
   }
 
-  /// What keeps a run from being periodic, as far as it shows.
+  /// What keeps a run from being periodic, where that is known: "...; " or an empty string.
   std::string cause(const PeriodicStanding& standing) const {
     if (!demand_.steps_repeat && (!standing.distance || *standing.distance <= demand_.largest)) return advice_ + "; ";
     const double periods = slowest_.time_constant / period_;

@@ -6,8 +6,8 @@
 
 namespace fsi {
 
-/// Says after each period how pressures, flows and displacements changed from the one before, and ends a run that wants to
-/// become periodic; null where a case wants none.
+/// Reports after each period how pressures, flows and displacements changed from the one before, and ends the run once
+/// it is periodic, or as periodic as its steps allow (time.periods); null in other cases.
 template <int n>
 std::unique_ptr<Observer> make_periodicity_observer(const RunView<n>& watched);
 

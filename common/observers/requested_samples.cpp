@@ -58,7 +58,7 @@ class Requests {
     throw InputError(setup_.path.string(), "output." + key, problem, remedy);
   }
 
-  /// Those of the points that lie in fluid or wall; in both, on the interface, those of the fluid.
+  /// Samples at the points that lie in fluid or wall; on the interface those of the fluid.
   std::vector<SampledPoint> sampled(const std::string& name, const CurvePoints& curve) const {
     std::vector<std::optional<PointSample>> in_fluid(curve.at.size()), in_wall(curve.at.size());
     if (parts_.fluid) in_fluid = locate_in_cells(*parts_.fluid, curve.at);
@@ -85,7 +85,7 @@ class Requests {
                                       curve->at.size(), text(curve->at[first])));
   }
 
-  /// Empty, with a warning, where there is none.
+  /// Empty, with a warning, where there is no centre line.
   std::optional<CurvePoints> curve_of(const std::string& name, const LineRequest& line) {
     if (line.is_centre_line()) {
       const std::string key = "lines." + name + ".centerline";
@@ -110,7 +110,7 @@ class Requests {
     return curve;
   }
 
-  /// A surface of the fluid in the part's numbers.
+  /// Facets of a surface of the fluid, with the part's node numbers.
   FacetsOf<Element> opening(const std::string& key, const std::string& name) const {
     auto facets = group_facets(mesh_, name);
     if (facets.empty()) {

@@ -21,7 +21,7 @@ class RingingObserver : public Observer {
   std::vector<TableRows> after_step(const FinishedStep& step) override {
     const State& state = step.state;
     solver_error_ = std::max(solver_error_, step.report.solver_error);
-    // On the centre line: at the rim of the inlet, where the pressure is singular, nodes always tremble.
+    // On the centre line: at the rim of the inlet the pressure is singular and always oscillates.
     const auto pressures =
         centre_line_pressure<n>(watched_.points, state.last_balance().fluid, watched_.scene.processes());
     for (const double p : pressures) largest_pressure_ = std::max(largest_pressure_, std::abs(p));

@@ -6,8 +6,8 @@
 
 namespace fsi {
 
-/// Names a pressure that alternates from step to step, once, and keeps the largest of it in the summary. Null in statics and
-/// where there is no centre line.
+/// Warns once of a pressure that alternates from step to step (diagnostics/ringing_monitor.hpp), and keeps the largest
+/// amplitude in the summary. Null in statics and where there is no centre line.
 template <int n>
 std::unique_ptr<Observer> make_ringing_observer(const RunView<n>& watched);
 

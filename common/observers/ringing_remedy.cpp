@@ -6,7 +6,7 @@ namespace fsi {
 
 namespace {
 
-constexpr double comes_back = 2;  // times the largest error of a step: 1.5 was the most (docs/evidence/evidence.md)
+constexpr double comes_back = 2;  // times the largest error of a step: at most 1.5 observed (docs/evidence/evidence.md)
 constexpr double tighter = 0.01;  // what to try, relative to the tolerance in use
 
 std::string remedy_by_solver(const Ringing& ringing, const Case& setup) {

@@ -14,14 +14,14 @@
 
 namespace fsi {
 
-/// What watchers are made from. All of it outlives them.
+/// What observers are made from. All of it outlives them.
 template <int n>
 struct RunView {
   const Case& setup;
   const Scene<n>& scene;
   const Loads& loads;
   const Stepper& stepper;
-  const State& state;  ///< of the run, as it goes on
+  const State& state;  ///< the current one of the run
   double scene_time;   ///< ms, in which the scene swings; 0 in statics
   const ObservationPoints& points;
   DerivedQuantities<n>& derived;
@@ -32,7 +32,7 @@ struct RunView {
   Messages& messages;
 };
 
-/// Time of the last level that tables and fields of a run hold, ms: where pressures lag behind the levels, the last but one.
+/// Time of the last level in a run's tables and fields, ms: the last but one where pressures lag behind the levels.
 template <int n>
 double shown_until(const Scene<n>& scene, const State& state) {
   return scene.integrator->pressures_lag() ? state.times[1] : state.time;

@@ -7,11 +7,11 @@
 
 namespace fsi {
 
-/// Refuses a table of an earlier run whose last rows the checkpoint's state does not give again: columns of one measure are
-/// compared by the largest number in any of them.
+/// Compares the last rows of an earlier run's table with those of the checkpoint's state: columns of one measure
+/// relative to the largest number in any of them.
 /// \param time  of the level, ms
-/// \param seen  its rows now
-/// \throws InputError naming the table
+/// \param seen  rows of the checkpoint's state, as many as the table's last level has
+/// \throws InputError naming the table if they differ by more than 1e-6
 void require_same_rows(const EarlierTables& earlier, const ResultTable& table, double time,
                        const std::vector<TableRow>& seen);
 

@@ -11,7 +11,7 @@ namespace fsi {
 
 namespace {
 
-/// What to say where an earlier run has no such table.
+/// Message where an earlier run has no such table.
 const ResultTable::Missing no_samples{"output", "its samples are wanted, but the earlier run wrote none",
                                       "continue without them, or run from the start"};
 
@@ -26,7 +26,7 @@ std::array<double, 3> vector_at(const NodalSample& sample, const std::vector<dou
   return sum;
 }
 
-/// What a sample shows of a level.
+/// Numbers of a sample at a level.
 struct SampleReading {
   bool in_fluid = false;
   double pressure = 0;                               // Pa
@@ -37,7 +37,7 @@ bool is_in_fluid(const SampleReading& reading) {
   return reading.in_fluid;
 }
 
-/// Of a scene with these media: in the wall there is no velocity.
+/// Columns in a scene with these media; samples in the wall have no velocity.
 Columns<SampleReading> sample_columns(bool fluid, bool wall) {
   using Reading = const SampleReading&;
   Columns<SampleReading> columns{{"pressure_Pa", [](Reading r) { return r.pressure; }, Measure::pressure}};
@@ -99,7 +99,7 @@ void SampleTables<n>::add(const char* file, const std::vector<SampledPoint>& sam
 
 namespace {
 
-/// The part of a process, whose samples have weights of own nodes alone.
+/// This process's part of a reading: samples have weights of its own nodes alone.
 template <int n>
 SampleReading reading_of(const SampledPoint& sample, const State& level, const Scene<n>& scene) {
   using Mixed = MixedLayout<n>;

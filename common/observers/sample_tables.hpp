@@ -10,9 +10,9 @@
 
 namespace fsi {
 
-/// points.csv, lines.csv and planes.csv of a run, as far as its case asks for them. Pressure and velocity are those of
-/// the fluid, in the wall the pressure is the wall's and there is no velocity; the displacement is the wall's, in the
-/// fluid that of the mesh, by which the sample has moved from its reference coordinates.
+/// points.csv, lines.csv and planes.csv of a run, as far as its case asks for them. In the fluid the displacement is
+/// that of the mesh, by which the sample has moved from its reference coordinates. In the wall the pressure is the
+/// wall's, and there is no velocity.
 template <int n>
 class SampleTables {
  public:
@@ -21,8 +21,8 @@ class SampleTables {
 
   /// In the order points, lines, planes; those without a sample are left out.
   const std::vector<ResultTable>& tables() const { return tables_; }
-  /// The rows of each of them at a level. Processes that share the scene ask for them together: what they have to add up
-  /// goes into `sums`, and the rows are those of all processes when that is done.
+  /// The rows of each table at a level. Collective over the processes that share the scene. Numbers that are this
+  /// process's part of a sum are included in `sums`: rows are complete once these are added up.
   std::vector<std::vector<TableRow>> rows(const State& level, PartialSums& sums) const;
 
  private:

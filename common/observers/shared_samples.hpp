@@ -5,18 +5,17 @@
 
 namespace fsi {
 
-/// What a process has of the samples of a medium that is shared out. The sum over the processes of what theirs give is
-/// what the sample gives.
+/// A process's part of a sample in a medium that processes share. The sum of the parts' values is the sample's value.
 /// \param sample  in numbers of the whole part
-/// \returns the entries of own nodes, in numbers here
+/// \returns the entries of own nodes, with node numbers here
 NodalSample restricted(const NodalSample& sample, const PartRestriction& here);
 
-/// Makes samples on whole parts those of this process, but for planes.
+/// Restricts all samples but planes to this process, see restricted().
 /// \param fluid, wall  of the media; null where there is none
 void restrict_samples(const PartRestriction* fluid, const PartRestriction* wall, ObservationPoints& points);
 
-/// Has planes cut this part of the fluid, its share or all of it, in place of the one that they were made of, which they no
-/// longer look at. \param fluid  must outlive the points
+/// Makes planes cut this copy of the fluid, or this process's share, in place of the part that they were made on, which
+/// they no longer need. \param fluid  must outlive the points
 void cut_through(const PartNodes& fluid, ObservationPoints& points);
 
 }  // namespace fsi

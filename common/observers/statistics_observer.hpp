@@ -6,7 +6,7 @@
 
 namespace fsi {
 
-/// Takes the wall shear stress of each level into the averages over periods, which fields show; null where a case wants none.
+/// Adds the wall shear stress of each level to averages over periods (fields tawss, osi, rrt); null without these.
 template <int n>
 std::unique_ptr<Observer> make_statistics_observer(const RunView<n>& watched);
 

@@ -17,7 +17,7 @@ const Columns<StepRecord>& iteration_columns() {
   return columns;
 }
 
-/// How fluid and wall came to agree in a step.
+/// The coupling iteration of a step.
 struct CouplingRecord {
   int passes = 0;
   CouplingReport report;

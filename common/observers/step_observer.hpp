@@ -8,7 +8,7 @@ namespace fsi {
 
 inline constexpr const char* coupling_file = "coupling.csv";
 
-/// What steps took: iterations.csv, and coupling.csv of steppers that report how fluid and wall came to agree.
+/// iterations.csv, the cost of each step, and coupling.csv of steppers that report the coupling of fluid and wall.
 template <int n>
 std::unique_ptr<Observer> make_step_observer(const RunView<n>& watched);
 

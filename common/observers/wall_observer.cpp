@@ -13,17 +13,17 @@ namespace fsi {
 
 namespace {
 
-// What linear elasticity leaves out is half of the square of grad d: beyond these 2.5 % of strain, and 4.5 %.
+// Linear elasticity neglects half of the square of grad d: at these limits 2.5 % of the strain, and a strain of 4.5 %.
 constexpr double small_strain = 0.05, small_rotation = 0.3;  // -, radians
 constexpr double degrees = 57.295779513082321;
 
-/// A value with the time at which it was.
+/// A value with its time, ms, or share of the load.
 struct ValueInTime {
   ValueAt at;
   double time = 0;
 };
 
-/// The extremes of a layer over the steps of this program.
+/// The extremes of a layer since the program started.
 struct LayerRecord {
   ValueInTime least{{1}}, greatest{{1}}, strain, rotation;
   bool warned = false;

@@ -12,8 +12,8 @@ namespace fsi {
 
 namespace {
 
-constexpr double far = 2;        // of a valve's conductance: a kept Jacobian bears less
-constexpr int many_changes = 2;  // of a valve in one stage: it opens or closes once in a step that goes well
+constexpr double far = 2;        // factor of a valve's conductance: a kept Jacobian bears smaller ones
+constexpr int many_changes = 2;  // of a valve in one stage: in a step that goes well it opens or closes once
 
 NetworkMoment balance_at(double factor, double time) {
   return {1 / factor, time};

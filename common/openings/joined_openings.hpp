@@ -41,21 +41,21 @@ class JoinedOpenings {
   /// \param reference  r of all that openings keep
   void add_pressures(const FluidInput& in, double time, const std::vector<double>& reference,
                      std::vector<double>& pressures) const;
-  /// What they add without flow, which is then taken off. \param factor  k, 1/ms
+  /// Subtracts what add_pressures() would add without flow. \param factor  k, 1/ms
   void subtract_still_pressures(double factor, double time, const std::vector<double>& reference,
                                 std::vector<double>& pressures) const;
   /// Sets what the network keeps at a balance.
   void settle(const FluidInput& in, double time, const std::vector<double>& reference, std::vector<double>& kept) const;
   /// dp_i/dQ_j at a balance, row by row, kPa ms/mm^3.
   std::vector<double> slopes(const FluidInput& in, double time, const std::vector<double>& reference) const;
-  /// Whether a valve that opened or closed since then has made the last slopes others, by far.
+  /// Whether a valve has opened or closed since slopes() was called, so that those slopes are far off.
   bool outdated() const;
-  /// At a finished level. The pressures of nodes that are openings are the fluid's there: those of a network with the flows of
-  /// the level mean little behind a closed valve, which lets next to nothing through, where levels are extrapolated.
+  /// At a finished level. Nodes that are openings get the fluid's mean pressures: behind a closed valve, pressures of a
+  /// network with the flows of an extrapolated level would mean little.
   NetworkState at_level(double time, const std::vector<double>& kept, const std::vector<double>& mesh,
                         const std::vector<double>& flow) const;
 
-  /// Of a stage that finds no solution: what a valve did in it; empty where none had a part in it.
+  /// For a stage without solution: what a valve did in it; empty where no valve had a part in that.
   std::string complaint() const;
   /// What helps against that.
   static constexpr const char* remedy = "a larger width or leak of that valve, or a capacitor or an inductor beside it";
@@ -71,8 +71,7 @@ class JoinedOpenings {
   std::vector<Opening> openings_;
   std::shared_ptr<const Network> network_;
   std::size_t place_ = 0;
-  /// Of elements that switch, since the last settle(): whether they were open, how often that changed. Told to the user of a
-  /// run that fails.
+  /// Of elements that switch, since the last settle(): whether they were open, how often that changed. For complaint().
   struct Course {
     bool seen = false, open = false;
     int changes = 0;

@@ -5,9 +5,10 @@
 
 namespace fsi {
 
-/// What lies behind an opening: a pressure that depends on the flow through it (docs/theory.md, section 3.5). It keeps m numbers y of its
-/// own, pressures or flows, which a time scheme marches like any other quantity: dy/dt = k (y - r) at a balance, k and r
-/// known. Its equations are linear, so that the pressure there is an affine function of the outward flow Q there,
+/// What lies behind an opening: a pressure that depends on the flow through it (docs/theory.md, section 3.5). It keeps
+/// m numbers y of its own, pressures or flows, which a time scheme integrates like any other quantity:
+/// dy/dt = k (y - r) at a balance, k and r known. Its equations are linear, so that the pressure is an affine function
+/// of the outward flow Q,
 ///   p = a + b Q,
 /// and is solved with the step. Units: kPa, mm^3/ms, ms.
 class OpeningLaw {

@@ -21,8 +21,8 @@ struct OpeningLawKind {
   bool has_section() const { return *about != '\0'; }
 };
 
-/// All laws by name: the table of all there are. A new one is a file beside these and a row here; case files,
-/// `--help-keys` and everything that asks a law know it from then on. A law L is an OpeningLaw that states
+/// All laws by name. A new one is a file beside these and a row here; case files, `--help-keys` and all users of laws
+/// follow. A law L is an OpeningLaw that states
 ///   L::name          its name in case files
 ///   L::parameters()  its parameters, see ParameterOf
 ///   L::about         in case files: of what its section consists; without it, its parameters are keys of [[opening]]

@@ -11,10 +11,10 @@
 
 namespace fsi {
 
-/// What lies behind the surfaces through which fluid may pass, as far as its pressure depends on the flow, and all that openings keep
-/// from step to step. Solution::openings holds that: first the numbers of the laws, then those of the network, then
-/// pressure (kPa) and flow outward (mm^3/ms) of each opening that moves and whose flow is given; laws and such openings in
-/// the order of the openings. This class alone knows where. Processes that share the fluid ask together and get the same numbers.
+/// What lies behind the openings of the fluid, as far as the pressure depends on the flow, and what they keep from step
+/// to step in Solution::openings: first the numbers of the laws, then those of the network, then pressure (kPa) and
+/// outward flow (mm^3/ms) of each opening that moves and whose flow is given; laws and such openings in the order of
+/// the openings. This class alone knows where. Processes that share the fluid ask together and get the same numbers.
 /// \tparam n  components of a vector
 template <int n>
 class Openings {
@@ -47,7 +47,7 @@ class Openings {
            std::shared_ptr<const Network> network = nullptr);
 
   const std::vector<Answering>& answering() const { return answering_; }
-  /// What answers at an opening; null: nothing. \param number  of the opening
+  /// The law at an opening; null: there is none. \param number  of the opening
   const Answering* answering(std::size_t number) const {
     for (const Answering& opening : answering_)
       if (opening.number == number) return &opening;

@@ -15,7 +15,7 @@ std::vector<char> owned_of(const PartNodes& part, const std::vector<int>& nodes)
   return owned;
 }
 
-/// Of some nodes of the fluid, ascending as on one process.
+/// The order of some nodes of the fluid, ascending as on one process.
 WholeOrder order_of(const PartNodes& part, const std::vector<int>& nodes) {
   std::vector<std::int64_t> keys;
   for (const int node : nodes) keys.push_back(part.share->whole_node[static_cast<std::size_t>(node)]);

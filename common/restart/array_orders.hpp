@@ -17,13 +17,13 @@ struct CellShare {
   const WholeOrder* order = nullptr;  ///< null: all are here
 };
 
-/// How processes share the arrays of a scene's checkpoint out, and how long these are here, by what they have numbers of.
-/// Made by all processes together.
+/// How processes share out the arrays of a scene's checkpoint, and how long each is here, by its ArrayKind. Made by all
+/// processes together.
 template <int n>
 class ArrayOrders {
  public:
   /// \param shear_nodes  of the fluid, with wall shear stress; null: there are none
-  /// \param fluid, wall  cells with numbers of their own. What all of these refer to must outlive this
+  /// \param fluid, wall  cells with numbers of their own. All that the parameters refer to must outlive this
   explicit ArrayOrders(const Scene<n>& scene, const std::vector<int>* shear_nodes = nullptr, CellShare fluid = {},
                        CellShare wall = {});
 

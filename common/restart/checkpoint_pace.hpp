@@ -4,7 +4,7 @@
 
 namespace fsi {
 
-/// When checkpoints are written. Seconds are wall time since the steps began; the class has no clock of its own.
+/// When checkpoints are written. Times are seconds of wall-clock time since the steps began.
 struct CheckpointRule {
   std::optional<int> every{};       ///< steps between checkpoints; 0: none; empty: by time
   std::optional<double> seconds{};  ///< s, by which the last is older than this; empty: by what checkpoints cost
@@ -13,8 +13,8 @@ struct CheckpointRule {
   double first_guess = 0.02;        ///< s, of a checkpoint, until one was written
 };
 
-/// Decides after each step whether a checkpoint is due, by what the ones before have taken. The one that is written at
-/// the end of a run does not ask.
+/// Decides after each step whether a checkpoint is due, by what the earlier ones have taken. It has no clock of its
+/// own. The checkpoint at the end of a run does not depend on it.
 class CheckpointPace {
  public:
   explicit CheckpointPace(const CheckpointRule& rule) : rule_(rule) {}
@@ -28,8 +28,8 @@ class CheckpointPace {
 
  private:
   CheckpointRule rule_;
-  std::optional<double> cost_;  ///< of the longer of the last two, s
-  double last_seconds_ = 0;     ///< of the last one
+  std::optional<double> cost_;  ///< s, of the slower of the last two; empty: none was written
+  double last_seconds_ = 0;     ///< s, of the last one
   double spent_ = 0;            ///< s, on all of them
   double last_ = 0;             ///< when the last was written
 };

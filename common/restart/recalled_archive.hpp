@@ -20,11 +20,12 @@ struct StoredArrays {
   std::function<std::optional<std::size_t>(ArrayKind kind)> length;                  ///< as ArrayOrders::length()
 };
 
-/// A memory that gives back what a checkpoint holds. Nothing is believed: every number is finite and in its range, every
-/// array as long as its kind or its owner says. For all processes together: where one of them refuses, all do.
+/// An archive that gives back what a checkpoint holds. It checks that every number is finite and in its range, and
+/// every array as long as its kind or its owner says. For all processes together: where one of them refuses, all do.
 class RecalledArchive : public RestartArchive {
  public:
-  /// \param file  of the checkpoint, for messages \param head  its numbers; must outlive this, as the processes
+  /// \param file  of the checkpoint, for messages
+  /// \param head, processes  must outlive this
   RecalledArchive(std::filesystem::path file, const Checkpoint& head, StoredArrays arrays,
                   const Communicator& processes = Communicator::alone());
 
@@ -32,6 +33,7 @@ class RecalledArchive : public RestartArchive {
   bool recalls() const override { return true; }
   bool has(const std::string& name) const override;
   bool step_changed() const override { return step_changed_; }
+  /// From now on step_changed().
   void change_step() { step_changed_ = true; }
   void warn(const std::string& said) override { warnings_.push_back(said); }
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -40,8 +42,8 @@ class RecalledArchive : public RestartArchive {
   void number(const std::string& name, double& value, const Range& range) override;
   void integer(const std::string& name, std::int64_t& value, const Range& range) override;
 
-  /// Refuses an array that nobody has asked for, unless it may be there for others. \throws InputError
-  /// \param others  what the names of those begin with \returns the names of those
+  /// Refuses an array that no owner has asked for, unless other methods may have written it. \throws InputError
+  /// \param others  prefixes of the names that other methods use \returns the names left to them
   std::vector<std::string> require_all_known(const std::vector<std::string>& others) const;
 
  private:

@@ -25,7 +25,7 @@ constexpr const char* balance_times = "balance_times";
 constexpr const char* since_jump = "since_jump";
 constexpr const char* from_another_folder = "restart from a folder as its run has left it, or run from the start";
 
-/// As long as it is: the scene says so.
+/// An array whose length the scene decides: it stays what it is.
 void keep_sized(const std::string& name, ArrayKind kind, std::vector<double>& values, RestartArchive& archive) {
   archive.array(name, kind, values, {values.size()});
 }
@@ -165,8 +165,8 @@ void write_down_steps(const TimeAxis& axis, const State& state, RestartArchive& 
   for (const Stretch& stretch : axis.stretches())
     steps.stretches.insert(steps.stretches.end(),
                            {static_cast<double>(stretch.after), std::min(stretch.start, state.time), stretch.asked});
-  // Of adaptive steps iterations.csv tells the ends: so a checkpoint does not grow with their number. The last one keeps
-  // its length to the last bit.
+  // The ends of adaptive steps are in iterations.csv, so that a checkpoint does not grow with their number. The last
+  // one keeps its length to the last bit.
   const auto& insertions = axis.insertions();
   std::size_t told = 0;
   while (told < insertions.size() && insertions[told].step == static_cast<int>(told) + 1 &&

@@ -12,11 +12,11 @@
 
 namespace fsi {
 
-/// Goes over the finished levels of a state and what its time scheme keeps besides. Where the memory recalls, the state
-/// comes at rest, for the sizes.
+/// Writes or recalls the finished levels of a state and what its time scheme keeps besides. Where the archive recalls,
+/// the state comes at rest, for the sizes.
 void keep(State& state, RestartArchive& archive);
 
-/// A state from a checkpoint, with step and time. Nothing is believed: times are in order, counts in their range.
+/// A state from a checkpoint, with step and time; checks that times are in order and counts in their range.
 /// \param state  comes at rest \throws InputError naming the file and what is wrong there
 void recall(const Checkpoint& head, RecalledArchive& archive, State& state);
 
@@ -26,16 +26,16 @@ struct StoredSteps {
   std::vector<Insertion> insertions;  ///< those that were not planned
 };
 void write_down_steps(const TimeAxis& axis, const State& state, RestartArchive& archive);
-/// Holds them against the recorded ends of steps, as well as the times of the state's levels.
-/// \param ends  of the steps 1 to the last, as iterations.csv has them
+/// Checks them, and the times of the state's levels, against the recorded ends of steps.
+/// \param ends  ms, of the steps 1 to state.step, as iterations.csv has them
 /// \throws InputError naming the file when they do not fit
 StoredSteps recall_steps(RecalledArchive& archive, const State& state, const std::vector<double>& ends);
 
-/// What tables hold at the checkpoint, by their files. Recalling, those that are there already are looked for; what the
-/// checkpoint does not know of goes.
+/// Digests of the result tables at the checkpoint, by file. Recalling looks up the keys that are there and erases those
+/// that the checkpoint does not have.
 void keep(TableDigests& digests, RestartArchive& archive);
 
-/// Refuses a checkpoint behind the end of the run (ms; in statics 1). \throws InputError
+/// Refuses a checkpoint later than the end of the run (ms; in statics 1). \throws InputError
 void require_not_beyond(const std::filesystem::path& file, const State& state, double end);
 
 }  // namespace fsi

@@ -16,8 +16,8 @@ namespace fsi {
 
 namespace {
 
-constexpr double end_level = 1e-9;  // of the first surface: on the opening but for rounding, and inside
-constexpr int first_levels = 33;    // of the curve that says where the others are best put
+constexpr double end_level = 1e-9;  // of the first surface: just inside the opening
+constexpr int first_levels = 33;    // of the rough curve along which the others are spaced evenly
 constexpr int most_levels = 2000;
 
 [[noreturn]] void not_found(const char* why) {
@@ -36,7 +36,7 @@ class Levels {
 
   /// Centroids of the surfaces, in the order of the levels, which ascend.
   std::vector<Point> centroids(const std::vector<double>& levels) const {
-    // Each cell is looked at once, whatever the number of levels.
+    // One pass over the cells, whatever the number of levels.
     std::vector<std::vector<int>> cut(levels.size());
     for (std::size_t c = 0; c < part_.cells.size(); ++c) {
       const auto h = values(static_cast<int>(c), 0);
@@ -97,7 +97,7 @@ class Levels {
   bool turned_;
 };
 
-/// Mean length of an edge if all cells were regular, mm.
+/// Edge of a regular cell of the mean volume, mm.
 template <int Dim, int Order>
 double mean_edge(const Submesh<Dim, Order>& part) {
   double volume = 0;
@@ -110,7 +110,7 @@ double mean_edge(const Submesh<Dim, Order>& part) {
   return Dim == 3 ? std::cbrt(6 * std::sqrt(2.0) * each) : std::sqrt(4 / std::sqrt(3.0) * each);
 }
 
-/// Neighbours in the same place have no direction between them.
+/// Drops points that coincide with the one before: no direction leads from one to the other.
 std::vector<Point> distinct(const std::vector<Point>& points) {
   std::vector<Point> kept;
   double size = 0;

@@ -14,7 +14,7 @@ namespace fsi {
 
 namespace {
 
-constexpr double tolerance = 1e-10;  // of the residual, relative to that of zero inner values
+constexpr double tolerance = 1e-10;  // residual relative to that of zero inner values
 constexpr int most_iterations = 500;
 
 /// Volume times gradients of the barycentric coordinates of a simplex, and its volume: mm^2 and mm^3 (mm and mm^2).
@@ -36,6 +36,7 @@ double gradients(const std::array<Point, Dim + 1>& x, std::array<Point, Dim + 1>
   return std::abs(simplex_volume<Dim>(x.data()));
 }
 
+/// Stiffness matrix of linear elements between all nodes.
 template <int Dim>
 CsrMatrix<double> laplacian(const std::vector<Point>& nodes, const std::vector<int>& vertices, bool turned) {
   const NodeGraph graph = graph_of_cells(static_cast<int>(nodes.size()), vertices, Dim + 1);
@@ -55,7 +56,7 @@ CsrMatrix<double> laplacian(const std::vector<Point>& nodes, const std::vector<i
   return a;
 }
 
-/// Of the rows and columns whose nodes are unknowns, numbered by `unknown`.
+/// The rows and columns whose nodes are unknowns. \param unknown  their numbers, per node; negative: none
 CsrMatrix<double> inner_part(const CsrMatrix<double>& a, const std::vector<int>& unknown, int count) {
   CsrMatrix<double> inner;
   inner.columns = count;
@@ -83,12 +84,13 @@ double product(const std::vector<double>& a, const std::vector<double>& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-/// Conjugate gradients; beta = z . (r - r_old) / rho_old allows for a preconditioner in single precision.
+/// Conjugate gradients around a multigrid cycle; beta = z . (r - r_old) / rho_old tolerates that the preconditioner
+/// works in single precision.
 std::vector<double> solve(const CsrMatrix<double>& a, const std::vector<double>& right) {
   const std::size_t size = right.size();
   ScalarMultigrid multigrid;
   ScalarMultigrid::Options options;
-  options.post_smoothing = true;  // conjugate gradients want a symmetric cycle
+  options.post_smoothing = true;  // conjugate gradients need a symmetric cycle
   multigrid.set_up(a, options);
   std::vector<double> x(size, 0.0), r(right), p(size, 0.0), q(size), z(size), r_old(size);
   std::vector<float> single_r(size), single_z(size);
@@ -97,7 +99,7 @@ std::vector<double> solve(const CsrMatrix<double>& a, const std::vector<double>&
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const double residual = std::sqrt(product(r, r));
     if (residual <= tolerance * reference) return x;
-    // Scaled, so that small residuals stay numbers in single precision.
+    // Scaled, so that small residuals do not underflow in single precision.
     for (std::size_t i = 0; i < size; ++i) single_r[i] = static_cast<float>(r[i] / residual);
     multigrid.cycle(single_r, single_z);
     for (std::size_t i = 0; i < size; ++i) z[i] = residual * static_cast<double>(single_z[i]);

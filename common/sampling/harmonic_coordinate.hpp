@@ -14,9 +14,9 @@ namespace fsi {
 /// \param vertices  Dim + 1 for each cell in turn
 /// \param low       nodes where it is 0
 /// \param high      nodes where it is 1
-/// \param turned    whether triangles stand for the body that they are turned out of, x being the radius
-/// \returns per node; 0 at nodes that are no vertex
-/// \throws ConvergenceError when it is not found: the cells do not connect the two, or are badly shaped
+/// \param turned    whether triangles stand for a body of revolution, x being the radius
+/// \returns per node; 0 at nodes that are no vertex. Where cells do not connect the two it is 0 or 1 throughout
+/// \throws ConvergenceError when conjugate gradients do not converge, as with badly shaped cells
 template <int Dim>
 std::vector<double> harmonic_coordinate(const std::vector<Point>& nodes, const std::vector<int>& vertices,
                                         const std::vector<int>& low, const std::vector<int>& high, bool turned = false);

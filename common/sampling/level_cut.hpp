@@ -15,9 +15,9 @@
 
 namespace fsi {
 
-/// A part of where a cell is cut by the zero level of a function: a triangle in a tetrahedron, a stretch of a line in a
-/// triangle; straight in the cell's barycentric coordinates. Its corners' order makes its normal point to where the
-/// function is larger.
+/// A piece of a cell's cut by the zero level of a function: a triangle in a tetrahedron, a segment in a triangle, flat
+/// in the cell's barycentric coordinates. The order of its corners makes its normal point to where the function is
+/// larger.
 template <int Dim>
 struct CutPiece {
   using Barycentric = std::array<double, Dim + 1>;
@@ -29,7 +29,7 @@ template <int Dim>
 struct CutPoint {
   std::array<double, Dim + 1> place;  ///< barycentric
   Point at;                           ///< mm
-  Point area;                         ///< normal times the area that belongs to it, mm^2; of lines mm
+  Point area;                         ///< normal times the area that belongs to it, mm^2; length in triangles, mm
 };
 
 namespace detail {
@@ -107,8 +107,8 @@ void cut_simplex(const std::array<CutCorner<Dim>, Dim + 1>& corners, const Visit
 }
 
 /// Calls visit(CutPiece) for the pieces of a cell's cut by f = 0. A zero counts as positive: where the level lies on a
-/// facet, it cuts the cell on the negative side only. Where f is quadratic, the cell is divided twice, and f linear in
-/// each of the 16 or 64 parts: off the true cut by the square of a quarter of the cell's size.
+/// facet, it cuts the cell on the negative side only. For quadratic f the cell is divided twice and f taken as linear
+/// in each of the 16 or 64 parts: off the true cut by the square of a quarter of the cell's size.
 /// \param f  at the nodes of the cell
 template <int Dim, int Order, class Visit>
 void cut_cell(const std::array<double, nodes_of_simplex(Dim, Order)>& f, const Visit& visit) {
@@ -144,8 +144,8 @@ void cut_cell(const std::array<double, nodes_of_simplex(Dim, Order)>& f, const V
   }
 }
 
-/// Calls visit(CutPoint) for the quadrature points of a piece in a cell with nodes at map.x: exact for products of a
-/// quadratic field with the area of a quadratic cell's piece, and in triangles with the distance from the axis besides.
+/// Calls visit(CutPoint) for the quadrature points of a piece in a cell with nodes at map.x. Exact for quadratic fields
+/// on quadratic cells, in triangles also times the distance from the axis.
 template <int Dim, int Order, class Visit>
 void for_points_of(const CutPiece<Dim>& piece, const CellMap<Dim, Order>& map, const Visit& visit) {
   static constexpr auto rule = [] {
@@ -169,7 +169,7 @@ void for_points_of(const CutPiece<Dim>& piece, const CellMap<Dim, Order>& map, c
     if constexpr (Dim == 3) {
       point.area = (0.5 * rule.weight[q]) * cross(tangent[0], tangent[1]);
     } else {
-      // Turned clockwise in the plane of the mesh, seen as the cell runs counter-clockwise.
+      // The tangent turned clockwise in the plane of the mesh, seen from where the cell runs counter-clockwise.
       const Point across = cross(map.x[1] - map.x[0], map.x[2] - map.x[0]);
       point.area = (rule.weight[q] / norm(across)) * cross(tangent[0], across);
     }
@@ -177,11 +177,11 @@ void for_points_of(const CutPiece<Dim>& piece, const CellMap<Dim, Order>& map, c
   }
 }
 
-/// Of cut cells, those that are connected by facets which are cut themselves.
+/// Groups cut cells into pieces: cells that share a facet which is cut itself are in one piece.
 /// \param cut     numbers of the cut cells
-/// \param values  values(cell): numbers at the nodes of a cell between which f lies: f itself, or its control values
-/// \returns for each of them the number of its piece; pieces count from 0 in the order of their first cells
-/// \tparam Order  of what `values` gives: 1, the vertices alone, goes with any cells
+/// \param values  values(cell): numbers at the nodes of a cell that bound f: f itself where linear, or control values
+/// \returns for each cut cell the number of its piece; pieces count from 0 in the order of their first cells
+/// \tparam Order  of the numbers in `values`: 1, at the vertices alone, goes with any cells
 template <int Dim, int Order, class Cell, class Values>
 std::vector<int> pieces_of_cut(const std::vector<Cell>& cells, const std::vector<int>& cut, const Values& values) {
   struct Use {

@@ -20,7 +20,7 @@ namespace {
 constexpr double rounding = 1e-12;  // of the part's size: nodes this near to the plane lie on it
 constexpr int most_vertices = 4;    // of a cell
 
-/// Integrals over some of the plane.
+/// Integrals over pieces of the plane.
 struct Sums {
   double flow = 0, area = 0;
   double pressure = 0;  ///< times area
@@ -28,7 +28,7 @@ struct Sums {
   PlaneRow row() const { return {flow, area > 0 ? pressure / area : 0, area}; }
 };
 
-/// What a process sees of a connected piece.
+/// A connected piece of the cut, as far as a process has it.
 struct SeenPiece {
   double away = std::numeric_limits<double>::infinity();  ///< from the plane's origin, mm
   Sums sums;
@@ -47,14 +47,14 @@ class PlaneCutOf : public PlaneCut {
     for (int k = 0; k < Dim; ++k) axes_[k] = Dim == 2 && turned ? 2 * k : k;
     const Point corner = part.nodes.empty() ? Point{0, 0, 0} : part.nodes.front();
     for (const Point& x : part.nodes) size_ = std::max(size_, distance(x, corner));
-    // On a face of the part there are cells on one side only: that is the side that is cut.
+    // Where the plane lies on a face of the part there are cells on one side only: zeros belong to the other.
     side_ = 1;
     if (cut_cells(distances(nodes_)).empty()) side_ = -1;
   }
 
   bool cuts_at_rest() const { return !cut_cells(distances(nodes_)).empty(); }
 
-  /// The plane of `other` through a share of its part: what is said of either side of it must hold for all of the part.
+  /// The plane of `other` through a share of its part, with the side and size that hold for the whole part.
   PlaneCutOf(const PlaneCutOf& other, const Part& here)
       : nodes_(here.nodes),
         cells_(here.cells),
@@ -79,8 +79,8 @@ class PlaneCutOf : public PlaneCut {
     return integrals(*x, f, cut, piece, nearest_piece(*x, f, cut, piece), fluid).row();
   }
 
-  /// The number of pieces; of each how near it is and its sums over the cells that are counted here; the number of cut
-  /// cells that other processes have, too; of each the whole numbers of its vertices, and its piece.
+  /// Appends the number of pieces; for each its distance and its sums over the cells counted here; the number of cut
+  /// cells that other processes have, too; for each the numbers of its vertices in the whole part, and its piece.
   void say(const std::vector<double>& mesh, const std::vector<double>& fluid,
            std::vector<double>& said) const override {
     const auto x = moved(mesh);
@@ -120,7 +120,7 @@ class PlaneCutOf : public PlaneCut {
       for (int k = 0; k < Dim; ++k) (*now)[a][axes_[k]] += mesh[VectorLayout<Dim>::vector(static_cast<int>(a), k)];
     return now;
   }
-  /// Over the cells of a piece that are counted here.
+  /// Sums over the cells of a piece that are counted here.
   Sums integrals(const std::vector<Point>& x, const std::vector<double>& f, const std::vector<int>& cut,
                  const std::vector<int>& piece, int chosen, const std::vector<double>& fluid) const {
     Sums sums;
@@ -151,7 +151,7 @@ class PlaneCutOf : public PlaneCut {
     for (std::size_t i = 0; i < map.x.size(); ++i) map.x[i] = x[cells_[cell][i]];
     return map;
   }
-  /// Distances of the nodes from the plane, mm, those on it exactly 0; positive on the side that zeros belong to.
+  /// Distances of the nodes from the plane, mm, 0 on it; positive on the side that zeros belong to.
   std::vector<double> distances(const std::vector<Point>& x) const {
     std::vector<double> f(x.size());
     for (std::size_t a = 0; a < x.size(); ++a) {
@@ -165,7 +165,7 @@ class PlaneCutOf : public PlaneCut {
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = f[cells_[cell][i]];
     return values;
   }
-  /// Numbers between which the distance lies in a cell: in a quadratic one those of its Bezier form.
+  /// Numbers that bound the distance in a cell: in a quadratic one its Bezier coefficients.
   Values control_values(const std::vector<double>& f, int cell) const {
     Values values = at_cell(f, cell);
     if constexpr (Order == 2)
@@ -191,7 +191,8 @@ class PlaneCutOf : public PlaneCut {
     double least = std::numeric_limits<double>::infinity();
     return nearest_piece(x, f, cut, piece, -1, least);
   }
-  /// Of all pieces, or of one alone. \param least  that are nearer than this, mm, which becomes how near it is
+  /// The piece nearest to the origin. \param alone  the only one to consider; negative: all
+  /// \param least  distance that it must be below, mm; becomes its distance
   int nearest_piece(const std::vector<Point>& x, const std::vector<double>& f, const std::vector<int>& cut,
                     const std::vector<int>& piece, int alone, double& least) const {
     int nearest = 0;
@@ -201,7 +202,7 @@ class PlaneCutOf : public PlaneCut {
       cut_cell<Dim, Order>(at_cell(f, cut[k]), [&](const CutPiece<Dim>& part) {
         const auto& c = part.corners;
         double away = distance(origin_, map.at(c[0]));
-        double over = 0;  // not a number in pieces without extent
+        double over = 0;  // NaN for pieces without extent
         if constexpr (Dim == 3)
           over = distance_to_triangle(origin_, map.at(c[0]), map.at(c[1]), map.at(c[2]));
         else
@@ -243,7 +244,7 @@ std::vector<double> message_on(const std::vector<const PlaneCut*>& planes, const
 }
 
 std::vector<PlaneRow> rows_of_messages(const std::vector<double>& messages, std::size_t planes) {
-  std::vector<std::size_t> at;  // per process, where it goes on
+  std::vector<std::size_t> at;  // per process, where its message continues
   for (std::size_t first = 0; first < messages.size(); first += static_cast<std::size_t>(messages[first]))
     at.push_back(first + 1);
   using SharedCell = std::array<int, most_vertices + 1>;  // vertices, piece among those of all processes

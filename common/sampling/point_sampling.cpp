@@ -18,7 +18,7 @@ namespace fsi {
 
 namespace {
 
-constexpr double on_boundary = -1e-6;  // a barycentric coordinate of points that users type with a few digits
+constexpr double on_boundary = -1e-6;  // least barycentric coordinate in a cell: users type points with a few digits
 
 template <int Dim, int Order, template <int, int> class Mesh>
 PointSample sample_of(const Mesh<Dim, Order>& mesh, int cell, const std::array<double, Dim + 1>& l) {
@@ -27,10 +27,10 @@ PointSample sample_of(const Mesh<Dim, Order>& mesh, int cell, const std::array<d
   return {{nodes.begin(), nodes.end()}, {weights.begin(), weights.end()}, {l.begin(), l.end()}};
 }
 
-/// The cells, of those listed, in whose box a point lies: a grid of them alone is small where points are few.
+/// The listed cells whose bounding box contains a point: a grid of them alone is small where points are few.
 template <int Dim, int Order, template <int, int> class Mesh>
 std::vector<int> cells_near(const Mesh<Dim, Order>& mesh, const std::vector<int>& cells, std::vector<Point> points) {
-  constexpr double margin = 1e-2;  // of a box: more than a point outside a cell that counts as in it lies from it
+  constexpr double margin = 1e-2;  // of a box: larger than the distance at which points count as in a cell
   Point low = points.front(), high = low;
   for (const Point& x : points)
     for (int d = 0; d < 3; ++d) {
@@ -63,14 +63,14 @@ std::vector<int> cells_near(const Mesh<Dim, Order>& mesh, const std::vector<int>
   return near;
 }
 
-/// The cell that holds a point deepest, the first of them among several.
+/// The cell that contains a point deepest, the first among equals.
 template <int Dim>
 struct Holder {
   int cell = -1;  ///< none
   std::array<double, Dim + 1> place{};
 };
 
-/// \param furthest  how negative a barycentric coordinate of a point in a cell may be
+/// \param furthest  least barycentric coordinate of a point that counts as in a cell, negative
 template <int Dim, int Order, template <int, int> class Mesh>
 Holder<Dim> holder_of(const Mesh<Dim, Order>& mesh, const CellGrid& grid, const Point& x, double furthest) {
   const auto [begin, end] = grid.near(x);
@@ -87,7 +87,7 @@ Holder<Dim> holder_of(const Mesh<Dim, Order>& mesh, const CellGrid& grid, const 
   return holder;
 }
 
-/// The nearest cell by the distance to the point's clamped image in it.
+/// The cell nearest to a point by the distance to the point's clamped image in it.
 template <int Dim, int Order>
 PointSample nearest_sample(const SimplexMesh<Dim, Order>& mesh, const std::vector<int>& cells, const Point& x,
                            const SamplingPlace& from) {

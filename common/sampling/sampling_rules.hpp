@@ -6,8 +6,9 @@
 
 namespace fsi {
 
+// Tolerances that all samplers share.
 inline constexpr double barycentric_inside = -1e-9;  // barycentric coordinates this far below zero are rounding
-inline constexpr double furthest_edges = 0.5;        // longest edges that a point may lie outside
+inline constexpr double furthest_edges = 0.5;        // how far outside a point may lie, in longest edges
 
 inline constexpr const char* sampling_remedy =
     "check structure.axis_origin and structure.axis_direction, and that the mesh is in mm";

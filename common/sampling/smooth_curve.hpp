@@ -6,16 +6,16 @@
 
 namespace fsi {
 
-/// A smooth curve through points: cubic between two of them, its slope at each that of the parabola through it and its
-/// neighbours, parameter the length of the chords. Off a smooth curve by the third power of the points' distance, from
-/// a circle by the fourth but at its ends.
+/// A smooth curve through points, parametrised by the length of the chords: cubic between two of them, its slope at
+/// each that of the parabola through it and its neighbours. Its error is of third order in the points' distance, on a
+/// circle of fourth order but at the ends.
 class SmoothCurve {
  public:
   /// \param points  mm, at least two, neighbours different
   explicit SmoothCurve(std::vector<Point> points);
 
   double length() const { return reached_.back(); }  ///< mm
-  /// The point at an arc length from the first one, mm; beyond the ends those.
+  /// The point at arc length s from the first one, mm; beyond the curve its first or last point.
   Point at(double s) const;
 
  private:

@@ -23,7 +23,7 @@ double wrapped(double angle) {
   return angle - 2 * pi * std::round(angle / (2 * pi));
 }
 
-/// A facet of a tube's surface with its angles and axial positions.
+/// A facet of a tube's surface with its nodes' angles and axial positions.
 template <std::size_t Nodes>
 struct Unrolled {
   std::array<double, Nodes> angle, axial;
@@ -65,7 +65,7 @@ AngularRange covered_angles(const std::vector<Unrolled<Nodes>>& facets) {
       low = std::min(low, wrapped(angle - facet.angle[0]));
       high = std::max(high, wrapped(angle - facet.angle[0]));
     }
-    if (high - low > pi) return {};  // holds the axis
+    if (high - low > pi) return {};  // the facet contains the axis
     arcs.push_back({facet.angle[0] + low, facet.angle[0] + high});
   }
   if (arcs.empty()) return {};
@@ -86,7 +86,7 @@ AngularRange covered_angles(const std::vector<Unrolled<Nodes>>& facets) {
   return widest < smallest_gap ? AngularRange{} : AngularRange{begin, 2 * pi - widest};
 }
 
-/// Angles whose samples have the mean over the whole tube as their mean.
+/// Angles at which the mean of samples is that over the whole tube.
 std::vector<double> sampled_angles(const AngularRange& range, int count) {
   std::vector<double> angles(count);
   const double turns = 2 * pi / range.span;
@@ -122,7 +122,7 @@ WallSample wall_sample(const std::vector<Unrolled<Nodes>>& facets, const std::ve
   std::array<double, 3> best{};
   for (const std::size_t f : near) {
     const auto& facet = facets[f];
-    std::array<double, Nodes> s;  // mm around the tube from the wanted angle
+    std::array<double, Nodes> s;  // mm around the tube, from the angle
     for (std::size_t i = 0; i < Nodes; ++i) s[i] = facet.radius * wrapped(facet.angle[i] - angle);
     const auto [low, high] = std::minmax_element(s.begin(), s.end());
     if (*high - *low > pi * facet.radius) continue;  // on the far side, torn apart by the unrolling
@@ -158,7 +158,7 @@ WallSample wall_sample(const std::vector<Unrolled<Nodes>>& facets, const std::ve
   return {frame.radial(angle), {nodes.begin(), nodes.end()}, {weights.begin(), weights.end()}};
 }
 
-/// Place along a straight or quadratic edge, 0 to 1, where its axial position is nearest to z.
+/// Place along a straight or quadratic edge, 0 to 1, at which its axial position is nearest to z.
 template <std::size_t Nodes>
 double place_along(const std::array<double, Nodes>& axial, double z) {
   double t = std::clamp((z - axial[0]) / (axial[1] - axial[0]), 0.0, 1.0);
@@ -174,7 +174,7 @@ double place_along(const std::array<double, Nodes>& axial, double z) {
   return t;
 }
 
-/// Interpolation at one position on the edges that an axisymmetric surface is drawn as.
+/// Interpolation at one position on the edges of an axisymmetric surface.
 template <std::size_t Nodes>
 WallSample meridian_sample(const std::vector<Point>& nodes, const std::vector<std::array<int, Nodes>>& surface,
                            const AxisFrame& frame, double z, const SamplingPlace& from) {

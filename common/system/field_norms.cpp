@@ -17,7 +17,7 @@ double weighted(const std::vector<double>& volumes, const std::vector<double>& f
   return sum;
 }
 
-/// What an increment moves an entry of a field by.
+/// The change of an entry of a field by an increment.
 double moved(const Unknown& unknown, const std::vector<double>& increment) {
   return unknown.index >= 0 ? unknown.factor * increment[unknown.index] : 0;
 }

@@ -27,8 +27,8 @@ class FieldNorms {
   /// Of an increment ([Langer2018], algorithm 1).
   double of_increment(const std::vector<double>& increment) const;
   double of_solution(const Solution& now) const;
-  /// Whether the increment is less than `share` of the solution, each field by itself: displacements may be smaller than
-  /// pressures by any number, which the units alone decide.
+  /// Whether the increment is at most `share` of the solution, each field by itself: units decide how large
+  /// displacements are beside pressures.
   bool negligible(const std::vector<double>& increment, const Solution& now, double share) const;
   /// relative_to_step() of the increment: the largest of velocities, displacements of the wall and pressures of both.
   double relative_to_change(const std::vector<double>& increment, const State& state, const StepData& data) const;

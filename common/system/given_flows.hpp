@@ -8,8 +8,8 @@
 
 namespace fsi {
 
-/// The openings of a scene that move and whose flow is given (docs/theory.md, section 3.8): the residual of their flows, and
-/// what that counts in the norm of a residual. Processes that share the scene ask together and get the same numbers.
+/// The openings of a scene that move and whose flow is given (docs/theory.md, section 3.8): the residual of their
+/// flows, and its weight in norms. Processes that share the scene call it together and get the same numbers.
 template <int n>
 class GivenFlows {
  public:
@@ -19,15 +19,15 @@ class GivenFlows {
 
   std::size_t count() const { return flows_.size(); }
   const OpenBoundary<n>& open(std::size_t i) const { return *flows_[i].opening->surface; }
-  /// The pressure that drives it, kPa: unknown, part of a solution. \tparam AnySolution  const or not
+  /// The pressure that drives the flow, kPa: unknown, part of a solution. \tparam AnySolution  const or not
   template <class AnySolution>
   auto& pressure(std::size_t i, AnySolution& solution) const {
     return Openings<n>::pressure(*flows_[i].opening, solution.openings);
   }
-  /// Residual to what is given, outward, mm^3/ms, at the last compare().
+  /// Outward flow less the given one at the last compare(), mm^3/ms.
   double gap(std::size_t i) const { return flows_[i].gap; }
 
-  /// Finds the gaps of state.now. \returns the sum of squares of the forces that they are worth
+  /// Finds the gaps of state.now. \returns the sum of squares of gap() times force_of_gap()
   double compare(const State& state, const StepData& data);
   /// The weight of 1 mm^3/ms of a gap, kPa mm^2: the force on the opening of a pressure which within a step accelerates
   /// the flow over the opening's width, and widens the wall by what has come in. \param fluid_factor  of the step, 1/ms

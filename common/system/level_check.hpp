@@ -25,11 +25,11 @@ std::string name_of_step(const Scene<n>& scene, int step, const StepData& data) 
                            : fmt::format("step {} (to t = {:g} ms)", step, data.time);
 }
 
-/// Takes the solution of a step's last stage as TimeIntegrator::accept() does, unless the level that follows is none.
+/// Takes the solution of a step's last stage as TimeIntegrator::accept() does, unless the new level is not admissible.
 /// With schemes that solve at a time within the step its end is extrapolated: elements of the wall that are sound in
-/// the solution can be folded there, and their energy is no number.
+/// the solution can be folded there, and their energy is NaN.
 /// \param spare   storage, for the state as it was
-/// \param report  gets the wall's energies of the level that follows and how far it is deformed, by which it was judged
+/// \param report  gets the wall's energies and deformation of the new level
 /// \throws ConvergenceError with step, time and field; the state is then as before
 template <int n>
 void accept_level(const Scene<n>& scene, const StepData& data, State& state, State& spare, StepReport& report) {

@@ -8,8 +8,8 @@
 
 namespace fsi {
 
-/// The discrete equations of one medium, fluid or wall, as a part of a coupled problem: a System whose interface may have
-/// an impedance, whose linear solves take further forces, and whose solver an iteration over several media may use.
+/// The discrete equations of one medium, fluid or wall, as a part of a coupled problem: a System with, optionally, an
+/// impedance on the interface, linear solves with further forces, and access to its preconditioner.
 template <int n>
 class MediumSystem : public System<n> {
   using Base = System<n>;
@@ -19,24 +19,24 @@ class MediumSystem : public System<n> {
 
  public:
   /// \param numbering    of one medium, its mesh motion included
-  /// \param impedance    adds to its equations, and must outlive this; null: nothing. Its c may change with the rates of
-  ///                     a step
+  /// \param impedance    added to its equations, must outlive this; null: none. Its c may change with the rates of a
+  /// step
   MediumSystem(std::string name, Scene<n>& scene, Numbering numbering, const LinearSolverFactory<n>& make_solver = {},
                SystemNorm norm = SystemNorm::volumes, const InterfaceImpedance* impedance = nullptr);
 
   double evaluate() override;
-  /// The iterate is that of the last evaluate(), and no more than the interface's load or datum is another: the next
-  /// evaluate() takes the medium's rows from there.
+  /// The next evaluate() reuses the medium's rows of the last one. To be called where only the interface's load or
+  /// datum has changed since then.
   void keep_rows() { keeps_rows_ = Base::has_rows(); }
 
   double solve(double tolerance) override;
-  /// As solve() with further forces f beside the residual, in nodal values of the medium along the axes of space.
+  /// Like solve(), with further forces f beside the residual, in nodal values of the medium along the axes of space.
   double solve_with(const std::vector<double>& forces, double tolerance);
-  /// After these: increment -= J^-1 f, the response of the medium to forces f alone, up to |f - J x| <= tolerance |f|.
+  /// After either: increment -= J^-1 f, the response of the medium to forces f alone, up to |f - J x| <= tolerance |f|.
   /// \returns false when the linear solver failed
   bool add_response(const std::vector<double>& forces, double tolerance);
 
-  /// Of a medium that iterates: what its solver does, for an iteration over several media. Null where it factorises, and
+  /// The preconditioner of a solver that iterates, for an iteration over several media. Null where it factorises, and
   /// where openings join the Jacobian.
   MediumPreconditioner* preconditioner() { return solver_->medium_preconditioner(); }
   bool is_iterative() const { return solver_->is_iterative(); }
@@ -61,8 +61,8 @@ class MediumSystem : public System<n> {
   void add_forces(const std::vector<double>& forces, std::vector<double>& equations);
 
   const InterfaceImpedance* impedance_;
-  bool keeps_rows_ = false;         ///< they serve once more
-  bool increment_is_zero_ = false;  ///< so is J increment
+  bool keeps_rows_ = false;         ///< the next evaluate() reuses them
+  bool increment_is_zero_ = false;  ///< and J increment, too
   std::vector<double> loaded_;      ///< equations with forces
 };
 

@@ -27,7 +27,7 @@ void append_history(const NewtonReport& report, std::vector<std::string>& lines,
 namespace {
 
 constexpr std::size_t most_openings = 100000;
-constexpr double way_tolerance = 1e-4;  // of solutions that only lead to others
+constexpr double way_tolerance = 1e-4;  // of solutions of shorter steps, which are only starts
 
 /// All of it, or nothing. \returns whether there is such a point
 bool keep(const std::string& name, LinearisationPoint& point, RestartArchive& archive) {
@@ -50,12 +50,12 @@ bool keep(const std::string& name, LinearisationPoint& point, RestartArchive& ar
   const auto if_any = [&](const char* part, ArrayKind kind, std::vector<double>& values, const ArrayRule& rule = {}) {
     if (archive.recalls() ? archive.has(name + part) : !values.empty()) archive.array(name + part, kind, values, rule);
   };
-  // Whether there are such is known to all processes, also to those without nodes of the wall.
+  // `there` is the same at all processes, also at those without nodes of the wall.
   const auto if_there = [&](bool there, const char* part, ArrayKind kind, std::vector<double>& values) {
     if (archive.recalls() ? archive.has(name + part) : there) archive.array(name + part, kind, values);
   };
   if_there(point.viscous_wall, ".wall_reference", ArrayKind::wall, rates.wall_reference);
-  // Earlier programs had no such lag, and wrote none.
+  // Checkpoints of earlier versions have no such lag.
   if (archive.recalls() ? archive.has(name + ".strain_lag") : point.viscous_wall)
     archive.number(name + ".strain_lag", rates.strain_lag);
   if_there(point.branches, ".branches_reference", ArrayKind::wall_branches, rates.branches_reference);
@@ -132,7 +132,7 @@ template <int n>
 void NewtonStepperBase<n>::advance_stage(State& state, StepData& data) {
   NewtonReport solved = solve(state, data, scene_.predictor);
   if (!solved.converged && scene_.predictor > 0 && state.step > 0) {
-    // The extrapolated start can be the culprit, after a jump of the load for example.
+    // The extrapolated start may be the reason, as after a jump of the load.
     abandon();
     report_.history.push_back(solved.failure + "; again from the last time level");
     solved = solve(state, data, 0);
@@ -228,7 +228,7 @@ NewtonReport NewtonStepperBase<n>::solve_from_there(State& state, StepData& data
 
 namespace {
 
-/// Nobody reads rows of a residual behind a monolithic step, but a network: it settles as the residual has left it.
+/// Only a network reads the residual after a monolithic step: it settles by the last evaluation.
 template <int n>
 NewtonOptions without_last_residual(const Scene<n>& scene, NewtonOptions options) {
   options.last_residual = scene.is_static() || !scene.openings.joined().empty();

@@ -11,20 +11,21 @@
 
 namespace fsi {
 
-/// Lines of the paper's Table 3: iteration, increment, residual.
+/// Appends a line for each iteration, as in Table 3 of [Langer2018]: iteration, increment, residual.
 void append_history(const NewtonReport& report, std::vector<std::string>& lines, const std::string& indent = "");
 
-/// The point that a system's Jacobian was made at, if there is one; recalling, the system is linearised there again.
+/// Keeps the point at which a system's Jacobian was made, if there is one. Recalling, the system is linearised there
+/// again, unless the step has changed.
 /// \param prepare  called before that
 template <int n>
 void keep_linearisation(const std::string& name, System<n>& system, RestartArchive& archive,
                         const std::function<void(const StepRates&)>& prepare = {});
 
-/// Advances a scene by Newton's method, whatever its equations are to that.
+/// Advances a scene by Newton's method; subclasses choose the equations and unknowns.
 template <int n>
 class NewtonStepperBase : public Stepper {
  public:
-  /// If it persists, a step in time that Newton's method does not reach is walked to from shorter ones (walk_to_step()).
+  /// A step that fails is solved again from the last time level and, if it persists, by shorter steps (walk_to_step()).
   StepReport advance(State& state) override;
 
  protected:
@@ -32,13 +33,13 @@ class NewtonStepperBase : public Stepper {
 
   /// The equations of a step, or of one stage of it; state.now holds the first guess.
   virtual NewtonProblem& equations(State& state, StepData& data) = 0;
-  /// The stage is solved: state.now is its solution.
+  /// Called when a stage is solved, state.now being its solution.
   virtual void finish_stage(const State& /*state*/, const StepData& /*data*/) {}
-  /// The stage has no solution, or the step is refused, and may be taken again in another way.
+  /// Called when a stage fails or the judge rejects the step, which may be tried again.
   virtual void abandon() {}
 
   const NewtonOptions& options() const { return options_; }
-  /// Stepper::choices() on when a step is solved, which the case need not say.
+  /// The part of Stepper::choices() on when a step is solved.
   std::vector<StepperChoice> stopping() const;
 
   Scene<n>& scene_;
@@ -54,7 +55,7 @@ class NewtonStepperBase : public Stepper {
   NewtonReport solve(State& state, StepData& data, int predictor);
   /// From state.now.
   NewtonReport solve_from_there(State& state, StepData& data, const NewtonOptions& options);
-  /// By solutions of shorter steps. The failure of one that does not arrive is what there is to add to that of the usual way.
+  /// By solutions of shorter steps. A failure's text is to be appended to that of the usual way.
   NewtonReport solve_slowly(State& state, StepData& data);
 
   State spare_;  ///< storage
@@ -62,8 +63,8 @@ class NewtonStepperBase : public Stepper {
   NewtonOptions options_;
 };
 
-/// Advances a whole scene at once: the monolithic method for fluid and wall, and the only one there is for a scene with
-/// one of them.
+/// Advances a whole scene at once: the monolithic method for fluid and wall, and the only one for a scene with one
+/// medium.
 template <int n>
 class NewtonStepper : public NewtonStepperBase<n> {
  public:

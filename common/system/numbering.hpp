@@ -14,10 +14,10 @@ namespace fsi {
 
 namespace detail {
 
-/// Gives an own unknown, and the equation of the same place, to every component of a vector that `fixed(node,
-/// component)` does not prescribe and to every scalar that there is. Vectors come first in each node. A copy of a node
-/// hangs on its original's vector and has a scalar of its own.
-/// \param scalars  whether a node has one
+/// Gives an unknown of its own, and the equation of the same place, to every component of a vector that
+/// `fixed(node, component)` does not prescribe, and to every scalar. Vectors come first in each node. A copy of a node
+/// shares its original's vector and has a scalar of its own.
+/// \param scalars  whether a node has a scalar
 template <int Components, class Fixed, class Scalars>
 UnknownMap number_nodes(const PartNodes& part, std::int64_t& next, Fixed fixed, Scalars scalars) {
   using Mixed = MixedLayout<Components>;
@@ -162,8 +162,8 @@ Numbering number_fluid(const Scene<n>& scene, bool free_interface = false) {
   return part;
 }
 
-/// The fluid, free on the interface, with its domain, which follows the interface's velocity: d_m = reference + period u
-/// there. So derivatives know how the domain moves.
+/// The fluid, free on the interface, with its domain. The domain follows the interface's velocity u there,
+/// d_m = reference + period u, so derivatives know how it moves.
 template <int n>
 Numbering number_fluid_and_domain(const Scene<n>& scene) {
   using Vector = VectorLayout<n>;

@@ -10,8 +10,8 @@
 
 namespace fsi {
 
-/// What openings add to the equations of the fluid beside its block matrices: how pressures depend on the flow, and pressures
-/// that are unknowns where the flow is given, with an equation each.
+/// What openings add to the equations of the fluid beside its block matrices: how pressures depend on the flow, and
+/// where the flow is given the pressure as an unknown, with an equation of its own.
 template <int n>
 class OpeningTerms {
  public:
@@ -20,33 +20,33 @@ class OpeningTerms {
   OpeningTerms(const OpeningTerms&) = delete;  // solvers refer to the terms
   OpeningTerms& operator=(const OpeningTerms&) = delete;
 
-  /// Makes the terms of a system with the fluid's equations. \returns the solver that takes them into account: that for
-  /// the block matrices itself where there are none
+  /// Makes the terms of a system with the fluid's equations. \returns a solver with these terms, or `solver` itself
+  /// where there are none
   std::unique_ptr<LinearSolver> join(const JacobianBlocks<n>& blocks, std::unique_ptr<LinearSolver> solver);
 
-  /// Whether there is an opening that moves, on whose pressure derivatives depend.
+  /// Whether an opening moves: derivatives then depend on its pressure.
   bool move() const;
   /// Whether slopes of pressures depend on more than the step: where a network joins openings.
   bool vary() const { return !scene_.openings.joined().empty(); }
-  /// Residual of given flows, outward, at the last residual of the system, mm^3/ms.
+  /// GivenFlows::gap() of each, mm^3/ms.
   std::vector<double> gaps() const;
 
-  /// Finds the gaps of state.now. \returns the sum of squares of the forces that they are worth, a part of the residual's
+  /// GivenFlows::compare(): finds the gaps of state.now. \returns their part of the residual's squared norm
   double compare(const State& state, const StepData& data) { return given_flows_.compare(state, data); }
   /// The terms as they are at a solution. \param of_mesh  the mesh has unknowns
   void linearise(const Solution& now, const StepRates& rates, bool of_mesh);
-  /// Before a linear solve: the residual of the equations of given flows.
+  /// Before a linear solve: sets the right-hand sides of given flows to the gaps,
   void set_gaps();
-  /// Before a further one with other forces: nothing, they are solved for already.
+  /// or, before a further solve with other forces, to zero.
   void close_gaps();
-  /// After a linear solve: the increments of the pressures.
+  /// After a linear solve: takes the increments of the pressures from the solver,
   void take_increments();
-  /// After a further one: what they change by.
+  /// or, after a further solve, adds to them.
   void add_answers();
   /// Pressures that are unknowns += step times their increments.
   void add_increments(double step, Solution& now) const;
 
-  /// terms += |J| |x|, J being the terms last made. \returns the squares of what flows that are given add to its norm
+  /// terms += |J| |x|, J being the terms last made. \returns the part of given flows in the squared norm of |J| |x|
   double add_absolute_products(const Numbering& numbering, const std::vector<double>& x, const Solution& now,
                                double fluid_factor, std::vector<double>& terms) const;
 

@@ -17,9 +17,9 @@ namespace fsi {
 namespace {
 
 constexpr double smallest_increment = 1.0 / 256;  // of the load
-constexpr double same_shape = 1e-3;               // of what an increment of the load changes
+constexpr double same_shape = 1e-3;               // difference of two shapes over the change by an increment
 
-/// Leaves a rest below a millionth of a millimetre at any load: the increment that follows is below rounding.
+/// Options so tight that displacements are within 1e-6 mm at any load.
 NewtonOptions tight_newton(double load, const PrestressObserver& observe) {
   NewtonOptions options;
   options.mode = NewtonMode::full;

@@ -23,19 +23,19 @@ struct PrestressProgress {
 };
 using PrestressObserver = std::function<void(const PrestressProgress&)>;
 
-/// Finds the shape that the scene's wall has without load, given that under the load it has the one of its mesh. The wall
-/// is as before afterwards.
+/// Finds the shape that the scene's wall has without load, given that under the load it has the one of its mesh. The
+/// wall itself is not changed.
 /// \param pressure       kPa, on the wall's pressurised facets
 /// \param support_loads  kPa, in the order of the wall's supports
-/// \param make_solver    of the linearised equations; none: the direct one
-/// \param observe        sees each iteration; none: nobody looks
-/// \throws ConvergenceError where none is found, as for walls that no unloaded shape can make bear the load
+/// \param make_solver    of the linearised equations; empty: the direct one
+/// \param observe        called after each iteration; may be empty
+/// \throws ConvergenceError where none is found, as for walls too soft to bear the load in any shape
 template <int n>
 WallPrestress find_prestress(Scene<n>& scene, double pressure, const std::vector<double>& support_loads,
                              const LinearSolverFactory<n>& make_solver = {}, const PrestressObserver& observe = {});
 
-/// Puts the wall under this prestress, and the scene at rest under the load that belongs to it: the fluid under the same
-/// pressure everywhere.
+/// Puts the wall under this prestress, and the scene at rest under the load that belongs to it: the fluid under the
+/// same pressure everywhere.
 template <int n>
 void start_from(const WallPrestress& prestress, double pressure, const std::vector<double>& support_loads,
                 Scene<n>& scene);

@@ -17,22 +17,22 @@ struct FieldDifference {
   const std::vector<double>& difference;  ///< a vector and a scalar per node; empty: there is no such medium
 };
 
-/// How large a difference of solutions is beside what the step in progress changes: the largest of velocity, the wall's
-/// displacement and the pressures of both, in L2 norms (docs/theory.md, section 9.3). One norm of all fields would not
-/// do: the pressures of the next step feel errors of displacements that count little in it.
+/// A difference of solutions relative to what the step in progress changes: the largest over velocity, the wall's
+/// displacement and the pressures of both, in L2 norms (docs/theory.md, section 9.3). One norm of all fields would hide
+/// errors of displacements to which the pressures of the next step are sensitive.
 /// \param state  its `now` less the solution before is the change
 template <int n>
 double relative_to_step(const State& state, const StepData& data, const FieldDifference& fluid,
                         const FieldDifference& wall, const Communicator& processes);
 
-/// How far two displacements of the wall lie apart, as a part of what the second differs by from `before`: L2 norms, of all
+/// Distance of two displacements of the wall relative to that of the second from `before`, in L2 norms over all
 /// processes. Arrays (d, .) in the mixed layout; 0 where both are the same.
 template <int n>
 double relative_distance(const Wall<n>& wall, const std::vector<double>& before, const std::vector<double>& one,
                          const std::vector<double>& other);
 
-/// Whether the wall is where it was but for rounding: the root mean square of what it moves by is below 1e-9 of its size, the
-/// cube root of its volume. Of all processes.
+/// Whether the wall stays but for rounding: the root mean square of its motion is at most 1e-9 of its size, the cube
+/// root of its volume. Over all processes.
 template <int n>
 bool stays(const Wall<n>& wall, const std::vector<double>& before, const std::vector<double>& after);
 

@@ -176,7 +176,7 @@ template <class Layout>
 void System<n>::add_increment(const UnknownMap& map, const NodalFrames<n>& frames, double step,
                               std::vector<double>& field) const {
   add_to_field(map, increment_, step, field);
-  for (const int node : frames.nodes()) {  // in place of components of the frame, which that took for those of space
+  for (const int node : frames.nodes()) {  // correction: add_to_field() took components of the frame for those of space
     Direction<n> turned{}, component{};
     for (int k = 0; k < n; ++k)
       if (const Unknown& unknown = map[Layout::vector(node, k)]; unknown.index >= 0)

@@ -14,22 +14,23 @@
 
 namespace fsi {
 
-/// The data a Jacobian was made from: enough to make the same one again after a restart.
+/// The data that a Jacobian was made from: enough to make the same one again after a restart.
 struct LinearisationPoint {
   Solution now;
-  StepRates
-      rates;  ///< but for the wall's history, and its references where it is not viscous: no derivative knows them
+  /// But for the wall's history, and its references where it is not viscous: no derivative depends on them.
+  StepRates rates;
   bool viscous_wall = false, branches = false;  ///< the rates have references of a viscous wall, of Maxwell branches
-  double wall_pressure = 0;
-  std::vector<double> support_loads = {};
-  std::vector<double> opening_pressures = {};  ///< where openings move; empty otherwise: no derivative knows them
+  double wall_pressure = 0;                     ///< kPa
+  std::vector<double> support_loads = {};       ///< kPa
+  /// kPa, where openings move or a network joins them; else empty: no derivative depends on them.
+  std::vector<double> opening_pressures = {};
 };
 
 /// The discrete equations of a scene, or of one of its sub-problems, under a numbering: residual, Jacobian and linear
 /// solve, as Newton's method asks for them. Owns the matrices of its Jacobian: several systems on one scene each have
-/// their own, but for the constant operator of the mesh motion. Works on a State that it does not own. Where the scene is shared out, each
-/// process has the equations of its nodes, all ask together, and all get the same norms. linearise() and solve() throw
-/// Stopped where the program was asked to end.
+/// their own, but for the constant operator of the mesh motion. Works on a State that it does not own. Where the scene
+/// is shared out, each process has the equations of its nodes, all call it together, and all get the same norms.
+/// linearise(), solve() and distance() throw Stopped where the program was asked to end.
 template <int n>
 class System : public NewtonProblem {
  public:
@@ -57,7 +58,7 @@ class System : public NewtonProblem {
   /// Rows of the fluid's last residual before boundary conditions: on the interface the force of the fluid on the wall.
   const std::vector<double>& fluid_residual() const { return fluid_residual_; }
 
-  /// Residual of the flows through openings that move to what is given there, outward, at the last evaluation, mm^3/ms.
+  /// Outward flows less the given ones, at openings that move, at the last evaluation, mm^3/ms.
   std::vector<double> flow_gaps() const { return openings_.gaps(); }
 
   /// The state and step that evaluate(), linearise() and move() refer to from now on.
@@ -69,7 +70,7 @@ class System : public NewtonProblem {
   bool linearised() const override { return usable_ && solver_->ready(); }
   bool outdated() const override { return numbering_.has_fluid() && scene_.openings.joined().outdated(); }
 
-  /// The Jacobian at hand serves no more: it was made on a way that led nowhere.
+  /// The Jacobian at hand is not used any more, as after a failed step.
   void forget_jacobian() { usable_ = false; }
 
   /// Makes the Jacobian of an earlier step again, bit for bit (restart).
@@ -98,16 +99,15 @@ class System : public NewtonProblem {
   const Communicator& processes() const { return *numbering_.processes; }
   Profile::Scope solve_phase() const { return scene_.profile.phase("solve: " + name_); }
 
-  /// What else stands in the equations, beside those of the scene: added to the residual, and to the matrices of the
-  /// Jacobian, whenever they are made.
+  /// Further terms of a subclass: added to the residual, and to the matrices of the Jacobian, whenever they are made.
   virtual void add_further_rows(std::vector<double>& /*residual*/) const {}
   virtual void add_further_derivatives(FluidJacobian<n>& /*fluid*/, WallMatrix<n>& /*wall*/) const {}
 
-  /// The media's rows are of the state as it is.
+  /// Whether the media's rows belong to the present state.
   bool has_rows() const { return has_rows_; }
-  /// The residual of the media's rows as they are, with the interface's load and further rows.
+  /// Sets the residual from the media's rows, the interface's load and further rows.
   void gather_residual();
-  /// \param valid  at this process; not a number where it is not at any of them
+  /// \param valid  at this process; the norm is NaN where it is false at any of them
   double norm_of_residual(bool valid);
 
   /// Equations += the rows of a part, which are along the axes of space.
@@ -129,10 +129,10 @@ class System : public NewtonProblem {
   void add_increment(const UnknownMap& map, const NodalFrames<n>& frames, double step,
                      std::vector<double>& field) const;
 
-  /// Whether derivatives depend on the pressures at openings or on what these keep: where one moves, or a network joins some.
+  /// Whether derivatives depend on pressures at openings or on what openings keep: one moves, or a network joins some.
   bool openings_differ() const { return !numbering_.fluid_rows.empty() && (openings_.move() || openings_.vary()); }
 
-  /// Whether a Jacobian of these rates is another one than that at hand.
+  /// Whether these rates would give another Jacobian than the one at hand.
   bool rates_differ(const StepRates& rates) const;
 
   std::string name_;

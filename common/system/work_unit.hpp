@@ -8,9 +8,8 @@
 
 namespace fsi {
 
-/// What a run's seconds are divided by, so that those of two machines can be read together: the seconds of one product
-/// y = K x with the matrix of the whole scene, by the threads and processes of the run (docs/guide/solvers.md,
-/// "Work units").
+/// What a run's seconds are divided by to compare machines: the seconds of one product y = K x with the matrix of the
+/// whole scene, by the threads and processes of the run (docs/guide/solvers.md, "Work units").
 struct WorkUnit {
   double seconds = 0;        ///< of the fastest product
   int products = 0;          ///< that were timed; 0: the unit is not known
@@ -26,8 +25,8 @@ struct WorkUnit {
 ///     | .  .  W |   W: (momentum, volume) by (d_s, p_s)
 ///
 /// F, S and M have one sparsity, the fluid's graph, and a product's time depends on the sparsity, not on the values. So
-/// S and M are read where F is stored, which has as many numbers and more. That makes K the same for both drivers: the
-/// partitioned one has no S, and making one would take as much time as several products, and memory at the worst moment.
+/// F's values, which are at least as many, stand for those of S and M. That makes K the same for both drivers: the
+/// partitioned one has no S, and making one would take the time of several products, and memory.
 template <int n>
 class CoupledProduct {
  public:
@@ -38,7 +37,7 @@ class CoupledProduct {
   /// \param values  of F and W, of the media that the scene has
   void multiply(const MatrixValues& values);
 
-  /// Of the last product, in the layouts of the media. Only where the scene has one medium do they mean anything.
+  /// Of the last product, in the layouts of the media. Meaningful only where the scene has one medium.
   const std::vector<double>& fluid_rows() const { return fluid_rows_; }
   const std::vector<double>& mesh_rows() const { return mesh_rows_; }
   const std::vector<double>& wall_rows() const { return wall_rows_; }
@@ -61,7 +60,7 @@ class WorkUnitMeter {
   /// \param scene  must outlive this
   explicit WorkUnitMeter(const Scene<n>& scene) : scene_(scene) {}
 
-  /// Times another product if there are too few yet and the run has taken long enough. For all processes together.
+  /// Times another product unless there are `enough`, or they would take too large a share. For all processes together.
   /// \param elapsed  s, of the run so far
   /// \param values   of the matrices that the run solves with; nothing is measured without those of each medium
   void measure(double elapsed, const MatrixValues& values);

@@ -17,13 +17,13 @@ struct References {
 /// and mesh have one velocity on the interface. Pressures belong to t_b. Values at the stage's end are
 /// y_0 + (y - y_0) / theta; pressures are brought there through those of other balances, as long as no jump of the load
 /// lies between them.
-/// \tparam n  components of a vector
+/// \tparam n  components of a vector, 1 to 3
 template <int n>
 class BalanceScheme : public TimeIntegrator {
  public:
   void prepare(State& state) const override;
-  /// From balances, as far back as the load has not jumped, displacements and velocities from the level at the jump,
-  /// too. Displacements go on through a jump with the wall's velocity.
+  /// From balances since the load last jumped, displacements and velocities from the level at the jump, too. Through a
+  /// jump displacements go on with the wall's velocity.
   void predict(State& state, int order, const StepData& data) const override;
   std::array<double, 3> balance_weights(const State& state, int order, const StepData& data) const override;
   void accept(State& state, const StepData& data) const override;
@@ -33,30 +33,30 @@ class BalanceScheme : public TimeIntegrator {
   StepRates rates_from(double step, double k, References references, const Solution& pressures) const;
   /// The finished level as references.
   static References level(const State& state) { return {state.before[0], state.wall_velocity}; }
-  /// The level that a step of length `step` (ms) starts from, as references: the finished one; where the step changes after
-  /// equal ones, its displacements moved by level_shift times their second derivative, that of the last three balances.
+  /// The level that a step of length `step` (ms) starts from, as references: the finished one; where the step changes
+  /// after equal ones, its displacements moved by level_shift times the second derivative of the last three balances.
   References start(const State& state, double step) const;
 
  protected:
   /// Length of the state's last step, ms; `step`, the next one's, where there is none or they differ by the rounding of
   /// times alone: factors of equal steps are then equal, and a Jacobian made for them serves on.
   static double last_step(const State& state, double step);
-  /// Storage of rates at the last level, zero as at rest.
+  /// Sets the rates at the last level to zero, as at rest.
   static void prepare_rates(State& state);
   /// What else a scheme keeps of a finished step, from the level `start` to the level `end`.
   virtual void keep(State&, const StepData&, const Solution& /*start*/, const Solution& /*end*/,
                     const std::vector<double>& /*end_velocity*/) const {}
-  /// ms^2. Displacements at levels are not those of balances but lie off their course by -theta (1 - theta) dt^2 / 2 times
-  /// its second derivative: what belongs to another step than the last one's has to change when the step does, or the
-  /// next balances would correct it with pressures that are wrong at every step length (docs/theory.md, section 8.9).
+  /// ms^2. Displacements at levels are not those of balances but lie off their course by -theta (1 - theta) dt^2 / 2
+  /// times its second derivative: what belongs to another step than the last one's has to change when the step does, or
+  /// the next balances would correct it by wrong pressures at every step length (docs/theory.md, section 8.9).
   virtual double level_shift(const State&, double /*step*/) const { return 0; }
 
  private:
   static void push(State& state, Solution balance, double time);
 };
 
-/// Of schemes whose pressures lag (TimeIntegrator::pressures_lag), after a step: whether those of the last level stay as
-/// they are, because its balance lies there, or because the load jumps there. Else the next step settles them.
+/// Whether the pressures of the last level are final, because its balance lies there or the load jumps there; else the
+/// next step sets them (TimeIntegrator::pressures_lag).
 bool pressures_settled(const State& state);
 
 /// a x + b y of two reference sets.

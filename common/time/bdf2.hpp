@@ -6,8 +6,8 @@ namespace fsi {
 
 /// The second backward difference with steps of any lengths, q = dt / dt_old (docs/theory.md, section 8.7):
 ///   dy/dt = k (y - r),   k = (1 + 2 q) / ((1 + q) dt),   r = ((1 + q)^2 y^n - q^2 y^(n-1)) / (1 + 2 q),
-/// with the load differenced alike, so that the impulse of a table is conserved. After a jump of the load it begins with
-/// a step in two stages (tr_bdf2.hpp): one of backward Euler would give a pulse of one step half its impulse more.
+/// with the load differenced alike, so that the impulse of a table is conserved. After a jump of the load it begins
+/// with a step in two stages (tr_bdf2.hpp): backward Euler would add half its impulse to a pulse of one step.
 template <int n>
 class Bdf2 : public BalanceScheme<n> {
  public:

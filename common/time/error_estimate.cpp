@@ -25,7 +25,7 @@ std::array<double, count> divided_difference(const std::array<double, count>& ti
   return weights;
 }
 
-constexpr double forgetting = 4;  // what the load made of the pressure, in the scene's time
+constexpr double forgetting = 4;  // decay of the pressure's scale, in units of 1 / scene_time
 
 double relative(double error, double scale) {
   return error > 0 ? error / scale : 0;
@@ -88,7 +88,7 @@ StepErrors ErrorEstimate<n>::of(const State& state, const StepData& data) {
   if (since_jump_ < terms_.order + (rates.carry < 1 ? 1 : 0)) return errors;
   errors.known = true;
   const auto& t = state.times;
-  // A scheme that takes its balance between two levels leaves what its steps cannot resolve as a sawtooth in the levels.
+  // A scheme whose balance lies between two levels leaves what its steps cannot resolve as a sawtooth in the levels.
   // The balances, means of neighbours, have none of it.
   const bool between = rates.carry < 1;
   const auto& before = between ? state.balances : state.before;

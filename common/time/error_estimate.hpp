@@ -22,17 +22,17 @@ struct StepErrors {
 
 /// Estimates the error of a step from divided differences of its solution and the finished levels, as Milne's device
 /// does for steps of one length:
-///   displacement, velocity: what the step adds, as terms of the scheme's error say, times `scene_time` / dt: what such
-///                           steps add while the scene swings once;
+///   displacement, velocity: what the step adds by ErrorTerms, times `scene_time` / dt: what such steps add in one
+///                           oscillation of the scene;
 ///   pressure:               constant dt^order times its derivative of that order, through the last balances: a
-///                           pressure follows accelerations of the same step and adds nothing up.
-/// Norms are means over the volume. Displacement and velocity are relative to their largest norm so far, pressure to
-/// its largest of late: what the load made of it is forgotten within `scene_time`.
+///                           pressure follows accelerations of the same step and accumulates no error.
+/// Norms are means over the volume. Displacement and velocity are relative to their largest norm so far, pressure to a
+/// recent one: its largest norm decays within `scene_time`.
 /// \tparam n  components of a vector
 template <int n>
 class ErrorEstimate {
  public:
-  /// \param fluid_volumes, wall_volumes  that belong to the nodes (fem/function_space.hpp), mm^3; empty: no such medium
+  /// \param fluid_volumes, wall_volumes  of the nodes (fem/function_space.hpp), mm^3; empty: no such medium
   /// \param scene_time                   ms
   ErrorEstimate(std::vector<double> fluid_volumes, std::vector<double> wall_volumes, const ErrorTerms& terms,
                 double scene_time);
@@ -49,7 +49,7 @@ class ErrorEstimate {
   struct Norms {
     double displacement = 0, velocity = 0, pressure = 0;
   };
-  /// Root of the mean square over the nodes of what `value(i)` is at the entries of the field.
+  /// Root of the mean over the volume of the squares of `value(i)`, summed over `count` entries of each node.
   template <class Value>
   static double norm(const std::vector<double>& volumes, int entries, int first, int count, Value value);
 

@@ -2,7 +2,7 @@
 
 namespace fsi {
 
-/// A step in ms, near this one and no longer, of which the period has a whole number: of few digits where there is one.
+/// A step that divides the period, at most `step` and near it; one of few digits where there is one. All in ms.
 double fitting_step(double period, double step);
 
 }  // namespace fsi

@@ -4,16 +4,16 @@
 
 namespace fsi {
 
-/// The generalised-alpha method for systems of first order ([Jansen2000]; docs/theory.md, section 8.8), with
-/// displacements and velocities alike as [Liu2021] has it, pressures at the time of balance t_n + a_f dt:
+/// The generalised-alpha method for systems of first order ([Jansen2000]; docs/theory.md, section 8.8), displacements
+/// and velocities treated alike as in [Liu2021], pressures at the time of balance t_n + a_f dt:
 ///   y' at a_m = k (y - r),   k = a_m / (a_f g dt),   r = y^n - (1 - a_m / g) y'^n / k,
 ///   a_f = 1 / (1 + rho),   s = (1 - rho) / (2 (1 + rho)),   q = dt_old / dt,
 ///   a_m = (a_f + s q) / (1 - s + s q),   g = (1/2 + s q) / (1 - s + s q).
 /// For equal steps these are the published a_m = (3 - rho) / (2 (1 + rho)) and g = 1/2 + a_m - a_f. y'^n is the rate at
 /// t_n - s dt_old, so that the published numbers would make unequal steps of first order.
-/// The load follows a rate's recursion, so that the impulse of a table is conserved. y' and the load's share in it go on
-/// through a jump of the load as if there were none: its full share comes within some steps, alternating about it, while
-/// the impulse is right at each step's end. A state begins at rest.
+/// The load follows a rate's recursion, so that the impulse of a table is conserved. y' and the load's share in it go
+/// on through a jump of the load as if there were none: its full share comes within some steps, alternating about it,
+/// while the impulse is right at each step's end. A state begins at rest.
 template <int n>
 class GeneralisedAlpha : public BalanceScheme<n> {
  public:

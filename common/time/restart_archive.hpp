@@ -11,7 +11,7 @@
 
 namespace fsi {
 
-/// What an array that a run remembers has numbers of. It says how long the array is, and how processes share it out.
+/// What an array of a checkpoint has numbers of. That decides its length, and how processes share it out.
 enum class ArrayKind {
   alike,              ///< the run: all processes have the same
   support_loads,      ///< loads of the wall's supports, alike
@@ -44,10 +44,10 @@ struct ArrayRule {
   Range each{};
 };
 
-/// What a restart needs to go on bit for bit. The owner of such numbers goes over them in one function,
-///   void keep(RestartArchive& memory) { memory.number("age", age_, count_range); memory.array("load", kind, load_); }
-/// which tells the name of each, its kind and what it may be, and serves both ways: an archive that is written takes the
-/// values; one that recalls puts those of an earlier run in their place, if it can believe them. So an entry is one line.
+/// What a restart needs to go on bit for bit. The owner of such numbers lists them in one function,
+///   void keep(RestartArchive& a) { a.number("age", age_, count_range); a.array("load", kind, load_); }
+/// with the name, kind and range of each, which serves both ways: an archive that is written takes the values; one that
+/// recalls replaces them by those of an earlier run, which it may check. So an entry is one line.
 class RestartArchive {
  public:
   virtual ~RestartArchive() = default;
@@ -66,7 +66,7 @@ class RestartArchive {
   virtual void number(const std::string& name, double& value, const Range& range = {}) = 0;
   virtual void integer(const std::string& name, std::int64_t& value, const Range& range = {}) = 0;
 
-  /// Of entries that an earlier run has all or none of: whether they are to be gone over.
+  /// For entries that an earlier run may not have: whether values are written down, or any of the names is there.
   bool wants(std::initializer_list<std::string> names) const;
   /// An entry that an earlier run, or another method, may not have; then the value stays.
   void number_if_there(const std::string& name, double& value, const Range& range = {});
@@ -98,7 +98,7 @@ class PrefixedArchive : public RestartArchive {
   RestartArchive& archive_;
 };
 
-/// Entries as they were written down, and back within the same program, where all are believed.
+/// Entries as they were written down; recalls them within the same program, without checks.
 class WrittenArchive : public RestartArchive {
  public:
   std::map<std::string, std::vector<double>> arrays;

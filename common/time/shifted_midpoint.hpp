@@ -6,23 +6,23 @@
 
 namespace fsi {
 
-/// Of a scene's frequency that is the midpoint rule's damping: what the artery's wave tolerates best (docs/theory.md,
-/// section 8.5), 0.2/ms there.
+/// The midpoint rule's damping over a scene's frequency: what the artery's wave tolerates best (docs/theory.md, section
+/// 8.5), 0.2/ms there.
 inline constexpr double midpoint_share = 0.25;
 
-/// Largest theta of a midpoint rule whose shift is found from the scene: beyond it the shift would no longer keep the order.
+/// Largest theta of a midpoint rule whose shift is found from the scene: a larger one would cost the order.
 inline constexpr double midpoint_bound = 0.5625;
 
 /// The midpoint rule, its balance shifted towards the step's end (docs/theory.md, section 8.5):
 ///   t_b = t_n + theta dt,   theta = 1/2 + damping dt,   at most a bound,   k = 1 / (theta dt),   r = y^n.
-/// Of second order while theta is below its bound; at the bound of first order, with 2 theta - 1 times the error of backward
-/// Euler. What changes its sign from step to step dies like exp(-4 damping t), or by -(1 - theta) / theta a step.
+/// Of second order while theta is below its bound; at the bound of first order, with 2 theta - 1 times the error of
+/// backward Euler. What alternates from step to step decays like exp(-4 damping t), or by -(1 - theta) / theta a step.
 template <int n>
 class ShiftedMidpoint : public BalanceScheme<n> {
  public:
-  /// With a rate of the shift that is given, 1/ms.
+  /// \param damping  rate of the shift, 1/ms
   explicit ShiftedMidpoint(double damping) : damping_(damping) {}
-  /// With that of a scene of this frequency, 1/ms.
+  /// With the damping of a scene of this frequency, 1/ms.
   static std::unique_ptr<ShiftedMidpoint> of_scene(double frequency);
 
   ErrorTerms error_terms() const override { return {2, 1.0 / 12, damping_, largest_theta_ - 0.5}; }

@@ -28,18 +28,19 @@ struct State {
   std::vector<double> wall_velocity;      ///< vectors per wall node, mm/ms, at before[0]
   std::vector<double> wall_acceleration;  ///< mm/ms^2; of schemes with balances at the last of them
 
-  // What schemes keep whose equations do not hold at the end of each step (time/balance.hpp). Empty for backward Euler.
+  // What schemes with balances keep (time/balance.hpp). Empty for backward Euler and in statics.
   int since_jump = 0;                        ///< finished steps since the load last jumped
   int balances_since_jump = 0;               ///< of `balances` that belong to them
   std::array<Solution, 3> balances;          ///< solutions of the equations, the latest first
   std::array<double, 3> balance_times{};     ///< ms
   std::vector<double> wall_velocity_before;  ///< at before[1]
-  Solution rate;                             ///< d/dt of displacements and velocities at before[0] (generalised-alpha)
-  std::vector<double> velocity_rate;         ///< of the wall's velocity, mm/ms^2 (generalised-alpha)
-  /// What stands for the loads' values there, kPa (generalised-alpha): of openings, supports and the wall's inner face.
-  std::vector<double> load_rates;
-  std::size_t support_loads = 0;  ///< how many of them are those of supports
-  bool has_branches = false;  ///< the wall has Maxwell branches: at all processes, also where none of their cells is
+  Solution rate;                      ///< d/dt of displacements and velocities at before[0]; of two schemes alone:
+                                      ///< generalised-alpha and tr-bdf2, as the next two
+  std::vector<double> velocity_rate;  ///< of the wall's velocity, mm/ms^2
+  std::vector<double> load_rates;     ///< the loads that belong to them, kPa: of openings, supports, the inner face
+
+  std::size_t support_loads = 0;  ///< how many loads the wall's supports have
+  bool has_branches = false;      ///< the wall has Maxwell branches; the same at all processes
 
   // A first stage of the step in progress, of schemes with two.
   Solution stage, stage_balance;         ///< the level at its end, the solution of its equations

@@ -12,8 +12,8 @@ struct LoadShare {
   double from = 0, to = 0, weight = 1;
 };
 
-/// How a time integrator makes rates of the unknowns of one step, or of one stage of it. Factors belong to the unknowns,
-/// references and histories are known. Layouts as in Solution, acceleration_history n numbers per wall node; empty in
+/// How a time integrator makes rates of the unknowns of one step, or of one stage of it: factors of the unknowns, and
+/// known references and histories. Layouts as in Solution, acceleration_history n numbers per wall node; empty in
 /// statics.
 struct StepRates {
   double step = 0;                 ///< ms, of the whole step; 0 in statics
@@ -24,8 +24,8 @@ struct StepRates {
   std::vector<double> openings_reference{};  ///< of what openings keep: dy/dt = fluid_factor (y - reference)
   std::vector<double> branches_reference{};  ///< of what Maxwell branches keep, with the rate of the wall
   std::vector<double> acceleration_history;  ///< mm/ms^2
-  /// ms, from the middle of the way that the velocity of the balance is made of to the balance: there F^T grad v is the
-  /// rate of a strain, and that of a rigid rotation zero (docs/theory.md, section 5.10).
+  /// ms, from the middle of the interval whose difference is the balance's velocity to the balance: in that middle F^T
+  /// grad v is the rate of a strain, and zero for a rigid rotation (docs/theory.md, section 5.10).
   double strain_lag = 0;
 
   int stage = 0;               ///< from 0
@@ -57,7 +57,7 @@ struct StepData {
   bool ends_at_jump = false;           ///< the load jumps at the step's end
 };
 
-/// A balance of a finished step: the solution and what its equations were.
+/// A balance of a finished step: the solution, and the data of its equations.
 struct Balance {
   Solution at;
   StepData data;

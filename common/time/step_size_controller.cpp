@@ -12,7 +12,7 @@ namespace {
 constexpr double safety = 0.9, growth = 2, shrinkage = 0.2;
 constexpr double least_change = 0.95;    // downwards
 constexpr double rungs = 4;              // to an octave
-constexpr double negligible = 1e-10;     // an error below this says no more than that
+constexpr double negligible = 1e-10;     // smaller errors, over the allowed one, count as this
 constexpr double of_failed_step = 0.25;  // what is left of the length of a step without solution
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 namespace fsi {
 
-/// What an error estimate may do to the step.
+/// Bounds of the lengths of steps.
 struct StepLimits {
   double first = 0;     ///< ms, at the start and after each jump of the load
   double smallest = 0;  ///< ms
@@ -14,8 +14,8 @@ struct StepLimits {
 /// Chooses the lengths of steps from estimates of their error by a digital filter, H0211 of [Soderlind2003]: with the
 /// error e of a step over the allowed one, which goes like the length to the power k,
 ///   dt_new = dt 0.9 (e e_before)^(-1/(2k)) (dt / dt_before)^(-1/2),
-/// no more than twice and no less than a fifth of dt. Lengths lie on a ladder of rungs a quarter of an octave apart,
-/// and one rung is no reason to grow: a step keeps its length, and the Jacobian that was made for it, while it is about
+/// no more than twice and no less than a fifth of dt. Lengths are rounded down to powers of 2^(1/4) times the first
+/// one, and grow by two such rungs at least: a step keeps its length, and the Jacobian made for it, while it is about
 /// right.
 class StepSizeController {
  public:
@@ -24,7 +24,7 @@ class StepSizeController {
   /// Length that the next step should have at most, ms.
   double wanted() const { return wanted_; }
 
-  /// The load has jumped: what was estimated before says nothing any more.
+  /// The load has jumped: earlier estimates no longer count.
   void restart();
   /// A step of this length (ms) whose error could not be estimated was accepted.
   void accept(double length);

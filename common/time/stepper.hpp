@@ -30,7 +30,7 @@ struct CouplingReport {
   double fluid_seconds = 0, wall_seconds = 0, mesh_seconds = 0, algebra_seconds = 0;
 };
 
-/// What one step took.
+/// What one step took, and what it led to.
 struct StepReport {
   int outer_iterations = 1;   ///< coupling iterations; 1 in a monolithic step
   int newton_iterations = 0;  ///< all of the step
@@ -38,8 +38,8 @@ struct StepReport {
   double solver_error = 0;    ///< estimated, what solving this step left (docs/evidence/evidence.md, "The solver")
   std::vector<std::string> history;  ///< convergence history, for the log
   std::optional<CouplingReport> coupling;
-  std::vector<Balance> balances;       ///< what was solved, where Stepper::keep_balances() asked for it
-  LevelEnergy level;                   ///< of the level that it led to, without the fluid's
+  std::vector<Balance> balances;       ///< where Stepper::keep_balances() asked for them
+  LevelEnergy level;                   ///< of the new level, without the fluid's
   std::vector<LayerDeformation> wall;  ///< of that level, layer by layer; empty without a wall
   /// Newton's method did not go straight to the solution, which may lie on another branch than the start.
   bool strayed = false;
@@ -60,14 +60,14 @@ struct StepperChoice {
   std::string reason;  ///< a clause
 };
 
-/// What of fluid and wall a method brings together, for log and summary.
+/// How a method couples fluid and wall, for log and summary.
 struct CouplingMethod {
   const char* kind;  ///< "monolithic", "block" or "interface"
   std::string does;  ///< a clause: what it does in a pass, and with what
 };
 
-/// Values of the block matrices of fluid and wall that a method solves with; null: it has none. They serve to measure the
-/// seconds of a product with them (the work unit).
+/// Values of the block matrices of fluid and wall that a method solves with; null: it has none. For the work unit, the
+/// seconds of a product with them.
 struct MatrixValues {
   const std::vector<double>*fluid = nullptr, *wall = nullptr;
 };
@@ -81,19 +81,18 @@ class Stepper {
   virtual StepReport advance(State& state) = 0;
   /// Whether reports of steps have their balances, for callers that look at what the equations did.
   void keep_balances(bool keep) { keep_balances_ = keep; }
-  /// What may refuse the solution of a step from now on, not owned; null: nothing. A step that was refused, or that failed,
-  /// can be taken again with another length.
+  /// The judge of solutions from now on, not owned; null: none. A step that it refused, or that failed, can be taken
+  /// again with another length.
   void judge_by(StepJudge* judge) { judge_ = judge; }
-  /// Steps are taken by a slower way, if it has one, where the usual one fails.
+  /// Whether a step whose usual iteration fails is solved by a slower fallback, if there is one.
   void persist(bool persist) { persists_ = persist; }
-  /// What it has of the last step beyond the state leads away from the next one.
+  /// Drops what it keeps of earlier steps beyond the state, as after a failed step.
   virtual void forget() {}
   /// Whether a step that failed may succeed with a smaller length.
   virtual bool can_retry() const { return true; }
   /// Whether the steps' reports have a coupling part.
   virtual bool reports_coupling() const { return false; }
-  /// What a method that checks itself only later cannot say yet of the steps taken so far, a sentence for the user;
-  /// empty: nothing is open.
+  /// What a method has not checked yet of the steps so far, a sentence for the user; empty: nothing.
   virtual std::string unchecked() const { return {}; }
   /// Of the last step, also of one that failed.
   const StepReport& report() const { return report_; }
@@ -102,7 +101,7 @@ class Stepper {
   /// How fluid and wall are coupled; empty where there is nothing to couple.
   virtual std::optional<CouplingMethod> coupling_method() const { return std::nullopt; }
   virtual MatrixValues matrix_values() const { return {}; }
-  /// What it needs of the steps before besides the state.
+  /// What a restart needs of earlier steps besides the state.
   virtual void keep(RestartArchive& archive) = 0;
 
  protected:

@@ -2,7 +2,7 @@
 
 namespace fsi {
 
-/// Times of a run that are this part of themselves, or of a step, apart are one time: what adding up steps leaves.
+/// Relative tolerance within which two times of a run, or two step lengths, are the same: the rounding of summed steps.
 inline constexpr double time_rounding = 1e-9;
 
 }  // namespace fsi

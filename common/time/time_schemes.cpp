@@ -16,7 +16,7 @@ namespace {
 using Made = std::unique_ptr<const TimeIntegrator>;
 using Values = SchemeValues;
 
-/// Calls make(Scheme<n>'s dimension).
+/// Calls make with n as a constant of the compiler.
 template <class Make>
 Made for_components(int n, Make make) {
   switch (n) {

@@ -24,7 +24,7 @@ struct SchemeParameter {
   std::optional<double> standard;  ///< empty: found from the scene
 };
 
-/// A row of the table of schemes. What else others decide by a scheme its integrator tells.
+/// A row of the table of schemes. All else about a scheme its integrator says.
 struct TimeScheme {
   int number;  ///< in checkpoints: never another scheme's
   std::vector<SchemeParameter> parameters;
@@ -34,14 +34,16 @@ struct TimeScheme {
   std::unique_ptr<const TimeIntegrator> (*make)(int n, const SchemeValues& values, double frequency);
 };
 
-/// The table, by time.scheme: first the two of which a case that names none gets one.
+/// The table, by time.scheme. The first two are those that a case without time.scheme gets one of.
 const NameTable<TimeScheme>& time_schemes();
 inline constexpr auto scheme_for_short_steps = "midpoint", scheme_for_long_steps = "tr-bdf2";
 
 /// Names of those that bear a coupling of one pass a step (TimeIntegrator::bears_one_pass).
 std::vector<std::string> schemes_for_one_pass();
 
-/// \param given  by the case, of this scheme's parameters
+/// \param n          components of a vector
+/// \param given      by the case, of this scheme's parameters
+/// \param frequency  of the scene, 1/ms
 std::unique_ptr<const TimeIntegrator> make_integrator(const std::string& scheme, int n, SchemeValues given,
                                                       double frequency);
 /// A scheme without a scene, with its default parameters: for what it says of itself.

@@ -21,7 +21,7 @@ class TrBdf2 : public BalanceScheme<n> {
   void prepare(State& state) const override;
   std::optional<Balance> balance_again(const State& state) const override;
 
-  /// A first step without history, for other schemes, too.
+  /// Rates of a stage of a first step, which has no history; also for other schemes.
   static StepRates first_rates(const BalanceScheme<n>& scheme, const State& state, double step, int stage);
 
  private:

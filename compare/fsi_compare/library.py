@@ -1,5 +1,5 @@
-"""The names that `import fsi_compare` offers, from where they are made; plots are in reporting/plots.py. The list of them is
-that of the package, __init__.py."""
+"""The names that `import fsi_compare` offers, from where they are made; plots are in reporting/plots.py. The list of
+them is that of the package, __init__.py."""
 
 from .base.errors import InputError as InputError
 from .results.comparison import LineDifference as LineDifference, difference as difference

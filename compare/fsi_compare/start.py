@@ -97,7 +97,7 @@ LESS = {  # by command; others compare runs
 
 
 def _less(arguments: Sequence[str]) -> str:
-    """What a command may be given less of."""
+    """Advice for a command that ran out of memory: what to give it less of."""
     return LESS.get(arguments[0] if arguments else "", "compare fewer or smaller runs")
 
 

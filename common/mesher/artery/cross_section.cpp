@@ -100,7 +100,8 @@ struct Ring {
   int node(int j) const { return first + (whole ? j % cells : j); }
 };
 
-/// Triangles between two rings of different numbers of cells: of the two next edges the shorter one, by angle.
+/// Triangles between two rings of different numbers of cells, always along the shorter, by angle, of the two next
+/// edges.
 void join(CrossSection& section, const Ring& inner, const Ring& outer, int region) {
   int i = 0, j = 0;
   while (i < inner.cells || j < outer.cells) {

@@ -37,9 +37,9 @@ CrossSection hexagonal_section(const ArteryShape& shape, const ArteryCells& cell
 ///
 /// `degrees` is 360, or a whole part of it for a sector between planes of symmetry. Their edges are the sides
 /// `symmetry_y` (the plane y = 0) and, but for 180 degrees, that of the plane at `degrees`: `symmetry_x` (x = 0, of 90
-/// degrees) or `symmetry_1`. The section and its images in these planes fit together.
-/// Throws InputError with the fsi-mesh option at fault for other sectors and for `around` that a sector does not cut
-/// into at least two whole cells.
+/// degrees) or `symmetry_1`. The section and its images in these planes fit together. Throws as require_cells(), and
+/// InputError with the fsi-mesh option at fault for other sectors and for `around` that a sector does not cut into at
+/// least two whole cells.
 CrossSection ring_section(const ArteryShape& shape, const ArteryCells& cells, int degrees = 360);
 
 }  // namespace fsi

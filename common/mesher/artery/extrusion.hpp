@@ -14,7 +14,8 @@ namespace fsi {
 /// Extrudes a cross-section along the axis into `slabs` layers of prisms, each cut into three tetrahedra: volumes
 /// `fluid`, `media`, `adventitia`, surfaces `inlet`, `outlet`, `wall_ends` and the section's sides. Nodes are numbered
 /// station by station.
-/// \param place         (station, node of the section) -> Point
+/// \param two_layers    whether there is an adventitia
+/// \param place         (station, node of the section) -> Point, mm
 /// \param starts_below  (a, b, slab) -> whether the diagonal of the face over the section's edge ab starts from a below
 ///     (and ends at b above). Adjacent prisms agree, as it depends on the edge only; within a triangle it must be an
 ///     order, so that the three diagonals of a prism never chase each other and three tetrahedra fill it

@@ -15,10 +15,10 @@ struct ArteryShape {
   double length = 18;
 };
 
-/// How finely to mesh an artery, by sizes in mm. Defaults: coarse level.
+/// How finely to mesh an artery, by sizes in mm. Default: the coarse level's size, along the axis too.
 struct ArteryOptions : ArteryShape {
   double size = 0.75;                ///< edge length in the cross-section of the lumen and around the wall
-  std::optional<double> axial_size;  ///< edge length along the axis; as `size` unless given
+  std::optional<double> axial_size;  ///< edge length along the axis; `size` unless given
 };
 
 /// How finely to mesh an artery, by whole numbers.
@@ -45,16 +45,18 @@ ArteryOptions artery_level(const std::string& name);
 /// The whole numbers that the sizes come to: edges of `size` around and across the lumen, six around for each one
 /// across and never fewer than twelve; layers cut into cells of about 0.35 `size`. Throws InputError with the fsi-mesh
 /// option at fault for dimensions and sizes that are not positive and finite, and for sizes that ask for more than
-/// `max_artery_nodes` nodes.
+/// `max_artery_nodes` nodes; OutOfMemory for more than fit into memory.
 ArteryCells artery_cells(const ArteryOptions& options);
 
 inline constexpr double max_artery_nodes = 2e7;
 
-/// Throws InputError with the fsi-mesh option at fault for dimensions that are not positive and finite.
+/// Throws InputError with the fsi-mesh option at fault for dimensions that are not positive and finite; `adventitia`
+/// may be 0.
 void require_tube(const ArteryShape& shape);
 
-/// Throws InputError with the fsi-mesh option at fault for counts that are too small, gradings that are not positive and
-/// finite or grade cells to less than a millionth of each other, and for more than `max_artery_nodes` nodes.
+/// Throws InputError with the fsi-mesh option at fault for counts that are too small, gradings that are not positive
+/// and finite or grade cells to less than a millionth of each other, for more than `max_artery_nodes` nodes, and as
+/// require_tube(); OutOfMemory for more than fit into memory.
 void require_cells(const ArteryShape& shape, const ArteryCells& cells);
 
 }  // namespace fsi

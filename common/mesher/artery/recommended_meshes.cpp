@@ -31,12 +31,12 @@ ArteryCells cells(int lumen, int media, int adventitia, int around, int axial, d
 
 }  // namespace
 
-// Measured with the programs themselves by `fsi-compare accuracy`, see docs/evidence/evidence.md: quadratic elements, pressure
-// separate per layer, against 16-5-5-256 cells graded by 3 and 4; rounded up. Of damped waves cells along the axis near
-// the inlet govern the displacement, those across the lumen the pressure; one or two cells a layer are enough when the
-// pressure may jump between the layers. Resolved waves need cells along the whole axis and two in the outer layer. The
-// three-dimensional rows are quarters. Damped: backward Euler with 1/8 ms. Resolved: midpoint rule with 1/64 ms, 1/32 ms
-// on the quarter.
+// Measured with the programs themselves by `fsi-compare accuracy`, see docs/evidence/evidence.md: quadratic elements,
+// pressure separate per layer, against 16-5-5-256 cells graded by 3 and 4; rounded up. Of damped waves cells along the
+// axis near the inlet govern the displacement, those across the lumen the pressure; one or two cells a layer are enough
+// when the pressure may jump between the layers. Resolved waves need cells along the whole axis and two in the outer
+// layer. The three-dimensional rows are quarters. Damped: backward Euler with 1/8 ms. Resolved: midpoint rule with
+// 1/64 ms, 1/32 ms on the quarter.
 const std::vector<RecommendedMesh>& recommended_meshes() {
   static const std::vector<RecommendedMesh> table{
       // element, geometry, waves, error in % of pressure, of displacement, how known,

@@ -11,16 +11,16 @@ namespace fsi {
 
 /// Which waves the steps of a run leave in its solution, and so what its mesh has to carry.
 enum class Waves {
-  damped,  ///< backward Euler with the paper's step, 1/8 ms: short waves die
-  resolved,  ///< a scheme of second order with steps of 1/32 ms or less: they live, behind the crest, along the whole tube
+  damped,    ///< backward Euler with the paper's step, 1/8 ms: short waves die
+  resolved,  ///< a scheme of second order with steps of 1/32 ms or less: they live, along the whole tube
 };
 
 /// Names of the two in case files and options.
 const NameTable<Waves>& wave_kinds();
 
-/// A mesh of the artery with the error that it leaves in the wave of the neo-Hookean case: the largest of t = 1.5, 3, 4.5,
-/// 6, 7.5 and 9 ms of the relative L2 norm along z of the difference from a much finer mesh at the same time steps, so
-/// that only space counts.
+/// A mesh of the artery with the error that it leaves in the wave of the neo-Hookean case: the largest of t = 1.5, 3,
+/// 4.5, 6, 7.5 and 9 ms of the relative L2 norm along z of the difference from a much finer mesh at the same time
+/// steps, so that only space counts.
 struct RecommendedMesh {
   std::string element;        ///< as in case files
   bool axisymmetric;          ///< else three-dimensional, whole or a sector
@@ -46,7 +46,7 @@ struct AskedFor {
 const RecommendedMesh& recommended_mesh(const std::string& element, bool axisymmetric, Waves waves, double percent,
                                         const AskedFor& asked);
 
-/// The number in "3%" or "0.5 %", positive; nothing for anything else: a number without the sign could mean a fraction.
+/// The number in "3%" or "0.5 %", if positive; else nothing: a number without the sign could mean a fraction.
 std::optional<double> percent_of(const std::string& text);
 
 /// Which cells a mesh has and what error it leaves, in one line for the console.

@@ -41,8 +41,8 @@ TetrahedralMesh joined_with_sector_images(const TetrahedralMesh& sector, int deg
   std::vector<std::vector<int>> number(images, std::vector<int>(sector.nodes.size(), -1));  // per image and node
   for (int image = 0; image < images; ++image) {
     for (std::size_t i = 0; i < sector.nodes.size(); ++i) {
-      // A mirror image has its second plane first. Behind it lies the image before; behind the other, the last one's, the
-      // sector itself.
+      // A mirror image has its second plane first. Behind it lies the image before; behind the other, the last one's,
+      // the sector itself.
       const bool mirrored = image % 2 == 1;
       const bool seam = mirrored ? on_second[i] : on_first[i], far_seam = mirrored ? on_first[i] : on_second[i];
       int& here = number[image][i];

@@ -13,7 +13,7 @@ namespace fsi {
 using CgalKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using CgalMesh = CGAL::Surface_mesh<CgalKernel::Point_3>;
 
-/// Nodes and triangles keep their numbers.
+/// Nodes and triangles keep their numbers. \param surface  sound (mesher/surface/sound_surface.hpp)
 inline CgalMesh to_cgal(const TriangleSurface& surface) {
   CgalMesh mesh;
   std::vector<CgalMesh::Vertex_index> vertices;

@@ -10,8 +10,8 @@ namespace fsi {
 
 namespace {
 
-/// For each node of a flat rim one on a circle of the rim's area around its centre, at angles as far apart as the nodes are
-/// along the rim, turned so that together they move least.
+/// For each node of a flat rim one on a circle of the rim's area around its centre, at angles as far apart as the nodes
+/// are along the rim, turned so that together they move least.
 std::vector<Point> circle_for(const std::vector<Point>& nodes, const std::vector<int>& rim, const LoopPlane& plane) {
   const std::size_t count = rim.size();
   const Point first = nodes[rim[0]] - plane.centre;

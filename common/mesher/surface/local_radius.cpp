@@ -24,7 +24,7 @@ std::vector<Point> unit_normals(const TriangleSurface& surface) {
 
 std::vector<double> local_radius(const TriangleSurface& surface, int passes) {
   constexpr double cone = 0.5;                 // cosine of 60 degrees
-  constexpr std::size_t most_others = 20'000;  // every so manieth of large surfaces: far nodes need no more
+  constexpr std::size_t most_others = 20'000;  // of large surfaces: every n-th node is enough
   const auto normals = unit_normals(surface);
   const auto& x = surface.nodes;
   const std::size_t stride = 1 + x.size() / most_others;

@@ -6,13 +6,14 @@
 
 namespace fsi {
 
-/// Local radius of a lumen at each node of its surface, mm: of the largest ball inside that touches the surface there,
-/// min |p - q|^2 / (2 (p - q) n) over all nodes q that lie within 60 degrees of the inward normal -n at p [Ma2012]. It is the
-/// radius of a round tube. Nodes closer to the normal's cone than that would let roughness make the balls small.
+/// Local radius of a lumen at each node p of its surface, mm: that of the largest ball inside that touches the surface
+/// there, the least |p - q|^2 / (2 (p - q) n) of nodes q within 60 degrees of the inward normal -n at p [Ma2012], some
+/// 20,000 of them at most. Outside of this cone roughness would make the balls small. Where no node lies in it, the
+/// largest of all radii. On a round tube it is the radius.
 /// \param passes  the field is averaged with its neighbours' so many times
 std::vector<double> local_radius(const TriangleSurface& surface, int passes);
 
-/// Smooths a field of the nodes: each pass takes it half of the way to the mean of the neighbours', on rims of those on the rim.
+/// Smooths a field of the nodes: each pass takes it half of the way to the mean of the neighbours' (neighbours_of()).
 void average_with_neighbours(const TriangleSurface& surface, std::vector<double>& field, int passes);
 
 }  // namespace fsi

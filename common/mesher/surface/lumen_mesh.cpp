@@ -41,7 +41,7 @@ void name_openings(std::vector<LumenOpening>& openings, const std::vector<Openin
   }
 }
 
-/// Fills what is to be wall; the openings that are left.
+/// Closes the openings that are to be wall and takes them off the list.
 void close_holes(OpenedLumen& lumen, const LumenRequest& request, std::vector<std::string>& done) {
   std::set<std::size_t> closed;
   for (const auto& choice : request.closed) {

@@ -10,10 +10,10 @@
 
 namespace fsi {
 
-/// What a lumen's mesh is to be like.
+/// The options of a lumen's mesh.
 struct LumenRequest {
   std::string file;                     ///< for messages
-  std::vector<OpeningChoice> openings;  ///< with names: all openings but those that are closed
+  std::vector<OpeningChoice> openings;  ///< with names: all openings but those in `closed`
   std::vector<OpeningChoice> closed;    ///< holes and flat parts that become wall
   int smoothing = 20;                   ///< passes
   double edge = 0;                      ///< length of the surface's edges, mm; 0: as they are on average
@@ -37,8 +37,8 @@ struct LumenMesh {
 };
 
 /// From an open surface to tetrahedra: names, holes closed, smoothed, cut, made longer, remeshed, capped flat, filled.
-/// \throws InputError for openings without a name, names twice, options that name no opening, smoothing that changes the
-///         volume by more than 1 %, and what the steps refuse
+/// \throws InputError for openings without a name, names twice, options that name no opening, smoothing that changes
+///         the volume by more than 1 %, and what the steps refuse
 LumenMesh mesh_lumen(OpenedLumen lumen, const LumenRequest& request);
 
 }  // namespace fsi

@@ -17,7 +17,7 @@ namespace fsi {
 
 namespace {
 
-/// Out of the lumen: the triangles run around a rim the other way than those of its cap would.
+/// The normal points out of the lumen: triangles run around a rim the other way than those of its cap would.
 LumenOpening opening_at(const TriangleSurface& surface, const std::vector<int>& rim) {
   const LoopPlane plane = plane_of(surface.nodes, rim);
   return {"", false, plane.centre, -1.0 * plane.normal, plane.area};

@@ -13,14 +13,14 @@ namespace fsi {
 /// \throws InputError saying of `file` that the result folds over or cuts itself, with the place
 TriangleSurface remeshed(const TriangleSurface& surface, double edge, const std::string& file);
 
-/// The same with lengths that vary. The surface is taken apart into bands of lengths within a factor of 1.25, each of which is
-/// remeshed to its mean; a second time with other bands, so that no line between bands stays. Lengths change by no more than 0.3
-/// of the way along the surface.
+/// The same with lengths that vary. The surface is taken apart into bands of lengths within a factor of 1.25, each of
+/// which is remeshed to its mean; three times, with shifted bands in between, so that no line between bands stays.
+/// Lengths change by no more than 0.3 of the way along the surface.
 /// \param edges  mm, per node of the surface
 TriangleSurface remeshed(const TriangleSurface& surface, std::vector<double> edges, const std::string& file);
 
-/// Triangles that fill a rim in its plane, normals away from the surface; nodes are added to the surface, as far apart as those
-/// of the rim.
+/// Triangles that fill a flat rim, normals away from the surface. Their inner nodes, as far apart as those of the rim,
+/// are added to the surface, the triangles are not.
 /// \throws InputError saying of `file` that the rim cannot be filled, with the place
 std::vector<SurfaceTriangle> flat_cap(TriangleSurface& surface, const std::vector<int>& rim, const std::string& file);
 

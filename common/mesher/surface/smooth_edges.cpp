@@ -28,8 +28,8 @@ Point unit(const Point& v) {
   return (1 / std::max(norm(v), 1e-300)) * v;
 }
 
-/// The quadric z = d x + e y + (a x^2 + 2 b x y + c y^2 + k z^2) / 2 through points around the origin (smooth_edges.hpp): slopes
-/// d, e and curvatures by least squares, k given.
+/// The quadric z = d x + e y + (a x^2 + 2 b x y + c y^2 + k z^2) / 2 through points around the origin
+/// (smooth_edges.hpp): slopes d, e and curvatures by least squares, k given.
 class QuadricFit {
  public:
   /// \param points  mm
@@ -41,7 +41,7 @@ class QuadricFit {
     solver_.setThreshold(dependent_column);
   }
 
-  /// (d, e, k(a, b, c) - k), which is zero of the surface that is sought; lengths in terms of the points' root mean square.
+  /// The residual (d, e, k(a, b, c) - k); lengths relative to the points' root mean square.
   Eigen::Vector3d operator()(const Point& normal, const Point& first, const Point& second, double k) {
     for (Eigen::Index i = 0; i < matrix_.rows(); ++i) {
       const Point& y = points_[static_cast<std::size_t>(i)];
@@ -67,8 +67,8 @@ class QuadricFit {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver_;
 };
 
-/// The surface's normal at a node (smooth_edges.hpp) by Newton's method with differences for derivatives, steps halved until what
-/// is left has fallen; nothing where that does not converge or the points around are too few to tell it.
+/// The surface's normal at a node (smooth_edges.hpp) by Newton's method with a Jacobian of differences; steps are
+/// halved until the residual falls. Nothing where that does not converge or there are too few points.
 /// \param around  from the node, mm
 std::optional<Point> fitted_normal(const std::vector<Point>& around, const Point& guess) {
   constexpr std::size_t enough = 7;

@@ -36,8 +36,8 @@ std::vector<char> beyond(const TriangleSurface& surface, const std::vector<std::
   return is_beyond;
 }
 
-/// The middle of the line in which the plane cuts the surface at the part's end: of its segments by their lengths. Nothing where
-/// it does not.
+/// The centre of the line in which the plane cuts the surface at the part's end: of its segments by their lengths.
+/// Nothing where it does not cut.
 std::optional<Point> section_centre(const TriangleSurface& surface, const std::vector<char>& part, const Plane& plane) {
   Point sum{0, 0, 0};
   double length = 0;
@@ -82,7 +82,7 @@ class CutFinder {
   std::vector<char> beyond_of(const Plane& plane) const { return beyond(surface_, neighbours_, rim_, plane); }
 
  private:
-  /// Those across rims too.
+  /// Those inside too at nodes of rims, unlike neighbours_of().
   static std::vector<std::vector<int>> all_neighbours(const TriangleSurface& surface) {
     std::vector<std::vector<int>> neighbours(surface.nodes.size());
     for (const auto& t : surface.triangles)
@@ -107,7 +107,8 @@ class CutFinder {
   std::vector<std::vector<int>> neighbours_;
 };
 
-/// Puts nodes of the cut triangles that are near the plane onto it, lest slivers be left; they are no longer in the part.
+/// Puts nodes of the cut triangles that are near the plane onto it, lest slivers be left; they are no longer in the
+/// part.
 void snap(TriangleSurface& surface, std::vector<char>& part, const Plane& plane) {
   constexpr double near = 0.1;  // of the edge
   const std::vector<char> before = part;

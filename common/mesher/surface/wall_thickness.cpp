@@ -57,7 +57,7 @@ std::vector<double> reach_of(const TriangleSurface& surface, const ThicknessTabl
   return reach;
 }
 
-/// What would explain a hole if the file were in another unit of length, with the remedy; else empty.
+/// The beginning of a remedy for a hole that another unit of length would explain; else empty.
 std::string slip_of(const TriangleSurface& surface, const ThicknessTable& table) {
   const auto slip = length_slip(table.places, surface.nodes);
   return slip ? fmt::format("times {:g} its points would fit: give --thickness-unit {}, if it is in {}; else ",

@@ -1,1 +1,1 @@
-"""What all parts know: errors, names, output files, progress, the numbers of the paper."""
+"""What all parts share: errors, names in cases, files, interruption, options, streams."""

@@ -15,7 +15,7 @@ RENAMED = {
 
 
 def short_name(key: str) -> str:
-    """Of a key in labels: its last part, and the section where that alone would not say of what."""
+    """A key in labels: its last part, and the section where that alone would be ambiguous."""
     section, _, name = key.rpartition(".")
     return f"{section}_{name}" if section in ("newton", "linear") else name
 

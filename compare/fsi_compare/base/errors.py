@@ -1,11 +1,11 @@
-"""Mistakes in what the user handed over, and messages that any terminal can show."""
+"""Mistakes in the user's input, and messages that any terminal can show."""
 
 import sys
 from pathlib import Path
 from typing import Union
 
 PROGRAM = "fsi-compare"
-# Characters that each part may take, as in the C++ programs (common/base/error.cpp). What a user handed over is in the
+# Characters that each part may take, as in the C++ programs (common/base/error.cpp). The user's input is in the
 # first three; a remedy is our own words, in which a command is meant to be pasted.
 FILE_LIMIT, KEY_LIMIT, PROBLEM_LIMIT, REMEDY_LIMIT = 200, 200, 600, 2000
 GAP = "..."
@@ -28,7 +28,7 @@ class InputError(Exception):
 
 
 class ProgramError(InputError):
-    """What one of the programs answered: its message, which has parts of its own, in the place of the problem."""
+    """Carries the message of a program, which has parts of its own, in the place of the problem."""
 
     def __init__(self, file: Union[str, Path], key: str, message: str, remedy: str = "") -> None:
         parts = (
@@ -61,18 +61,18 @@ def shortened(text: str, limit: int) -> str:
 
 
 def shortened_path(path: str, limit: int) -> str:
-    """The same for a path, whose end tells more than its beginning: the beginning is replaced."""
+    """Like shortened(), for a path, whose end tells more than its beginning: the beginning is replaced."""
     line = printable(path)
     return line if len(line) <= limit else GAP + line[len(GAP) - limit :]
 
 
 def say_error(text: str) -> None:
-    """The one line of a program that could not do its work. There is nobody left to tell when that fails too."""
+    """The one line of a program that could not do its work. When that fails, too, nothing is left to report to."""
     _tell(f"{PROGRAM}: error: {text}")
 
 
 def say_note(text: str) -> None:
-    """What is worth knowing, and no reason to stop."""
+    """Prints a note, which is no reason to stop, on the error output."""
     _tell(f"{PROGRAM}: note: {printable(text)}")
 
 

@@ -20,8 +20,8 @@ ELSEWHERE = "name another folder with -o"
 
 
 def folder(text: str) -> Path:
-    """For options that name an output folder: an empty name, of a variable that is not set, is not the folder where
-    the program was started."""
+    """Type of options that name an output folder. Refuses an empty name, of a variable that is not set, which would be
+    the folder where the program was started."""
     if not text.strip():
         raise ValueError(text)
     return Path(text)
@@ -41,12 +41,12 @@ def is_folder(path: Path) -> bool:
 
 
 def absolute(path: Path) -> Path:
-    """Without links, where that is possible: a circle of links is left as it stands."""
+    """The absolute path without links, where that is possible: a circle of links is left as it stands."""
     return Path(os.path.realpath(path))
 
 
 def read_bytes(path: Path, missing: str, broken: str, largest: float = float("inf")) -> bytes:
-    """Raises InputError, with `missing` or `broken` as its remedy. Only regular files: others may never end."""
+    """Reads a whole regular file; others may never end. Raises InputError, with `missing` or `broken` as its remedy."""
     try:
         # Opening a pipe would wait for its other end.
         with open(path, "rb", opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK)) as file:
@@ -67,7 +67,7 @@ def read_bytes(path: Path, missing: str, broken: str, largest: float = float("in
 
 
 def read_text(path: Path, missing: str, broken: str, largest: float = float("inf")) -> str:
-    """The same as text in UTF-8."""
+    """Like read_bytes(), as text in UTF-8."""
     try:
         return read_bytes(path, missing, broken, largest).decode("utf-8").replace("\r\n", "\n")
     except UnicodeDecodeError:
@@ -89,7 +89,7 @@ def read_json(path: Path, missing: str, broken: str) -> Any:
 
 
 def read_object(path: Path, missing: str, broken: str) -> Dict[str, Any]:
-    """Of a JSON file that holds an object."""
+    """Reads a JSON file that holds an object. Raises InputError."""
     value = read_json(path, missing, broken)
     if not isinstance(value, dict):
         raise InputError(path, "", "is not a JSON object", broken)
@@ -97,7 +97,7 @@ def read_object(path: Path, missing: str, broken: str) -> Dict[str, Any]:
 
 
 def read_toml(path: Path, missing: str, broken: str) -> Dict[str, Any]:
-    """Raises InputError."""
+    """Reads a TOML file. Raises InputError."""
     text = read_text(path, missing, broken, LARGEST)
     try:
         value = tomllib.loads(text)
@@ -110,7 +110,7 @@ def read_toml(path: Path, missing: str, broken: str) -> Dict[str, Any]:
 
 
 def _require_plain(path: Path, value: Any, broken: str) -> None:
-    """Not so deep that a walk through it would fail, and texts that can be written again."""
+    """Refuses values so deep that a walk through them would fail, and texts that cannot be written again."""
     waiting = [(value, 0)]
     while waiting:
         entry, depth = waiting.pop()
@@ -125,8 +125,8 @@ def _require_plain(path: Path, value: Any, broken: str) -> None:
 
 
 def make_folder(folder: Path) -> List[Path]:
-    """Creates the output folder and its parents; those that were not there, the outermost first. Raises InputError when
-    that is not possible."""
+    """Creates the output folder and its parents; returns new ones, the outermost first. Raises InputError on
+    failure."""
     made: List[Path] = []
     try:
         place = folder
@@ -143,7 +143,7 @@ def make_folder(folder: Path) -> List[Path]:
 
 
 def remove_empty(folders: List[Path]) -> None:
-    """Those of `folders`, the innermost last, that hold nothing."""
+    """Removes those of `folders`, the innermost last, that hold nothing."""
     with suppress(OSError):
         for folder in reversed(folders):
             folder.rmdir()
@@ -228,7 +228,7 @@ def _prefix() -> str:
 
 
 def sweep(folder: Path) -> None:
-    """Removes what calls on this machine that were killed left in `folder`: files that nobody goes on writing."""
+    """Removes files in `folder` that killed calls on this machine left unfinished."""
     mine = f".{socket.gethostname()}-"
     for name in listed(folder):
         if name.startswith(mine) and name.endswith(TEMPORARY):
@@ -238,8 +238,8 @@ def sweep(folder: Path) -> None:
 
 
 def remove_tree(path: Path) -> None:
-    """A file, a link or a folder with all it holds, as far as that is possible: what stays will be seen by whoever writes
-    there."""
+    """Removes a file, a link or a folder with its contents, as far as possible. The next write there reports the
+    rest."""
     with suppress(OSError):
         if path.is_dir() and not path.is_symlink():
             shutil.rmtree(path, ignore_errors=True)

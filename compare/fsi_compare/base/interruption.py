@@ -25,7 +25,7 @@ class Interrupted(BaseException):
 
     @property
     def code(self) -> int:
-        """As shells have it: 130 after SIGINT, 143 after SIGTERM, 129 after SIGHUP."""
+        """Exit code as shells have it: 130 after SIGINT, 143 after SIGTERM, 129 after SIGHUP."""
         return 128 + self.number
 
 
@@ -49,7 +49,8 @@ def _note(number: int, frame: object) -> None:
 
 @contextmanager
 def watched(to_the_end: bool = False) -> Iterator[None]:
-    """While the block runs, and to the process's end if it is told so: what comes then is too late. A signal that was ignored stays ignored, as `nohup` asks for. Signals that the launcher held
+    """Notes signals while the block runs, then restores the handlers. `to_the_end`: they are ignored afterwards, since
+    they come too late. A signal that was ignored stays ignored, as `nohup` asks for. Signals that the launcher held
     back until here are let through."""
     if threading.current_thread() is not threading.main_thread():
         yield

@@ -59,7 +59,7 @@ def add_times(command: argparse.ArgumentParser, default: str) -> None:
 
 
 def add_usual(command: argparse.ArgumentParser, version: str, threads: str) -> None:
-    """Those that all programs end with; `threads` says what the number is of."""
+    """Adds the options that all commands end with; `threads` says what the number is of."""
     command.add_argument("--threads", metavar="N", type=positive("--threads"), help=threads)
     command.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
     command.add_argument("--version", action="version", version=f"{PROGRAM} {version}")

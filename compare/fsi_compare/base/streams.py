@@ -27,8 +27,8 @@ def take_descriptors() -> None:
 
 
 class _Output(io.TextIOBase):
-    """Passes text on. Characters that the encoding lacks become codes. What cannot be written is an InputError on the
-    output, and dropped on the error output, where nobody is left to tell."""
+    """Passes text on. Characters that the encoding cannot write become escapes. A failed write is an InputError on the
+    output; on the error output the text is dropped, since nothing is left to report to."""
 
     def __init__(self, inner: Any, errors: bool) -> None:
         self._inner, self._errors, self._lost = inner, errors, False

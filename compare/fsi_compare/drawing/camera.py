@@ -10,7 +10,7 @@ MARGIN = 1.06  # of the picture over what it shows
 
 @dataclass(frozen=True)
 class Camera:
-    """Looks along -`towards`, which points from what is seen to the eye."""
+    """Looks along -`towards`, which points from the object to the eye."""
 
     towards: np.ndarray  # (3,)
     up: np.ndarray  # (3,), upwards in the picture as far as it is across the view
@@ -27,8 +27,8 @@ class Camera:
 
 
 def best_camera(points: np.ndarray) -> Camera:
-    """Onto the two longest directions of a body, a little from the side and from its end. The longest is upwards; across, where
-    the body is slender."""
+    """Onto the two longest directions of a body, a little from the side and from its end. The longest is upwards;
+    across, where the body is slender."""
     directions = longest_directions(points)
     spans = np.ptp(points @ directions.T, axis=0)
     slender = spans[1] < 0.5 * spans[0]
@@ -37,8 +37,8 @@ def best_camera(points: np.ndarray) -> Camera:
 
 
 def longest_directions(points: np.ndarray) -> np.ndarray:
-    """Rows: directions in which the points spread most, less, and least; the right-handed three. Each points towards the
-    coordinate axis that it has most of."""
+    """Rows: directions in which the points spread most, less, and least; the right-handed three. Each points towards
+    the coordinate axis that it has most of."""
     centred = points - points.mean(axis=0)
     rows: np.ndarray = np.linalg.svd(centred[:: max(1, len(points) // 20000)], full_matrices=False)[2]
     rows = rows * np.sign(rows[np.arange(3), np.argmax(np.abs(rows), axis=1)])[:, None]

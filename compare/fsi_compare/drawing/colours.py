@@ -16,7 +16,7 @@ TICK_STEPS = 4  # that a range is divided into, at the most
 
 @dataclass(frozen=True)
 class Scale:
-    """From what value to what value colours go; what is outside has the last colour."""
+    """Range of values that the colours span; values outside have the last colour."""
 
     low: float
     high: float
@@ -42,9 +42,9 @@ def table(name: str) -> np.ndarray:
 
 
 def scale_of(levels: Iterable[np.ndarray], signed: bool) -> Scale:
-    """Of values at some times and places. A single node cannot stretch it: of each array the 99th percentile counts, and of these
-    the largest (below: the 1st, the least). Unsigned values begin at zero. Signed ones are centred about zero when both signs
-    matter."""
+    """Scale of values at some times and places. A single node cannot stretch it: of each array the 99th percentile
+    counts, and of these the largest (below: the 1st, the least). Unsigned values begin at zero. Signed ones are centred
+    about zero when both signs matter."""
     lows: List[float] = []
     highs: List[float] = []
     ends: List[float] = []
@@ -66,14 +66,14 @@ def scale_of(levels: Iterable[np.ndarray], signed: bool) -> Scale:
 
 
 def scale_of_difference(levels: Iterable[np.ndarray]) -> Scale:
-    """About zero, whatever the signs."""
+    """A scale centred about zero, whatever the signs."""
     found = scale_of((np.abs(values) for values in levels), signed=False)
     return Scale(-found.high, found.high, True, -found.largest, found.largest)
 
 
 def round_ticks(low: float, high: float) -> List[float]:
-    """Numbers for the legend of a range: multiples of 1, 2 or 5 times a power of ten, three to six of them, zero among them where
-    the range holds it. The page has the same (`vesselCurve.ticks`)."""
+    """Numbers for the legend of a range: multiples of 1, 2 or 5 times a power of ten, three to six of them, with zero
+    where the range holds it. The page has the same (`vesselCurve.ticks`)."""
     raw = (high - low) / TICK_STEPS
     if not (math.isfinite(raw) and raw > 0):
         return [low]

@@ -1,5 +1,5 @@
-"""Draws triangles by a depth buffer, in numpy alone: the same picture on every machine, without graphics hardware, an X server
-or JavaScript."""
+"""Draws triangles by a depth buffer in numpy: the same picture on every machine, without graphics hardware or X
+server."""
 
 from dataclasses import dataclass
 from typing import List, Optional, Sequence, Tuple
@@ -34,8 +34,8 @@ def rendered(
     colours: np.ndarray,
     fit: Optional[np.ndarray] = None,
 ) -> Tuple[np.ndarray, float]:
-    """Red, green, blue of 0 to 255, (height, width, 3), and the pixels for each mm. `colours` (256, 3). The picture holds all
-    points, or those of `fit` (points, 3)."""
+    """Red, green, blue of 0 to 255, (height, width, 3), and the pixels for each mm. `colours` (256, 3). The picture
+    holds all points, or those of `fit` (points, 3)."""
     wide, high = SAMPLES * width, SAMPLES * height
     axes = camera.axes
     shown = fit if fit is not None else np.concatenate([mesh.points for mesh in meshes])
@@ -98,8 +98,8 @@ def _chunks(corners: np.ndarray) -> List[np.ndarray]:
 
 
 def _covered(corners: np.ndarray, size: Tuple[int, int]) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Pixels whose middles are in a triangle: (numbers, weights of the corners, triangle). Row by row: a row of pixels meets a
-    triangle in the interval between its sides."""
+    """Pixels whose middles are in a triangle: (numbers, weights of the corners, triangle). Row by row: a row of pixels
+    meets a triangle in the interval between its sides."""
     x, y = corners[:, :, 0], corners[:, :, 1]
     low = np.clip(np.ceil(y.min(axis=1) - 0.5), 0, size[1]).astype(int)
     high = np.clip(np.floor(y.max(axis=1) - 0.5) + 1, 0, size[1]).astype(int)
@@ -139,7 +139,7 @@ def _weights(corners: np.ndarray, triangle: np.ndarray, px: np.ndarray, py: np.n
 
 
 def _light(mesh: Mesh, eye: np.ndarray) -> np.ndarray:
-    """At each point, by the angle of its normal to the eye; both sides of a surface are lit."""
+    """Light at each point, by the angle of its normal to the eye; both sides of a surface are lit."""
     a, b, c = (mesh.points[mesh.triangles[:, i]] for i in range(3))
     of_triangle = np.cross(b - a, c - a)
     normals = np.zeros_like(mesh.points)

@@ -9,7 +9,7 @@ STEPS = 48  # of the whole circle
 
 
 def angles() -> np.ndarray:
-    """Of the copies of an edge, in radians."""
+    """Angles of the copies of an edge, in radians."""
     count = round(STEPS * (1 - OPEN / 360)) + 1
     return np.radians(np.linspace(OPEN / 2, 360 - OPEN / 2, count))
 

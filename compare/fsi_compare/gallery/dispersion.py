@@ -1,8 +1,7 @@
 """What scenes share in which a wave runs along a tube: its exact wave number, and that of a computed pressure.
 
-Small waves e^(i (w t - k z)) in a liquid and a thick wall around it are sums of Bessel functions of r (docs/theory.md, section
-13.4). Lengths, times and stiffnesses in any units that go together.
-"""
+Small waves e^(i (w t - k z)) in a liquid and a thick wall around it are sums of Bessel functions of r (docs/theory.md,
+section 13.4). Lengths, times and stiffnesses in any units that go together."""
 
 from dataclasses import dataclass
 from typing import Callable, Iterable, List, Sequence, Tuple
@@ -32,8 +31,8 @@ def modified_bessel(z: complex) -> Tuple[complex, complex, complex, complex]:
 
 
 def incompressible_waves(inertia: complex, modulus: complex, k: complex, r: float) -> np.ndarray:
-    """Rows (u_r, u_z, sigma_rr, sigma_rz) and a column for each wave in r that s u = -grad p + m lap u, div u = 0 allow: of
-    I_0 and K_0, each as potential and then each as shear. s: `inertia`, i w rho of a liquid, -w^2 rho of a solid."""
+    """Rows (u_r, u_z, sigma_rr, sigma_rz) and a column for each wave in r that s u = -grad p + m lap u, div u = 0
+    allow: I_0 and K_0 as potential, then each as shear. s: `inertia`, i w rho of a liquid, -w^2 rho of a solid."""
     columns = []
     kappa = np.sqrt(k * k + inertia / modulus)
     for potential, x in ((True, k * r), (False, kappa * r)):
@@ -51,8 +50,8 @@ def incompressible_waves(inertia: complex, modulus: complex, k: complex, r: floa
 
 
 def compressible_waves(density: float, shear: complex, lame: complex, omega: float, k: complex, r: float) -> np.ndarray:
-    """The same rows of an elastic solid, u = grad f + curl (g e_theta), sigma = lame div u 1 + 2 shear eps(u): of I_0 and K_0 for
-    f, then of I_1 and K_1 for g."""
+    """Like incompressible_waves(), for an elastic solid, u = grad f + curl (g e_theta),
+    sigma = lame div u 1 + 2 shear eps(u): with f of I_0 and K_0, then g of I_1 and K_1."""
     columns = []
     inertia = density * omega**2
     a = np.sqrt(k * k - inertia / (lame + 2 * shear) + 0j)
@@ -83,7 +82,7 @@ def lack(omega: float, liquid: np.ndarray, inner: np.ndarray, outer: Sequence[np
 
 
 def root(function: Callable[[complex], complex], last: complex, k: complex) -> complex:
-    """By the secant method, from two values near it."""
+    """A zero of `function` by the secant method, from two values near it."""
     at_last = function(last)
     for _ in range(80):
         here = function(k)
@@ -106,7 +105,7 @@ class Swing:
 
 
 def swing_on_the_axis(run: SceneRun, period: float) -> Swing:
-    """Of the last period of a run, in ms, whose pressure swings with it."""
+    """The pressure over the last period of a run, in ms, which swings with that period."""
     table = run.table("centerline_pressure.csv")
     z = np.unique(table["z_mm"])
     pressures = table["pressure_Pa"].reshape(-1, len(z))
@@ -119,11 +118,11 @@ def swing_on_the_axis(run: SceneRun, period: float) -> Swing:
 
 
 def wave_number(swing: Swing, apart: float, others: Sequence[complex] = ()) -> complex:
-    """k, in 1/mm, of p = A e^(-i k z) + B e^(i k z) with any A and B, by least squares of p(z - h) + p(z + h) = 2 cos(k h) p(z),
-    h being `apart`, in mm.
+    """k, in 1/mm, of p = A e^(-i k z) + B e^(i k z) with any A and B, by least squares of
+    p(z - h) + p(z + h) = 2 cos(k h) p(z), where h is `apart`, in mm.
 
-    `others`: wave numbers of further waves that p has beside these. p(z - h) + p(z + h) - 2 cos(k' h) p(z) has none of them, and
-    those that are sought with other shares."""
+    `others`: wave numbers k' of further waves in p. p(z - h) + p(z + h) - 2 cos(k' h) p(z) is free of them, and has
+    those that are sought with other amplitudes."""
     z, p = swing.z, swing.p
     n = int(round(apart / (z[1] - z[0])))
     h = n * (z[1] - z[0])
@@ -137,7 +136,8 @@ def wave_number(swing: Swing, apart: float, others: Sequence[complex] = ()) -> c
 def speed_and_attenuation(
     run: SceneRun, k: complex, exact: complex, omega: float, tolerances: Tuple[float, float]
 ) -> List[Number]:
-    """Of a wave e^(i (w t - k z)) beside the exact one; k in 1/mm, `omega` in 1/ms. `tolerances`: of the two, relative."""
+    """Speed and attenuation of a wave e^(i (w t - k z)) beside the exact ones; k in 1/mm, `omega` in 1/ms.
+    `tolerances`: of the two, relative."""
     source = "dispersion relation"
     return [
         Number("phase speed", "mm/ms", run.program, omega / k.real, omega / exact.real, tolerances[0], source),
@@ -148,8 +148,8 @@ def speed_and_attenuation(
 def draw_swings(
     runs: Sequence[SceneRun], period: float, first: float, last: float, numbers: Sequence[complex]
 ) -> Figure:
-    """Amplitudes along the axis, and the sum of waves of these numbers, there and back, that fits the first run best between
-    `first` and `last`, in mm."""
+    """Amplitudes along the axis, and the sum of waves of these numbers, there and back, that fits the first run best
+    between `first` and `last`, in mm."""
     figure = Figure(figsize=(6.4, 3.6), layout="constrained")
     axes = figure.add_subplot()
     for run, style, color in zip(runs, ("-", "--"), ("black", "tab:orange")):

@@ -1,5 +1,5 @@
-"""A tube of incompressible neo-Hookean layers that widens alike everywhere: its inner radius is the one unknown. What scenes share
-whose exact solutions follow from that (docs/theory.md, section 13)."""
+"""A tube of incompressible neo-Hookean layers that widens alike everywhere: its inner radius is the one unknown. What
+scenes share whose exact solutions follow from that (docs/theory.md, section 13)."""
 
 from typing import Callable, Sequence, Tuple
 
@@ -12,8 +12,8 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(20)
 
 
 def holding_pressure(layers: Sequence[Layer], radius: float) -> float:
-    """kPa that holds the inner radius (mm): the integral of (sigma_tt - sigma_rr) / r over the wall, with the difference of
-    stresses mu (l^2 - 1 / l^2) at the stretch l = r / R, and dr = dR / l."""
+    """kPa that holds the inner radius (mm): the integral of (sigma_tt - sigma_rr) / r over the wall, with the
+    difference of stresses mu (l^2 - 1 / l^2) at the stretch l = r / R, and dr = dR / l."""
     inner = layers[0][0]
     total = 0.0
     for low, high, modulus in layers:
@@ -32,7 +32,7 @@ def place(at_rest, inner: float, radius):  # type: ignore[no-untyped-def]  # num
 def swing(
     acceleration: Acceleration, inner: float, load: float, until: float, end: float, steps_per_ms: int
 ) -> Tuple[np.ndarray, np.ndarray]:
-    """Times in ms to the end and inner radii in mm, from rest, under a load that acts until a time, by the classical Runge-Kutta
+    """Times in ms and inner radii in mm, from rest, under a load that acts until a time, by the classical Runge-Kutta
     method."""
     step = 1 / steps_per_ms
     y = np.array([inner, 0.0])

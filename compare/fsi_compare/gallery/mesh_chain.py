@@ -1,4 +1,4 @@
-"""A mesh that is made by one command or by several, each of which takes the file that the one before has made:
+"""A mesh that is made by one command or by several, each of which takes the file of its predecessor:
 
     geo lumen.geo | thicken --thickness-from thickness.csv --layer wall=100%:2
     surface.py --jitter 0.05 | lumen --edge 0.6 | thicken --layer wall=0.4:2
@@ -56,7 +56,7 @@ def commands_of(words: Sequence[str]) -> List[List[str]]:
 
 
 def links(words: Sequence[str], target: Path, source: str) -> List[Link]:
-    """`target`: of the last; the others' files lie beside it. `source`: who names the words. Raises InputError."""
+    """`target`: file of the last; those of the others lie beside it. `source`: where the words are. Raises InputError."""
     parts = commands_of(words)
     found: List[Link] = []
     for number, part in enumerate(parts, 1):
@@ -79,8 +79,8 @@ def as_typed(words: Sequence[str], target: Path, source: str) -> List[str]:
 
 
 def make_mesh(words: Sequence[str], target: Path, mesh_maker: Path, source: str, kept: Optional[Path] = None) -> End:
-    """Makes `target`. How the last command ended that was started: 0 where all are done. Files between are removed, or, with
-    `kept`, stay in that folder and are found again by what they are made of."""
+    """Makes `target`. Returns how the last command that was started ended: code 0 where all are done. Files between are
+    removed, or, with `kept`, stay in that folder, named by their recipe, so that other chains take them up."""
     chain = links(words, target, source)
     if kept is not None:
         chain = _with_kept(chain, kept)
@@ -116,7 +116,7 @@ def _make(link: Link, mesh_maker: Path, whole: bool) -> End:
 
 
 def _with_kept(chain: Sequence[Link], folder: Path) -> List[Link]:
-    """The same with names by what each file is made of, but for the last one's."""
+    """The same commands; files, but for the last one, named by what each is made of."""
     found: List[Link] = []
     words: List[str] = []
     for link in chain:
@@ -129,7 +129,7 @@ def _with_kept(chain: Sequence[Link], folder: Path) -> List[Link]:
 
 
 def contents(words: Sequence[str]) -> List[str]:
-    """What is in the files that are named, by digests."""
+    """Digests of the files that the words name."""
     named = [Path(word) for word in words if word.endswith(READ) and is_file(Path(word))]
     return [hashlib.sha256(read_bytes(path, "make it again", "make it again")).hexdigest() for path in named]
 

@@ -66,7 +66,7 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[
 
 
 def _mesh_commands(scene: Scene, place: str, quick: bool) -> List[str]:
-    """As a user would type them in the sources' folder."""
+    """The commands as a user would type them in the sources' folder."""
     words = scene.mesh_words(quick)
     named = [
         normpath(f"{place}/{word}") if full != word else word
@@ -76,8 +76,8 @@ def _mesh_commands(scene: Scene, place: str, quick: bool) -> List[str]:
 
 
 def add_still(report: Report, stem: str, run: RunResults, asked: Mapping[str, Any]) -> None:
-    """The geometry with a result on it: what the scene asks for in STILL (the words of RunResults.picture), else its first
-    quantity when it is largest, with a displacement that is seen. Nothing of a run without fields."""
+    """Adds the geometry with a result on it: what the scene asks for in STILL (keywords of RunResults.picture), else
+    its first quantity when it is largest, with a visible displacement. Adds nothing for a run without fields."""
     if not run.fields:
         return
     key = asked.get("field", run.scene.first)

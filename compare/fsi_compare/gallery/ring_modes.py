@@ -1,7 +1,6 @@
-"""Small oscillations of an elastic ring in a viscous liquid between it and a rigid circle around both, in plane strain: what goes
-with cos(n theta) e^(s t). The waves of liquid and ring are sums of powers and of Bessel functions of r (docs/theory.md, section
-13.5). Lengths, times and stiffnesses in any units that go together.
-"""
+"""Small oscillations of an elastic ring in a viscous liquid between it and a rigid circle around both, in plane strain:
+what goes with cos(n theta) e^(s t). The waves of liquid and ring are sums of powers and of Bessel functions of r
+(docs/theory.md, section 13.5). Lengths, times and stiffnesses in any units that go together."""
 
 from dataclasses import dataclass
 from math import factorial
@@ -31,8 +30,8 @@ def bessel_series(n: int, z: complex) -> Tuple[complex, complex]:
 
 
 def bessel_integrals(n: int, z: complex) -> Tuple[complex, complex]:
-    """e^-z I_n and e^z K_n where the real part of z is positive, by the trapezoidal rule, which converges exponentially here:
-    I_n = 1/pi int e^(z cos t) cos(n t) over 0 to pi, K_n = int e^(-z cosh t) cosh(n t) over 0 to infinity."""
+    """e^-z I_n and e^z K_n where the real part of z is positive, by the trapezoidal rule, which converges exponentially
+    here: I_n = 1/pi int e^(z cos t) cos(n t) over 0 to pi, K_n = int e^(-z cosh t) cosh(n t) over 0 to infinity."""
     t = np.linspace(0, np.pi, 200 + 4 * int(abs(z)))
     values = np.exp(z * (np.cos(t) - 1)) * np.cos(n * t)
     first = (values.sum() - (values[0] + values[-1]) / 2) / (len(t) - 1)
@@ -54,7 +53,8 @@ def bessel(n: int, z: complex, growth: complex = 0.0, fall: complex = 0.0) -> Tu
 
 @dataclass(frozen=True)
 class Ring:
-    """Between radii `inner` and `outer`, its inner face free; liquid from there to `rigid`. `viscosity` 0: it slips."""
+    """An elastic ring between radii `inner` and `outer`, its inner face free; liquid from there to `rigid`.
+    `viscosity` 0: it slips."""
 
     inner: float
     outer: float
@@ -71,11 +71,11 @@ class Ring:
 
     @property
     def lame(self) -> float:
-        """Of plane strain."""
+        """Lame's first constant, as plane strain needs it."""
         return self.young * self.poisson / ((1 + self.poisson) * (1 - 2 * self.poisson))
 
     def mode(self, n: int, guess: complex) -> complex:
-        """s near `guess`."""
+        """s of a mode, near `guess`."""
         return root(lambda s: self.lacking(n, s), 1.02 * guess, guess)
 
     def lacking(self, n: int, s: complex) -> complex:
@@ -99,8 +99,8 @@ class Ring:
         return complex(np.linalg.det(system / np.abs(system).max(axis=1, keepdims=True)))
 
     def wall_waves(self, n: int, s: complex, r: float) -> np.ndarray:
-        """Rows (d_r, d_theta, sigma_rr, sigma_rtheta) of d = grad f + curl(g e_z) with f cos(n theta) of I_n and K_n, then g
-        sin(n theta) of I_n and K_n."""
+        """Rows (d_r, d_theta, sigma_rr, sigma_rtheta) of d = grad f + curl(g e_z) with f cos(n theta) of I_n and K_n,
+        then g sin(n theta) of I_n and K_n."""
         mu, lam = self.shear, self.lame
         columns = []
         for potential, stiffness in ((True, lam + 2 * mu), (False, mu)):
@@ -115,8 +115,9 @@ class Ring:
         return np.array(columns).T
 
     def liquid_waves(self, n: int, s: complex, r: float) -> np.ndarray:
-        """The same rows of velocities and stresses: of r^n and r^-n, whose pressure is -density s f, then g of I_n and K_n.
-        Without viscosity the first two alone. Each wave is about one where it is largest."""
+        """Rows of wall_waves() for velocities and stresses of the liquid: of r^n and r^-n, whose pressure is
+        -density s f, then g of I_n and K_n. Without viscosity the first two alone. Each wave is about one where it is
+        largest."""
         rho, mu = self.liquid, self.viscosity
         near, far = (r / self.rigid) ** n, (self.outer / r) ** n
         columns = [
@@ -137,12 +138,12 @@ Wave = Tuple[complex, complex, complex, complex]
 def potential_wave(
     n: int, r: float, f: complex, slope: complex, square: complex, mu: float, spherical: complex
 ) -> Wave:
-    """The four rows of grad f, f'' + f'/r - n^2 f/r^2 = `square` f. `spherical`: what sigma_rr has beside 2 mu eps_rr."""
+    """Rows of grad f, f'' + f'/r - n^2 f/r^2 = `square` f. `spherical`: what sigma_rr has beside 2 mu eps_rr."""
     second = (square + n * n / r**2) * f - slope / r
     return slope, -n * f / r, spherical + 2 * mu * second, 2 * mu * n * (f / r - slope) / r
 
 
 def shear_wave(n: int, r: float, g: complex, slope: complex, square: complex, mu: float) -> Wave:
-    """Those of curl(g e_z)."""
+    """The four rows of curl(g e_z)."""
     second = (square + n * n / r**2) * g - slope / r
     return n * g / r, -slope, 2 * mu * n * (slope - g / r) / r, mu * (slope / r - second - n * n * g / r**2)

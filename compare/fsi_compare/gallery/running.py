@@ -21,7 +21,7 @@ class Programs:
 
 @dataclass
 class Outcome:
-    """What became of a scene's runs: those that are done, and why others are not."""
+    """The finished runs of a scene, and why others are missing."""
 
     scene: Scene
     runs: Dict[str, SceneRun] = field(default_factory=dict)

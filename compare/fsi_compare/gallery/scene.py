@@ -1,5 +1,5 @@
-"""What a scene of the gallery is: a folder `gallery/NAME/` with a case `NAME.toml`, a module `scene.py` and what the mesh
-is made from.
+"""What a scene of the gallery is: a folder `gallery/NAME/` with a case `NAME.toml`, a module `scene.py` and what the
+mesh is made from.
 
 `scene.py` holds
   its docstring   the scene's page: a title, an empty line, paragraphs of Markdown
@@ -48,7 +48,7 @@ class Number:
     source: str  # of the reference: a formula, a publication
     scale: float = 0.0  # what the tolerance counts in; 0: the reference
     spread: float = 0.0  # by which published values of others differ among each other, relative; 0: not known
-    model: float = 0.0  # what the reference's model, where it is another one, is worth, relative; 0: it is this one
+    model: float = 0.0  # relative error of the reference's model, where it is another one; 0: it is this one
     reason: str = ""  # why the value should differ from the reference, for people
 
     @property
@@ -76,7 +76,7 @@ class SceneRun:
 
     @property
     def words(self) -> str:
-        """For legends: `monolithic`, `partitioned (interface, iqn-ils)`."""
+        """A name for legends: `monolithic`, `partitioned (interface, iqn-ils)`."""
         return coupling_words(self.program, self.summary)
 
     @property
@@ -91,7 +91,7 @@ class SceneRun:
 
 @dataclass(frozen=True)
 class SceneRuns:
-    """Those that `numbers` and `draw` are given: by program, in the order of the scene's drivers."""
+    """What `numbers` and `draw` are given: runs by program, in the order of the scene's drivers."""
 
     runs: Mapping[str, SceneRun]
     quick: bool
@@ -149,7 +149,7 @@ def ready_scenes() -> List[str]:
 
 
 def find_scenes(wanted: Sequence[str], folder: Path = READY) -> List[Scene]:
-    """All when none is named. Raises InputError for a name that is no scene's."""
+    """The scenes named, all when none is. Raises InputError for a name that is no scene's."""
     names = scene_names(folder)
     if not names:
         raise InputError(folder, "", "holds no scene", "take it from the sources of fsi-duo")
@@ -160,7 +160,7 @@ def find_scenes(wanted: Sequence[str], folder: Path = READY) -> List[Scene]:
 
 
 def read_scene(folder: Path) -> Scene:
-    """Raises InputError."""
+    """Reads a scene's folder. Raises InputError."""
     path = folder / "scene.py"
     if not is_folder(folder) or not exists(path):
         raise InputError(path, "", "no such file", "a scene is a folder with scene.py and a case")

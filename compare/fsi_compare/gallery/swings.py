@@ -31,7 +31,7 @@ class Swings:
 
 
 def last_swings(times: np.ndarray, values: np.ndarray, period: float, count: int = 4) -> Swings:
-    """Those of the last `count` periods (ms)."""
+    """The swings over the last `count` periods (ms)."""
     last = times > times[-1] - count * period
     return Swings(times[last], values[last])
 
@@ -39,8 +39,8 @@ def last_swings(times: np.ndarray, values: np.ndarray, period: float, count: int
 def free_swing(times: np.ndarray, values: np.ndarray, after: float, apart: float, terms: int = 4) -> complex:
     """s, in 1/ms, of the fastest of `terms` exponentials e^(s t) that values from `after` (ms) on are a sum of.
 
-    Prony's method by least squares: values `apart` from each other obey one linear recurrence, whose roots are e^(s apart). What
-    is smooth in time and decays is found as one or two real ones, beside the pair of a swing."""
+    Prony's method by least squares: values `apart` from each other obey one linear recurrence, whose roots are e^(s
+    apart). What is smooth in time and decays is found as one or two real ones, beside the pair of a swing."""
     step = times[1] - times[0]
     n = max(1, int(round(apart / step)))
     v = values[times > after * (1 - 1e-9)]

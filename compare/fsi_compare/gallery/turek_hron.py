@@ -1,5 +1,5 @@
-"""What the scenes of Turek's and Hron's benchmark share: how its quantities are read off a run and held against what was
-published, and their pictures. A scene names what is known of it.
+"""What the scenes of Turek's and Hron's benchmark share: how its quantities are read off a run and held against what
+was published, and their pictures. A scene names what is known of it.
 
 A quantity is steady, and its last value counts; or it swings, and its mean and amplitude count, midway between and half
 the distance of the extremes of the last periods, as in the publication.
@@ -33,8 +33,8 @@ LINES = (("-", "black"), ("--", "tab:orange"))  # of the drivers
 
 @dataclass(frozen=True)
 class Known:
-    """What is published of a quantity. A mean may differ by `mean_tolerance` of the amplitude where that is larger: it is
-    the small difference of two extremes."""
+    """A published value. A mean may differ by `mean_tolerance` of the amplitude where that is larger: it is the small
+    difference of two extremes."""
 
     name: str  # of COLUMNS
     mean: float
@@ -46,7 +46,7 @@ class Known:
 
 
 class Benchmark:
-    """Of one scene: `numbers` and `draw` are the scene's."""
+    """One scene: `numbers` and `draw` are the scene's functions."""
 
     def __init__(
         self,

@@ -1,10 +1,9 @@
 """Reads meshes of Abaqus and CalculiX decks (.inp).
 
-meshio 5.0.0 reads an included file as a mesh of its own, so that nodes and elements in two files do not meet, leaves out its
-sets of cells, knows no *SURFACE, *PART or *INSTANCE, takes C3D4H for a kind of its own, `tetra4`, and ends with "'NoneType'
-object is not subscriptable" at what it does not know.
-Numbers of nodes and faces: Abaqus, Elements Guide, sections on triangular and on tetrahedral solid elements.
-"""
+meshio 5.0.0 reads an included file as a mesh of its own, so that nodes and elements in two files do not meet, leaves
+out its sets of cells, knows no *SURFACE, *PART or *INSTANCE, takes C3D4H for a kind of its own, `tetra4`, and ends with
+"'NoneType' object is not subscriptable" at what it does not know. Numbers of nodes and faces: Abaqus, Elements Guide,
+sections on triangular and on tetrahedral solid elements."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -42,7 +41,7 @@ REMEDY = "mend that line"
 
 
 class Line(NamedTuple):
-    """Of a deck or of a file that it includes."""
+    """A line of a deck or of a file that it includes."""
 
     file: Path
     number: int
@@ -51,7 +50,7 @@ class Line(NamedTuple):
 
 @dataclass
 class Part:
-    """Each has numbers of nodes and elements of its own. What is outside of parts has an empty name."""
+    """A part, whose nodes and elements have numbers of their own. What is outside of parts has an empty name."""
 
     name: str
     nodes: Dict[int, int] = field(default_factory=dict)  # number -> place among all points
@@ -67,7 +66,7 @@ def read_abaqus(path: Path) -> RawMesh:
 
 
 def _lines(path: Path, depth: int = 0, asked: Optional[Line] = None) -> Iterator[Line]:
-    """Without comments and empty lines; those of included files in their place."""
+    """Lines without comments and empty ones; those of included files in their place."""
     missing = "give the deck with all that it includes"
     try:
         data = read_bytes(path, missing, "write the deck anew")
@@ -148,7 +147,8 @@ class _Deck:
         self.parts: Dict[str, Part] = {"": Part("")}
         self.current = self.parts[""]
         self.instances: Dict[str, Part] = {}  # by name in upper case
-        # By scope, the part or nothing, and the first spelling of a name, since decks do not tell cases apart: block, places.
+        # By scope, the part or nothing, and the first spelling of a name, since decks do not tell cases apart: block,
+        # places.
         self.sets: Dict[Tuple[str, str], List[Tuple[str, List[int]]]] = {}
         self.surfaces: Dict[Tuple[str, str], List[Tuple[str, List[int]]]] = {}
         self.point_sets: Dict[Tuple[str, str], List[int]] = {}
@@ -324,11 +324,11 @@ class _Deck:
         return self.spelling.setdefault(name.upper(), name)
 
     def _key(self, name: str) -> Tuple[str, str]:
-        """Of a set or surface that is said here: what parts call alike is not one."""
+        """Scope and name of a set or surface of the current part or assembly; another part may use the same name."""
         return self.current.name, self._spelled(name)
 
     def _known(self, part: Part, sets: Dict[Tuple[str, str], List[int]]) -> Dict[str, List[int]]:
-        """Those of a part by names as they mean here: its own, and before them those that the assembly made of it."""
+        """A part's sets by the names that hold here: its own, overridden by those that the assembly made of it."""
         own = {name: numbers for (scope, name), numbers in sets.items() if scope == part.name}
         return own | {name: numbers for (scope, name), numbers in sets.items() if scope == self.current.name}
 

@@ -1,5 +1,5 @@
-"""`fsi-compare convert-mesh`: what `fsi-mesh import` asks for. It checks and writes the mesh; this reads what meshio
-knows."""
+"""`fsi-compare convert-mesh`: the part of `fsi-mesh import` that reads by meshio; fsi-mesh checks and writes the
+mesh."""
 
 import argparse
 from pathlib import Path
@@ -84,7 +84,7 @@ def _convert(file: str, mesh: FoundMesh, sources: Sequence[Source], options: arg
 
 
 def _all_parts(mesh: FoundMesh) -> List[Tuple[str, str]]:
-    """All volumes, and the surfaces that are named or flat, by names that are guesses, and what the file calls them."""
+    """All volumes, and the surfaces that are named or flat: (guessed name, the file's name)."""
     wanted = guessed_groups(mesh, separate_volumes(mesh))
     known = {part for _, part in wanted}
     return wanted + [(name, name) for name in named_parts(mesh) if name not in known and _is_surface(mesh, name)]

@@ -1,4 +1,4 @@
-"""Groups of a mesh as a gmsh file, and what is looked at before."""
+"""Groups of a mesh as a gmsh file, and checks of the mesh."""
 
 from typing import Dict, List, Sequence, TextIO, Tuple
 
@@ -66,7 +66,7 @@ def turn(mesh: FoundMesh, groups: List[Group]) -> int:
 
 
 def write_gmsh(out: TextIO, mesh: FoundMesh, groups: List[Group]) -> None:
-    """Not by meshio's own writer: it knows a name once, and volumes and surfaces may share one."""
+    """Writes gmsh's format. meshio's own writer takes a name once only, and volumes and surfaces may share one."""
     used = np.unique(np.concatenate([block.nodes.ravel() for group in groups for block in group.parts]))
     number = np.zeros(len(mesh.points), dtype=np.int64)
     number[used] = np.arange(1, len(used) + 1)

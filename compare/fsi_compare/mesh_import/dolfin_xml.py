@@ -1,7 +1,8 @@
 """Reads meshes that old dolfin wrote as XML, with what dolfin-convert of gmsh files writes beside NAME.xml:
 NAME_physical_region.xml and NAME_facet_region.xml.
 
-meshio 5.0.0 reads every NAME_*.xml as a function of the cells of another form than dolfin writes, and ends with 'size'."""
+meshio 5.0.0 reads every NAME_*.xml as a function of the cells of another form than dolfin writes, and ends with
+'size'."""
 
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
@@ -74,7 +75,7 @@ def _points_and_cells(mesh: Any) -> Tuple[np.ndarray, str, np.ndarray]:
 
 
 def _rows(rows: List[List[Any]], elements: Any, width: int) -> np.ndarray:
-    """By the index that each element says."""
+    """Rows sorted by the index that each element states."""
     places = np.array([int(element.get("index")) for element in elements], dtype=np.int64)
     if not np.array_equal(np.sort(places), np.arange(len(rows))):
         raise ValueError("the indices of vertices or cells are not 0, 1, 2 and so on")
@@ -101,7 +102,7 @@ def _add(path: Path, mesh: RawMesh, name: str, function: Any) -> None:
         rows, values = [row for row, kept in zip(rows, told) if kept], values[told]
         which = _places(path, name, [row.get("cell_index") for row in rows], len(cells))
         opposite = _places(path, name, [row.get("local_entity") for row in rows], top + 1)
-        # A facet has the number of the vertex that it lacks, of those of the cell in ascending order.
+        # A facet is numbered by the opposite vertex, among the cell's in ascending order.
         corners = np.sort(cells[which], axis=1)
         kept = np.arange(top + 1)[None, :] != opposite[:, None]
         mesh.cell_data[name] = [np.full(len(nodes), np.nan) for _, nodes in mesh.blocks] + [values]

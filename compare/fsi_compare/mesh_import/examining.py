@@ -45,7 +45,7 @@ def _size(mesh: FoundMesh, scale: float) -> str:
 def _contact_lines(
     command: str, mesh: FoundMesh, volumes: Dict[str, List[Block]], found: List[Contact], few: bool
 ) -> List[str]:
-    """Of volumes that share sides with another one, and of those that are alone."""
+    """Lines about volumes that share sides with another one, and about those that are alone."""
     sides = "triangles" if mesh.dimension == 3 else "edges"
     lines = [
         f"{contact.first} and {contact.second} touch: {contact.sides} {sides}, {contact.points} points"

@@ -1,10 +1,9 @@
 """Reads meshes of Exodus II (.e, .exo, .ex2, .g), which are netCDF files.
 
-meshio 5.0.0 leaves out names of blocks and all side sets, does not know `TRISHELL`, and takes `TETRA4` for a kind of its
-own, `tetra4`, that nothing else of meshio knows. A block whose type is `TETRA` has cells of ten nodes where its nodes are
-ten, as Cubit writes it; meshio goes by the name alone.
-Numbers of nodes and sides: L. A. Schoof, V. R. Yarberry, EXODUS II: A Finite Element Data Model, SAND92-2137.
-"""
+meshio 5.0.0 leaves out names of blocks and all side sets, does not know `TRISHELL`, and takes `TETRA4` for a kind of
+its own, `tetra4`, that nothing else of meshio knows. A block whose type is `TETRA` has cells of ten nodes where its
+nodes are ten, as Cubit writes it; meshio goes by the name alone. Numbers of nodes and sides: L. A. Schoof, V. R.
+Yarberry, EXODUS II: A Finite Element Data Model, SAND92-2137."""
 
 import re
 import warnings
@@ -44,7 +43,7 @@ REMEDY = "write it anew as Exodus II"
 
 
 def read_exodus(path: Path) -> RawMesh:
-    """Blocks, side sets and node sets by their names, or as `block:ID`, `sideset:ID`, `nodeset:ID`. Raises InputError."""
+    """Blocks, side sets and node sets by name, or as `block:ID`, `sideset:ID`, `nodeset:ID`. Raises InputError."""
     try:
         with warnings.catch_warnings():
             # netCDF4 1.6.2 beside numpy 1.24 of Debian 12: "numpy.ndarray size changed", which changes nothing here.

@@ -63,15 +63,15 @@ def left_out(mesh: FoundMesh) -> List[str]:
 
 
 def _dimensions(mesh: FoundMesh, part: str) -> List[int]:
-    """Of its cells and facets."""
+    """Dimensions of the part's cells and facets."""
     return [d for d in dimensions_of(mesh, mesh.cells[part]) if d >= mesh.dimension - 1]
 
 
 def _of_cells(
     file: str, mesh: FoundMesh, name: str, part: str, taken: Dict[str, Tuple[str, List[np.ndarray]]]
 ) -> List[Group]:
-    """Groups of the part's elements that the name does not have yet. A cell is of one medium: sets of a file may overlap,
-    groups of volumes may not."""
+    """Groups of the part's elements that the name does not have yet. A cell is of one medium: sets of a file may
+    overlap, groups of volumes may not."""
     places = mesh.cells[part]
     if not _dimensions(mesh, part):
         what = "cells or sides" if any(len(p) for p in places) else "elements"
@@ -111,7 +111,7 @@ SIDES: Dict[str, Tuple[str, Tuple[Tuple[int, ...], ...]]] = {
 
 
 def sides_of(blocks: Sequence[Block], dimension: int) -> List[Block]:
-    """All sides of the cells of this dimension, a block for each kind of side."""
+    """All sides of the cells of this dimension, one block for each kind of side."""
     found: Dict[str, List[np.ndarray]] = {}
     for block in blocks:
         if block.dimension == dimension:

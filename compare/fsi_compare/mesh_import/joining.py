@@ -60,7 +60,7 @@ def near_pairs(first: np.ndarray, second: np.ndarray, tolerance: float) -> Tuple
 
 
 def first_of_cluster(count: int, i: np.ndarray, j: np.ndarray) -> np.ndarray:
-    """For each of `count` points the lowest of those that pairs join it to, however far along a chain."""
+    """For each of `count` points the lowest number among those that pairs join it to, however far along a chain."""
     lowest = np.arange(count)
     while len(i):
         before = lowest.copy()
@@ -90,7 +90,7 @@ def nearest_distance(first: np.ndarray, second: np.ndarray, longest: float) -> f
 
 
 def distances_to(first: np.ndarray, second: np.ndarray, longest: float) -> np.ndarray:
-    """Of each point of the first to the nearest of the second, infinite beyond `longest`."""
+    """Distance of each point of `first` to the nearest of `second`, infinite beyond `longest`."""
     found = np.full(len(first), np.inf)
     box = float(np.max(np.ptp(np.vstack([first, second]), axis=0)))
     radius, left = max(box * 1e-9, 1e-300), np.arange(len(first))

@@ -34,7 +34,7 @@ MOST_LINES = 200  # of parts
 
 @dataclass
 class _Extent:
-    """Of a part, in the file's unit."""
+    """Size of a part, in the file's unit."""
 
     measure: float  # volume, area or length
     box: np.ndarray
@@ -73,7 +73,7 @@ def box_of(mesh: FoundMesh, name: str) -> np.ndarray:
 
 
 def _extent(points: np.ndarray, blocks: Sequence[Block]) -> _Extent:
-    """By the vertices."""
+    """The part's extent, by its vertices."""
     measure, areas_of = 0.0, [np.zeros((0, 3))]
     for block in blocks:
         corners = points[block.nodes[:, : CORNERS[block.kind]]]
@@ -99,7 +99,7 @@ def _are_flat(areas: np.ndarray) -> bool:
 
 
 def _table(mesh: FoundMesh, scale: float) -> List[str]:
-    """One line a part: its elements, its measure, its size under each guess of the unit, or by the scale that is given."""
+    """One line a part: its elements, its measure, its size under each guess of the unit, or by the given scale."""
     units = UNITS if scale == 1 else (("mm", 1.0),)
     rows = [["part", "elements", "measure", *(f"size, mm, if in {unit}" for unit, _ in units)]]
     if scale != 1:
@@ -139,7 +139,7 @@ def separate_volumes(mesh: FoundMesh) -> Dict[str, List[Block]]:
 
 
 def _rank(mesh: FoundMesh, name: str) -> Tuple[bool, bool, bool]:
-    """Of names for the same elements the least tells most: gmsh, for one, writes "Volume1" beside "fluid"."""
+    """Sort key of names for the same elements. The least tells most: gmsh, for one, writes "Volume1" beside "fluid"."""
     known = any(word in name.lower() for word in (*FLUID, *SOLID))
     return name in mesh.numbered, not known, name[-1:].isdigit()
 
@@ -167,7 +167,7 @@ def _touching(mesh: FoundMesh, volumes: Dict[str, List[Block]]) -> List[str]:
 
 
 def unit_words(longest: float) -> str:
-    """What to say of a mesh that is taken in mm and is no vessel's in that unit; empty where it may be."""
+    """A warning for a mesh that is taken in mm but is no vessel's in that unit; empty where it may be."""
     if SHORTEST <= longest <= LONGEST:
         return ""
     fits = [

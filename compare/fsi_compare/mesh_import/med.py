@@ -1,8 +1,7 @@
 """Reads meshes of MED (.med), which are HDF5 files.
 
-meshio 5.0.0 demands a group `GRO` of every family; gmsh 4 writes it for physical groups only. It turns no tetrahedra, which
-in MED go the other way round than in VTK, and ends at names of groups with letters beyond ASCII.
-"""
+meshio 5.0.0 demands a group `GRO` of every family; gmsh 4 writes it for physical groups only. It turns no tetrahedra,
+which in MED go the other way round than in VTK, and ends at names of groups with letters beyond ASCII."""
 
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Tuple
@@ -37,7 +36,7 @@ REMEDY = "write it anew as MED, or as .vtu"
 
 
 def read_med(path: Path) -> RawMesh:
-    """Groups of elements and nodes by their names; families of elements without a group as `family:NAME`. Raises
+    """Groups of elements and nodes by name; families of elements without a group as `family:NAME`. Raises
     InputError."""
     import h5py  # takes a while to load
 
@@ -94,7 +93,8 @@ def _read(path: Path, file: Any) -> RawMesh:
 
 
 def _families(families: Any, place: str) -> List[Tuple[str, bool, int]]:
-    """Name of a group, or of a family without one, which of the two, and the family's number; each group of each family."""
+    """Each group of each family: its name, or the family's where it has no group, which of the two, the family's
+    number."""
     found = []
     for family, content in (families[place] if families is not None and place in families else {}).items():
         number = int(content.attrs["NUM"])

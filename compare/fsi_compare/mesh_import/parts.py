@@ -1,7 +1,7 @@
 """What of a mesh may bear a name: its parts, made of the sets and of the numbers that a file has.
 
-An array of whole numbers says parts where its values are few, and numbers the elements where they are many: `ModelRegionID`
-of SimVascular is one, `GlobalElementID` the other. All steps are linear in elements, but for sorting.
+An array of whole numbers says parts where its values are few, and numbers the elements where they are many:
+`ModelRegionID` of SimVascular is one, `GlobalElementID` the other. All steps are linear in elements, but for sorting.
 """
 
 from dataclasses import dataclass, field
@@ -96,7 +96,7 @@ def found_mesh(file: str, mesh: RawMesh, scale: float) -> FoundMesh:
 
 
 def _of_points(found: FoundMesh, name: str) -> str:
-    """Of a set of points whose name cells or sides have, too: decks name both alike."""
+    """Name for a set of points whose name cells or sides have, too: decks name both alike."""
     return f"{name}:points" if name in found.cells else name
 
 
@@ -171,12 +171,12 @@ def count_in(mesh: FoundMesh, places: Sequence[np.ndarray], dimension: int) -> i
 
 
 def shown_names(names: Sequence[str]) -> str:
-    """In one line, the first of them."""
+    """The first names, in one line."""
     return ", ".join(names[:SHOWN]) + (f", and {len(names) - SHOWN} more" if len(names) > SHOWN else "")
 
 
 def known_parts(mesh: FoundMesh) -> str:
-    """For messages."""
+    """The mesh's parts, for messages."""
     parts = [
         f"{name} ({' and '.join(ELEMENTS[d] for d in dimensions_of(mesh, places)) or 'empty'})"
         for name, places in mesh.cells.items()

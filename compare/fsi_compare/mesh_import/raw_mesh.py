@@ -45,7 +45,7 @@ class RawMesh:
 
 
 def of_meshio(mesh: Any) -> RawMesh:
-    """What meshio has read, without the names that some of its formats keep elsewhere."""
+    """A mesh as meshio has read it, without the names that some of its formats keep elsewhere."""
     blocks = [(block.type, np.asarray(block.data)) for block in mesh.cells]
     nothing = np.zeros(0, dtype=np.int64)
     sets = {

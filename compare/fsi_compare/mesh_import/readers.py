@@ -18,7 +18,7 @@ from .vtp import read_faces
 from .vtu import read_vtu
 from .xdmf import read_xdmf
 
-# By the end of a file's name, in lower case: what meshio has wrong, as each of these says at its top.
+# By the end of a file's name, in lower case: what meshio reads wrongly; see the head of each module.
 # What meshio reads well, or reads at all, is left to it.
 READERS: Dict[str, Callable[[Path], RawMesh]] = {
     ".vtu": read_vtu,
@@ -46,7 +46,7 @@ CASE = b"<svMultiPhysicsFile"  # begins an XML that is no mesh
 
 
 def read_mesh(path: Path) -> RawMesh:
-    """Raises InputError."""
+    """Reads a mesh in any known format. Raises InputError."""
     if not exists(path):
         raise InputError(path, "", "no such file", "give a mesh that meshio reads: VTU, MED, Exodus, ...")
     if is_folder(path):
@@ -62,8 +62,8 @@ def read_mesh(path: Path) -> RawMesh:
 
 
 def _way_into(folder: Path) -> str:
-    """What to give in place of a folder: of SimVascular's and svMultiPhysics's, which have a file for the cells and one for
-    each face, the whole command."""
+    """What to give in place of a folder: for those of SimVascular and svMultiPhysics, which have a file for the cells
+    and one for each face, the whole command."""
     cells = sorted(folder.glob("*.mesh.vtu")) or sorted(folder.glob("*.vtu"))
     if len(cells) != 1:
         return "give the files in it: fluid=LUMEN.vtu, wall=WALL.vtu and NAME=FACE.vtp for each face"

@@ -31,7 +31,7 @@ class Source:
 
 
 def source_of(text: str) -> Source:
-    """Of FILE or NAME=FILE. Raises InputError."""
+    """Reads FILE or NAME=FILE. Raises InputError."""
     name, equals, rest = text.partition("=")
     if not equals or not name or "/" in name or '"' in name or exists(Path(text)):
         return Source("", Path(text))
@@ -41,8 +41,7 @@ def source_of(text: str) -> Source:
 
 
 def read_sources(sources: Sequence[Source], scale: float) -> Tuple[FoundMesh, List[int]]:
-    """The mesh, and how many points the files up to each one have. Points of different files are apart as yet. Raises
-    InputError."""
+    """The mesh, and how many points the files up to each one have. Points are not joined yet. Raises InputError."""
     names = [source.name for source in sources if source.name]
     for name in names:
         if names.count(name) > 1:
@@ -98,9 +97,9 @@ def _taken(name: str, mesh: FoundMesh, meshes: Sequence[FoundMesh]) -> bool:
 
 
 def join(file: str, mesh: FoundMesh, ends: Sequence[int], tolerance: float) -> List[str]:
-    """Makes points one that are at most `tolerance` apart, mm; with 0 those of different files that agree in single
-    precision. The first of them stays where it is. Returns what was done, in sentences. Raises InputError where a cell
-    would lose an edge."""
+    """Joins points that are at most `tolerance` apart, mm; with 0 those of different files that agree in single
+    precision. The first one's place stays. Returns what was done, in sentences. Raises InputError where a cell would
+    lose an edge."""
     used = np.zeros(len(mesh.points), dtype=bool)
     for block in mesh.blocks:
         used[block.nodes] = True

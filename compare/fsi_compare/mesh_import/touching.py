@@ -13,7 +13,7 @@ from .raw_mesh import CORNERS, Block
 
 @dataclass
 class Contact:
-    """Of two volumes, or of two areas in two dimensions."""
+    """How two volumes, or two areas in two dimensions, touch."""
 
     first: str
     second: str
@@ -26,7 +26,7 @@ class Contact:
 def contacts(
     points: np.ndarray, volumes: Mapping[str, Sequence[Block]], dimension: int, distances: bool = True
 ) -> List[Contact]:
-    """Of each two of the volumes, by name. Without distances only of those that share a side."""
+    """The contacts between each two volumes, by name. Without distances only of those that share a side."""
     if len(volumes) < 2:
         return []
     surfaces = {name: boundary_of(blocks, dimension) for name, blocks in volumes.items()}
@@ -70,7 +70,7 @@ def lonely(volumes: Mapping[str, Sequence[Block]], found: Sequence[Contact]) -> 
 
 
 def gap_words(contact: Contact) -> str:
-    """Of two volumes without a side in common."""
+    """The gap between two volumes without a side in common, in words."""
     what = f"{contact.first} and {contact.second} share {contact.points or 'no'} points and no side"
     if contact.distance == float("inf"):
         return f"{what}, and are far apart"
@@ -89,7 +89,7 @@ def join_for(distance: float) -> float:
 
 
 def shortest_edge(blocks: Sequence[Block], points: np.ndarray) -> float:
-    """Between vertices, mm."""
+    """The shortest edge between vertices, mm."""
     shortest = float("inf")
     for block in blocks:
         corners = points[block.nodes[:, : CORNERS[block.kind]]]
@@ -100,8 +100,8 @@ def shortest_edge(blocks: Sequence[Block], points: np.ndarray) -> float:
 
 
 def doubled_words(points: np.ndarray, blocks: Sequence[Block]) -> str:
-    """Of vertices that are nearer to each other than any edge of a cell is long: doubled, or left of an interface that
-    does not fit. Empty where there are none."""
+    """A warning about vertices that are nearer to each other than any edge of a cell is long: doubled, or left of an
+    interface that does not fit. Empty where there are none."""
     edge = shortest_edge(blocks, points)
     corners = np.unique(np.concatenate([b.nodes[:, : CORNERS[b.kind]].ravel() for b in blocks]))
     if edge <= 0:

@@ -1,6 +1,7 @@
 """Arrays of VTK's XML files (.vtp, .vtu): text, base64 or raw, packed by zlib, lzma or not.
 
-Base64 is decoded piece by piece: each piece has a padding of its own, at which Python 3.13 and later refuse to go on."""
+Base64 is decoded piece by piece: each piece has a padding of its own, at which Python 3.13 and later refuse to go
+on."""
 
 import base64
 import lzma
@@ -44,7 +45,8 @@ DAMAGES = (
 
 
 class VtkFile:
-    """The arrays of one file. `contents` is the kind of data set that is asked for, `PolyData` for one. Raises InputError."""
+    """The arrays of one file. `contents` is the kind of data set that is asked for, as `PolyData`. Raises
+    InputError."""
 
     def __init__(self, path: Path, contents: str) -> None:
         self.path, self.contents = path, contents
@@ -120,8 +122,8 @@ class VtkFile:
 def scalars_of(
     file: VtkFile, piece: Any, place: str, count: int, passed_over: Dict[str, None]
 ) -> Dict[str, np.ndarray]:
-    """Arrays of one number an entry below `place` of a piece. Others are not decoded: files of results may have hundreds.
-    `passed_over` gets a word on each of these, once."""
+    """Arrays of one number an entry below `place` of a piece. Others are not decoded: files of results may have
+    hundreds. `passed_over` gets a word on each of these, once."""
     found = {}
     for element in piece.findall(f"{place}/DataArray"):
         name, components = element.get("Name", ""), int(element.get("NumberOfComponents") or 1)

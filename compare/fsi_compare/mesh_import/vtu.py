@@ -35,8 +35,8 @@ LAGRANGE = {(68, 2): 3, (68, 3): 21, (69, 3): 5, (69, 6): 22, (71, 4): 10, (71, 
 
 
 def read_vtu(path: Path) -> RawMesh:
-    """The cells of all pieces, those of a kind in one block, with the fields of cells and points that have one number each.
-    Raises InputError."""
+    """The cells of all pieces, those of a kind in one block, with the fields of cells and points that have one number
+    each. Raises InputError."""
     return read_by(_read, path, "UnstructuredGrid", "mesh")
 
 
@@ -61,7 +61,7 @@ def _read(file: VtkFile) -> RawMesh:
             for name, values in fields.items():
                 cell_data.setdefault(name, {}).setdefault(kind, []).append(values[which])
         first += len(points[-1])
-    # A field that some piece lacks is none of the mesh.
+    # A field that some piece does not have is none of the mesh.
     whole = {
         name: [np.concatenate(of_kinds.get(kind, [])) for kind in blocks]
         for name, of_kinds in cell_data.items()

@@ -1,8 +1,7 @@
 """Reads meshes of XDMF (.xdmf), with their data in the document, in HDF5 or in binary files.
 
-meshio 5.0.0 takes the names of topologies in one spelling only ("Tetrahedron", not "tetrahedron", which dolfinx writes), one
-grid a document, and no grid that includes the geometry of another one, as those of tags do.
-"""
+meshio 5.0.0 takes the names of topologies in one spelling only ("Tetrahedron", not "tetrahedron", which dolfinx
+writes), one grid a document, and no grid that includes the geometry of another one, as those of tags do."""
 
 import re
 import xml.etree.ElementTree as ElementTree
@@ -247,8 +246,8 @@ class _Document:
 
 
 def _placed(blocks: List[Tuple[str, np.ndarray]], kind: str, nodes: np.ndarray) -> Tuple[int, np.ndarray]:
-    """Where these elements are: those of a block that has them all, whatever their order, as tags of cells have; else a
-    block that is added."""
+    """Places of these elements: in a block that has them all, in any order, as tags of cells do; else in an added
+    block."""
     for i, (other, there) in enumerate(blocks):
         if other == kind and kind in KINDS and len(nodes) and len(there):
             keys = corner_keys(kind, np.concatenate([there, nodes]))

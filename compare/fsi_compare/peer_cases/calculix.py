@@ -29,7 +29,7 @@ def deck_beside(folder: Path) -> Optional[Path]:
 
 
 def read_deck(path: Path) -> Deck:
-    """Raises InputError."""
+    """Reads a deck. Raises InputError."""
     cards = _cards(path)
     by_name: Dict[str, List[Tuple[int, str, List[str]]]] = {}
     for card in cards:

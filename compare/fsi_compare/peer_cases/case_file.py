@@ -10,7 +10,7 @@ CASE, MESH = "case.toml", "mesh.msh"
 
 
 def value_of(value: Any) -> str:
-    """As TOML. Raises TypeError for what a case file has no word for."""
+    """The value as TOML. Raises TypeError for what a case file cannot express."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float)):
@@ -55,7 +55,7 @@ def _entries(section: Dict[str, Any]) -> List[str]:
 
 
 def write_case(case: PeerCase, folder: Path) -> None:
-    """All but the mesh. The folder is there."""
+    """Writes all but the mesh into a folder that is there."""
     for name, table in case.tables.items():
         rows = "".join(f"{rounded(time)!r},{rounded(value)!r}\n" for time, value in table.rows)
         (folder / name).write_text(",".join(table.header) + "\n" + rows, encoding="utf-8")

@@ -14,7 +14,7 @@ READERS = (svmultiphysics, precice)
 
 
 def read_peer_case(path: Path, units: Units, fibre_angle: Optional[float], tolerance: float) -> PeerCase:
-    """Raises InputError."""
+    """Reads the case of another program. Raises InputError."""
     root = read_xml(path)
     for reader in READERS:
         if reader.is_case(root):

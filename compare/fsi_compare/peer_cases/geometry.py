@@ -40,7 +40,7 @@ class CaseMesh:
     order: int
 
     def write(self, path: Path) -> None:
-        """As gmsh's format 2.2."""
+        """Writes gmsh's format 2.2."""
         with open(path, "w", encoding="utf-8") as out:
             write_gmsh(out, self.mesh, self.groups)
 
@@ -64,8 +64,8 @@ def plain_names(given: Sequence[str], taken: Sequence[str]) -> List[str]:
 def read_case_mesh(
     file: str, media: Dict[str, Path], faces: Sequence[Tuple[str, str, str, Path]], scale: float, tolerance: float
 ) -> Tuple[CaseMesh, List[Face]]:
-    """Of volume groups and their files, and of faces: name, what it is called, medium and file. Facets of the interface
-    of fluid and wall belong to no group of the mesh. Raises InputError."""
+    """Reads the mesh from files of volumes (by group) and of faces: name, the other program's name, medium and file.
+    Facets of the interface of fluid and wall belong to no group of the mesh. Raises InputError."""
     sources = [Source(name, path) for name, path in media.items()]
     sources += [Source(name, path) for name, _, _, path in faces]
     mesh, ends = read_sources(sources, scale)

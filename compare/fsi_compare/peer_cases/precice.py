@@ -1,5 +1,5 @@
-"""preCICE's configuration: it couples programs and holds neither mesh nor material. What it and a deck of CalculiX
-beside it say is read and told; the rest of the case is with the program of the fluid, whose mesh no configuration names."""
+"""preCICE's configuration, which couples programs and holds neither mesh nor material. What it and a deck of CalculiX
+beside it say is read and told; the rest of the case is with the program of the fluid, whose mesh nothing names."""
 
 from typing import List, Optional
 
@@ -14,7 +14,7 @@ def is_case(root: Entry) -> bool:
 
 
 def read_case(root: Entry, units: Units, fibre_angle: Optional[float] = None, tolerance: float = 0.0) -> PeerCase:
-    """Raises InputError always: the configuration lacks the fluid."""
+    """Raises InputError always: the configuration has no fluid."""
     said: List[str] = []
     participants = [entry.attribute("name") for entry in root.every() if entry.name == "participant"]
     if participants:

@@ -1,7 +1,8 @@
 """Cases of svMultiPhysics (solver.xml and the folder of its mesh): FSI, fluid between rigid walls, and walls alone.
 
 What its words mean is taken from its sources: Parameters.cpp (defaults), read_files.cpp (read_bc, read_domain),
-set_bc.cpp (a value of Dir is along the normal out of the fluid, one of Neu a pressure against it), fluid.cpp (backflow)."""
+set_bc.cpp (a value of Dir is along the normal out of the fluid, one of Neu a pressure against it), fluid.cpp
+(backflow)."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -108,7 +109,7 @@ def is_case(root: Entry) -> bool:
 
 
 def read_case(root: Entry, units: Units, fibre_angle: Optional[float] = None, tolerance: float = 0.0) -> PeerCase:
-    """Raises InputError."""
+    """Reads solver.xml. Raises InputError."""
     return _Reader(root, units, fibre_angle, tolerance).read()
 
 
@@ -218,7 +219,7 @@ class _Reader:
         self.case.note("Add_equation mesh", where, words + (f" (Poisson_ratio {ratio.text})" if ratio else ""))
 
     def _domains(self, equation: Entry, kind: str) -> Dict[int, Tuple[Entry, str]]:
-        """By number: the entry with its values, and its equation."""
+        """By number: the entry with the domain's values, and its equation."""
         given = equation.all("Domain")
         if not given:
             if kind == "FSI":
@@ -617,7 +618,7 @@ class _Reader:
         self.case.mesh = mesh
 
     def _name_the_rest(self) -> None:
-        """A line for each kind of entry that nobody read."""
+        """A line for each kind of entry that no reader took."""
         found: Dict[str, List[Entry]] = {}
         skipped: List[Entry] = []
         for entry in self.root.every():

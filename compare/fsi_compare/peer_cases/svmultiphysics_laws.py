@@ -63,12 +63,12 @@ class Layer:
 
 
 def young_and_poisson(mu: float, bulk: float) -> Tuple[float, float]:
-    """Of shear and bulk modulus."""
+    """Young's modulus and Poisson's ratio of a shear and a bulk modulus."""
     return 9 * bulk * mu / (3 * bulk + mu), (3 * bulk - 2 * mu) / (2 * (3 * bulk + mu))
 
 
 def layer_of(domain: Entry, equation: str, units: Units, fibre_angle: Optional[float]) -> Layer:
-    """Of the domain of a wall. Raises InputError for what has no counterpart."""
+    """A layer from the domain of a wall. Raises InputError for what has no counterpart."""
     density = domain.number("Density", 0.5) * units.density
     if density <= 0:
         raise domain.refuse(

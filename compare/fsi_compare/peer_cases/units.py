@@ -64,7 +64,7 @@ SYSTEMS: Dict[str, Units] = {
 
 
 def units_of(name: str) -> Units:
-    """Raises InputError."""
+    """Units by name. Raises InputError."""
     if name not in SYSTEMS:
         raise InputError(
             "",
@@ -76,5 +76,5 @@ def units_of(name: str) -> Units:
 
 
 def rounded(value: float) -> float:
-    """To 14 digits: a factor that is a power of ten stays one, whatever its product leaves."""
+    """The value to 14 digits: a factor that is a power of ten stays one, whatever its product leaves."""
     return float(f"{value:.14g}")

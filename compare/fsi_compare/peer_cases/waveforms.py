@@ -36,7 +36,7 @@ class Waveform:
         return values
 
     def rows(self) -> List[Tuple[float, float]]:
-        """Of a period from the case's start on; a start of the file's that is not zero is a shift in time."""
+        """Times and values over a period from the case's start on; another start in the file is a shift in time."""
         if self.ramp:
             times = np.array([0.0, self.period])
             rows = list(zip((times + self.start).tolist(), self(times).tolist()))
@@ -49,8 +49,8 @@ class Waveform:
 
 
 def read_series(path: Path, ramp: bool) -> Tuple[Waveform, float]:
-    """Of a file of times and values, whose first line says how many there are and how many modes are taken. Returns the
-    largest difference of the series from the file's values, too. Raises InputError."""
+    """Reads a file of times and values, whose first line says how many there are and how many modes are taken. Also
+    returns the largest difference of the series from the file's values. Raises InputError."""
     numbers = _numbers(path)
     if len(numbers) < 2 or len(numbers[0]) != 2:
         raise InputError(path, "line 1", "is no number of points and number of modes", "write, for one, 33 16")
@@ -87,7 +87,7 @@ def read_series(path: Path, ramp: bool) -> Tuple[Waveform, float]:
 
 
 def read_coefficients(path: Path) -> Waveform:
-    """Of a file of start and period, trend, number of modes, and modes. Raises InputError."""
+    """Reads a file of start and period, trend, number of modes, and modes. Raises InputError."""
     numbers = _numbers(path)
     if [len(row) for row in numbers[:3]] != [2, 2, 1]:
         remedy = "give start and period, first value and slope, the number of modes, and a line for each"

@@ -64,7 +64,8 @@ class Entry:
         return found.text if found else default
 
     def number(self, name: str, default: Optional[float] = None) -> float:
-        """Of the entry of this name. Raises InputError where it is missing without a default, or no finite number."""
+        """The number in the entry of this name. Raises InputError where it is missing without a default, or not
+        finite."""
         found = self.find(name)
         if found is None and default is not None:
             return default

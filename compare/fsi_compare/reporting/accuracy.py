@@ -1,4 +1,4 @@
-"""`fsi-compare accuracy`: how far finished runs are from a reference, in space and at chosen times, and what they took."""
+"""`fsi-compare accuracy`: how far finished runs are from a reference, in space and at chosen times, and their cost."""
 
 import argparse
 import math
@@ -53,7 +53,7 @@ class Reference:
 
 @dataclass(frozen=True)
 class Accuracy:
-    """Of one run."""
+    """Errors and cost of one run."""
 
     label: str
     element: str
@@ -113,7 +113,7 @@ def read_any_reference(folder: Path, times: Sequence[float]) -> Reference:
 
 
 def require_lines(folder: Path) -> None:
-    """Raises InputError for a finished run of a vessel that bends or branches, or without fluid or wall."""
+    """Refuses a finished run of a vessel that bends or branches, or without fluid or wall. Raises InputError."""
     for q in WRITTEN:
         if not exists(folder / q.file):
             problem = "is missing, though the run is finished: only straight tubes with fluid and wall have one"
@@ -128,7 +128,7 @@ def _step(waves: Dict[str, Waves]) -> float:
 
 
 def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequence[float]) -> Accuracy:
-    """Raises InputError unless the run is finished and run and reference cover the times and the reference's line."""
+    """Reads a run. Raises InputError unless it is finished and it and the reference cover the times and the line."""
     summary = read_finished(folder)
     require_lines(folder)
     waves = read_run(folder, times)
@@ -175,7 +175,7 @@ RUNS: Sequence[Column[Accuracy]] = (
 
 
 def _percents(q: Quantity, times: Sequence[float]) -> List[Column[Accuracy]]:
-    """At each time, in the mean and at worst."""
+    """Columns of the error at each time, its mean and its maximum."""
 
     def column(head: str, value: Callable[[Accuracy], float]) -> Column[Accuracy]:
         return Column(

@@ -30,7 +30,7 @@ def coinciding(panels: Sequence[Sequence[Line2D]]) -> List[List[int]]:
 
 
 def labels_that_say_so(labels: Sequence[str], panels: Sequence[Sequence[Line2D]]) -> List[str]:
-    """For the legend: 'partitioned (lies on monolithic)'."""
+    """Names for the legend: 'partitioned (lies on monolithic)'."""
     on: Dict[int, int] = {i: group[0] for group in coinciding(panels) for i in group[1:]}
 
     def first(place: int) -> str:
@@ -56,8 +56,8 @@ def note_coinciding(axes: Axes, lines: Sequence[Line2D], labels: Sequence[str]) 
 
 
 def sentence_of_coinciding(figure: Figure) -> str:
-    """For a caption: which curves with a name in a legend lie on each other in all panels that have them; empty where none do, or
-    a legend or panel says it already."""
+    """A sentence for a caption: which curves with a name in a legend lie on each other in all panels that have them;
+    empty where none do, or a legend or panel says it already."""
     if any(SAID.search(text.get_text()) for axes in figure.axes for text in _texts(axes)):
         return ""
     said: Dict[str, None] = {}  # in their order, each once

@@ -8,7 +8,8 @@ R = TypeVar("R")
 
 @dataclass(frozen=True)
 class Column(Generic[R]):
-    """Of a table whose rows are made of records R. Without `head` it is in the CSV only, without `csv` for people only."""
+    """A column of a table whose rows are records R. Without `head` it is in the CSV only, without `csv` for people
+    only."""
 
     head: str = ""
     csv: str = ""
@@ -23,7 +24,7 @@ class Column(Generic[R]):
 
     @property
     def name(self) -> str:
-        """In the CSV: a unit of mm/ms makes it NAME_mm_per_ms."""
+        """The name in the CSV: a unit of mm/ms makes it NAME_mm_per_ms."""
         return "_".join(part for part in (self.csv, self.unit.replace("^", "").replace("/", "_per_")) if part)
 
     def shown(self, record: R) -> str:
@@ -35,7 +36,7 @@ class Column(Generic[R]):
 
 @dataclass(frozen=True)
 class Facts:
-    """What the CSV of a table holds whose rows gather several facts each: a line for each fact."""
+    """Lines and columns of the CSV where one row of the table gathers several facts."""
 
     columns: Sequence[Column[Any]]
     records: Sequence[Any]

@@ -95,7 +95,7 @@ def cost(options: argparse.Namespace) -> int:
 
 
 def read_cost(folder: Path, label: str) -> Cost:
-    """Raises InputError unless the run is finished and its tables are complete."""
+    """Reads a run. Raises InputError unless it is finished and its tables are complete."""
     summary = read_finished(folder)
     program = PROGRAMS[summary["program"]]
     iterations = read_iterations(folder, ("outer_iterations", "newton_iterations", "linear_iterations", "wall_s"))

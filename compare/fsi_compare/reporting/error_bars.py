@@ -1,4 +1,4 @@
-"""What is known of the error of runs: bars that `fsi-compare verify` left beside them, or one line that says how to find it."""
+"""Known errors of runs: bars that `fsi-compare verify` left beside them, or one line that says how to find them."""
 
 import shlex
 from typing import TYPE_CHECKING, List, Sequence, Tuple
@@ -29,7 +29,7 @@ def _said(bar: KeptBar) -> str:
 
 
 def find_bars(runs: Sequence[RunResults]) -> "List[Verification | None]":
-    """Of each run; None: no family is beside it. Raises InputError for a broken file."""
+    """The bars beside each run; None: no family is beside it. Raises InputError for a broken file."""
     return [find_verification(run.folder, run.summary) for run in runs]
 
 

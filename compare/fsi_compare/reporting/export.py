@@ -1,5 +1,4 @@
-"""`fsi-compare export`: the fields of a run as VTU files with a PVD file for their times, for programs that do not read
-XDMF."""
+"""`fsi-compare export`: a run's fields as VTU files with a PVD file for their times, for programs that read no XDMF."""
 
 import argparse
 from pathlib import Path

@@ -1,5 +1,5 @@
-"""What a reader of a report is told first: what was computed, whether it can be trusted, flows and pressures of the openings,
-what it cost."""
+"""What a reader of a report is told first: what was computed, whether it can be trusted, flows and pressures of the
+openings, what it cost."""
 
 from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
@@ -18,7 +18,7 @@ Labelled = Tuple[str, RunResults]
 
 
 def case_lines(runs: Sequence[RunResults], labels: Sequence[str]) -> List[str]:
-    """What was computed, one fact a line; a fact that differs between runs is said of each."""
+    """The case in words, one fact a line; a fact that differs between runs is said of each."""
     facts = {
         "case": [run.title for run in runs],
         "program": [run.program for run in runs],
@@ -84,7 +84,7 @@ def _total(run: RunResults, name: str) -> Optional[float]:
 
 
 def _share_of_supply(run: RunResults, column: str) -> Optional[float]:
-    """Sum of the sizes of a column of the energy balance over that of all that was supplied."""
+    """Sum of |values| of a column of the energy balance over that of all that was supplied."""
     energy = run.energy
     if energy is None or column not in energy:
         return None
@@ -100,9 +100,8 @@ def _ringing(run: RunResults) -> Optional[float]:
 
 
 def interface_shares(run: RunResults) -> Tuple[Optional[float], Optional[float]]:
-    """How far fluid and wall have come apart where they meet, over the interface's largest displacement, and what they leave
-    unbalanced in the mean of the steps looked at, over the fluid's traction. None: the run did not watch it, or nothing moved.
-    """
+    """Largest gap between fluid and wall over the interface's largest displacement, and the mean imbalance of tractions
+    over the fluid's, of the steps looked at. None: the run did not watch it, or nothing moved."""
     found = run.summary.get("interface")
     if not isinstance(found, dict):
         return None, None
@@ -156,7 +155,7 @@ TRUST: Sequence[Column[Labelled]] = (
 
 
 def periodic_end(run: RunResults) -> str:
-    """What `time.periods` of the case came to; empty for a run that does not end by it."""
+    """How `time.periods` of the case ended the run; empty for a run that does not end by it."""
     found = run.summary.get("periodicity")
     if not isinstance(found, dict):
         return ""
@@ -215,7 +214,7 @@ CONSTANTS: Sequence[Column[Varying]] = (
 
 
 def constants_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
-    """Empty where no constant of the wall varies within a layer."""
+    """Constants of the wall that vary within a layer; empty where none does."""
     records = []
     for run, label in zip(runs, labels):
         found = run.summary.get("varying_constants")
@@ -241,7 +240,7 @@ def constants_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
 
 
 class Thickness(NamedTuple):
-    """Of a layer of the wall at rest, or of all of it."""
+    """Thickness of a layer of the wall at rest, or of all of it."""
 
     run: str
     layer: str
@@ -262,7 +261,7 @@ THICKNESS: Sequence[Column[Thickness]] = (
 
 
 def thickness_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
-    """Empty where no run has a wall with an inner and an outer face."""
+    """Thickness of the walls; empty where no run has a wall with an inner and an outer face."""
     records = []
     for run, label in zip(runs, labels):
         found = run.summary.get("wall_thickness")
@@ -340,7 +339,7 @@ OPENINGS: Sequence[Column[OfOpening]] = (
 
 
 def openings_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
-    """Of the last cycle of runs that repeat, else of all times."""
+    """Flows and pressures over the last cycle of runs that repeat, else over all times."""
     records = []
     cycles: Dict[str, float] = {}
     for run, label in zip(runs, labels):
@@ -392,7 +391,7 @@ CHANGES: Sequence[Column[Change]] = (
 
 
 def cycles_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
-    """Empty where no flow repeats."""
+    """Changes from cycle to cycle; empty where no flow repeats."""
     records = []
     for run, label in zip(runs, labels):
         period = _period(run)
@@ -409,7 +408,7 @@ def _each_step(run: RunResults, name: str) -> Optional[float]:
 
 
 def _kind(run: RunResults) -> bool:
-    """Whether it says how it coupled fluid and wall, as results of earlier versions do not."""
+    """Whether the run says how it coupled fluid and wall, as results of earlier versions do not."""
     return "coupling_kind" in run.summary and "coupling_pass" in run.summary
 
 

@@ -14,8 +14,8 @@ from .column import Column, Facts
 
 @dataclass
 class Table:
-    """A row for each record. Text shows groups above their columns, Markdown before their names. CSV has a line for each
-    record, or for each of the facts where rows gather several, in full precision; None is an empty field there."""
+    """A row for each record. Text shows groups above their columns, Markdown before their names. CSV has a line for
+    each record, or for each of the facts where rows gather several, in full precision; None is an empty field there."""
 
     stem: str
     title: str
@@ -109,21 +109,21 @@ class Table:
 
 
 def _field(cell: Any) -> Any:
-    """Of a CSV: what is no number is an empty field."""
+    """A field of a CSV, empty for what is no number."""
     if not isinstance(cell, float):
         return cell
     return repr(float(cell)) if math.isfinite(cell) else None
 
 
 def write_tables(folder: Path, tables: Sequence[Table], markdown: str, heading: str) -> List[Path]:
-    """Each as CSV, and all in one Markdown file of that name."""
+    """Writes each table as CSV, and all into one Markdown file of that name."""
     with replacing(folder / markdown) as temporary:
         temporary.write_text("\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]), encoding="utf-8")
     return [*(table.write_csv(folder) for table in tables), folder / markdown]
 
 
 def show_tables(tables: Sequence[Table], folder: Path, written: Sequence[Path]) -> None:
-    """On the output; and which files were written, which by now are in `folder`."""
+    """Prints the tables, and names the files written, which by now are in `folder`."""
     for table in tables:
         print(table.text())
     say_written(folder, written)

@@ -1,5 +1,5 @@
-"""Loads matplotlib so that this program decides how, and not the environment, the user's settings or a file in the working
-folder: the same data give the same picture, and no message but ours comes of it."""
+"""Loads matplotlib so that this program decides how, and not the environment, the user's settings or a file in the
+working folder: the same data give the same picture, and no message but ours comes of it."""
 
 import logging
 import os
@@ -8,7 +8,7 @@ from ..base.errors import InputError
 
 
 def load_matplotlib() -> None:
-    """To be called before the first import of a module that draws. Raises InputError."""
+    """Call before the first import of a module that draws. Raises InputError."""
     os.environ["MPLBACKEND"] = "agg"  # pictures are files
     os.environ["MATPLOTLIBRC"] = os.devnull
     if os.environ.get("MPLCONFIGDIR"):

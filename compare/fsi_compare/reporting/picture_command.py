@@ -72,7 +72,7 @@ def make(options: argparse.Namespace) -> int:
 
 
 def read_range(text: Optional[str]) -> Optional[Tuple[float, float]]:
-    """Raises InputError unless it is two increasing numbers."""
+    """Reads two increasing numbers. Raises InputError."""
     if text is None:
         return None
     try:

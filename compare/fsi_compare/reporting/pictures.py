@@ -92,7 +92,7 @@ def write_picture(folder: Path, stem: str, draw: Callable[[], Figure]) -> Path:
 
 
 def write_plot(path: Path, draw: Callable[[], Figure]) -> Path:
-    """In the format that the file's name ends with: .png, .svg or .pdf."""
+    """Writes the picture in the format of the file's suffix: .png, .svg or .pdf."""
     _save([path], draw, PICTURE_DPI)
     return path
 
@@ -119,8 +119,8 @@ def pressure_figure(
     place: str = "z in mm",
     styles: Sequence[int] = (),
 ) -> Figure:
-    """One panel per time, in reading order; the legend has its own strip below the panels. `styles`: numbers of the runs'
-    line styles; without them those of their places."""
+    """One panel per time, in reading order; the legend has its own strip below the panels. `styles`: numbers of the
+    runs' line styles; without them those of their places."""
     columns = 1 if len(times) == 1 else 2 if len(times) <= 8 else 3
     rows = -(-len(times) // columns)
     width = columns * PANEL_INCHES[0] + (1.5 if columns == 1 else 0)
@@ -149,8 +149,8 @@ def finish(
     title: str,
     panels: Optional[Tuple[float, float]] = None,
 ) -> Figure:
-    """The figure, done: puts the heading above the panels and the legend below them, each in a strip of its own so that it covers no
-    curve, and sets the figure's size; `panels` are width and height of the panels together, in inches: the
+    """The figure, done: puts the heading above the panels and the legend below them, each in a strip of its own so that
+    it covers no curve, and sets the figure's size; `panels` are width and height of the panels together, in inches: the
     figure's own unless they are given."""
     width, panels_inches = panels or figure.get_size_inches()
     legend_inches = _place_legend(figure, handles, labels, width)

@@ -24,7 +24,7 @@ class Place(NamedTuple):
 
     @property
     def look(self) -> Dict[str, Any]:
-        """What the page's view turns to."""
+        """The place that the page's view turns to."""
         point = [float(f"{x:.7g}") for x in self.point]
         return {"quantity": self.key, "time": self.time, "run": self.number, "part": self.part, "point": point}
 
@@ -75,7 +75,7 @@ def places_table(scene: ReportScene) -> Tuple[Table, List[Dict[str, Any]]]:
 
 
 def largest_of(run: RunScene, number: int, key: str) -> Optional[Place]:
-    """None where the run has no such quantity, or where it is zero throughout."""
+    """Where a field is largest; None where the run has no such quantity, or where it is zero throughout."""
     best: Optional[Place] = None
     for part in run.parts:
         quantity = run.scene.quantities.get(key, {}).get(part.surface.medium.name)
@@ -97,7 +97,7 @@ def largest_of(run: RunScene, number: int, key: str) -> Optional[Place]:
 
 
 def rounded(point: np.ndarray, size: float) -> np.ndarray:
-    """Without round-off of zeros."""
+    """Coordinates without round-off of zeros."""
     return np.where(np.abs(point) < 1e-9 * size, 0.0, point)
 
 

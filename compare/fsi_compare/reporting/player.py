@@ -1,6 +1,6 @@
 """The part of a report that plays: the reader moves through time with a slider, switches runs on and off, reads values
-under the pointer and zooms. Data and program (templates/player.js) are in the page; without JavaScript, and in print, it does not
-show, and the pictures beside it stay."""
+under the pointer and zooms. Data and program (templates/player.js) are in the page; without JavaScript, and in print,
+it does not show, and the pictures beside it stay."""
 
 import base64
 from dataclasses import dataclass, field
@@ -57,7 +57,7 @@ class Player:
     panels: List[Panel]
 
     def values(self) -> Dict[str, Any]:
-        """Of the element of the page: its data, and what was left out to keep the page small."""
+        """The data of the page's element, and notes on what was left out to keep the page small."""
         panels = [panel for panel in self.panels if panel.lines or panel.series]
         notes: List[str] = []
         content = {
@@ -73,7 +73,7 @@ class Player:
         return max(FEWEST_LEVELS, min(MOST_LEVELS, MOST_NUMBERS // max(points, 1)))
 
     def _times(self, panels: Sequence[Panel]) -> np.ndarray:
-        """Where the slider stops: the times of all curves; equally spaced ones in their place where they are too many."""
+        """Where the slider stops: the times of all curves, or equally spaced ones where they are too many."""
         levels = self._levels(panels)
         found = [line.times[thinned(len(line.times), levels)] for panel in panels for line in panel.lines]
         found = found or [one.times for panel in panels for one in panel.series]
@@ -115,7 +115,7 @@ def thinned(count: int, most: int) -> np.ndarray:
 
 
 def packed(values: np.ndarray) -> Dict[str, Any]:
-    """Numbers in 16 bits each, to 1/65534 of their range; what is no number stays none."""
+    """Numbers in 16 bits each, to 1/65534 of their range; NaN and infinity become 65535."""
     flat = np.asarray(values, dtype=float).ravel()
     finite = np.isfinite(flat)
     low, high = (float(flat[finite].min()), float(flat[finite].max())) if finite.any() else (0.0, 0.0)

@@ -1,5 +1,5 @@
-"""Plots of runs for scripts and notebooks. Each draws into the axes that it is given, or into new ones, and returns them;
-curves are told apart without colour, too."""
+"""Plots of runs for scripts and notebooks. Each draws into the axes that it is given, or into new ones, and returns
+them; curves are told apart without colour, too."""
 
 from typing import Any, Optional, Sequence
 
@@ -23,8 +23,7 @@ def plot_line(
     axes: Optional[Axes] = None,
 ) -> Axes:
     """A quantity along a line at one time in ms, a curve for each run that has the line: `line` is 'centre_line'
-    ('pressure'), 'wall_line' ('radial', 'axial') or the name of a line of the case. Raises InputError when no run has it.
-    """
+    ('pressure'), 'wall_line' ('radial', 'axial') or a line of the case. Raises InputError when no run has it."""
     axes = axes or _new()
     drawn = 0
     for run in runs:
@@ -59,8 +58,8 @@ def plot_openings(runs: Sequence[RunResults], quantity: str = "flow", axes: Opti
 
 
 def plot_energy(run: RunResults, columns: Sequence[str] = (), axes: Optional[Axes] = None) -> Axes:
-    """Columns of the energy balance over time, without names those that end in 'energy'. Raises InputError when the run has
-    no balance or lacks a column."""
+    """Columns of the energy balance over time, without names those that end in 'energy'. Raises InputError when the run
+    has no such column."""
     axes = axes or _new()
     energy = run.energy
     if energy is None:

@@ -94,7 +94,7 @@ def read_times(text: str) -> List[float]:
 
 
 def check_comparable(runs: Sequence[Run], times: Sequence[float]) -> None:
-    """All runs must reach all times, and their centre lines must contain the first run's."""
+    """Raises InputError for runs that do not reach all times, or whose centre line does not contain the first run's."""
     reference = runs[0]
     for run in runs:
         waves = run.pressure

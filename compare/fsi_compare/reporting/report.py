@@ -45,7 +45,7 @@ class Report:
             self._add("list", items=items)
 
     def answer(self, lines: Sequence[str]) -> None:
-        """What was found, in words, one numbered sentence or two a line: the first section of a report."""
+        """The findings, one numbered sentence or two a line: the first section of a report."""
         self.section("The answer")
         self._add("answer", lines=lines)
 
@@ -64,8 +64,8 @@ class Report:
         self._add("places", table=table, looks=looks)
 
     def figure(self, stem: str, draw: Callable[[], Figure], caption: str) -> None:
-        """`draw` makes the figure under the common style (see pictures.write_figure). The caption goes on with what lies on each
-        other in it."""
+        """`draw` makes the figure under the common style (see pictures.write_figure). The caption goes on with what
+        lies on each other in it."""
         drawn: List[Figure] = []
 
         def keep() -> Figure:
@@ -77,8 +77,8 @@ class Report:
         self.image(png, " ".join(part for part in (caption, *map(sentence_of_coinciding, drawn)) if part))
 
     def player(self, player: Player) -> None:
-        """What a reader with JavaScript can move through. It does not print: pictures of the same belong beside it, or word of
-        how to get them."""
+        """A player for readers with JavaScript. It does not print: put pictures of the same beside it, or how to get
+        them."""
         self._add("player", **player.values())
 
     def still(self, stem: str, draw: Callable[[], Figure], caption: str) -> None:
@@ -88,8 +88,8 @@ class Report:
         self.image(png, caption)
 
     def scene(self, scene: ReportScene, stills: Sequence[Tuple[str, Callable[[], Figure], str]]) -> None:
-        """The vessel in space, drawn in the browser, and stills (stem, figure, caption) of it for print and for browsers without
-        JavaScript or WebGL."""
+        """The vessel in space, drawn in the browser, and stills (stem, figure, caption) of it for print and for
+        browsers without JavaScript or WebGL."""
         self._add("scene", library=library(), **scene.values())
         shown = []
         for stem, draw, caption in stills:

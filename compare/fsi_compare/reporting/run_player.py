@@ -33,8 +33,8 @@ PICTURES = 6  # times in a picture, where none are asked for
 
 
 def add_waves(report: Report, runs: Sequence[RunResults], labels: Sequence[str], times: Sequence[float] = ()) -> None:
-    """The player of these runs and its pictures; `times` in ms are those of the pictures, which all lines must reach. What
-    no run has is left out."""
+    """The player of these runs and its pictures; `times` in ms are those of the pictures, which all lines must reach.
+    What no run has is left out."""
     shown = [panel for panel in panels(runs) if panel.lines or panel.series]
     report.player(Player(list(labels), shown))
     stems: List[str] = []
@@ -51,7 +51,7 @@ def add_waves(report: Report, runs: Sequence[RunResults], labels: Sequence[str],
 
 
 def caption_of(shown: Sequence[Panel]) -> str:
-    """What the diagrams of a picture are of; that they are over time its title says."""
+    """Names what the diagrams of a picture show; its title says that they are over time."""
     words = list(dict.fromkeys(panel.title.partition(":")[0] for panel in shown))
     return f"{', '.join([words[0], *(word[0].lower() + word[1:] for word in words[1:])])}."
 
@@ -95,7 +95,7 @@ def panels(runs: Sequence[RunResults]) -> List[Panel]:
 
 
 def line_panels(runs: Sequence[RunResults], name: str) -> List[Panel]:
-    """Of a line that the cases ask for: its scalars, and the magnitudes of its vectors."""
+    """Diagrams of a line that the cases ask for: its scalars, and the magnitudes of its vectors."""
     made: Dict[str, Panel] = {}
     for place, run in enumerate(runs):
         if name not in run.lines:
@@ -127,7 +127,7 @@ def place_panel(runs: Sequence[RunResults], kind: str, name: str, column: str) -
 
 
 def names_of(runs: Sequence[RunResults], kind: str) -> List[str]:
-    """Of the lines, openings, points or planes of all runs, in the order in which they come."""
+    """Names of the lines, openings, points or planes of all runs, in the order in which they come."""
     names: Dict[str, None] = {}
     for run in runs:
         names.update(dict.fromkeys(getattr(run, kind)))

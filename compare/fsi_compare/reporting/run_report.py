@@ -111,7 +111,7 @@ def report(options: argparse.Namespace) -> int:
 
 
 def add_first_read(page: "Report", runs: Sequence[RunResults], labels: Sequence[str]) -> None:
-    """What one reads first."""
+    """Adds the tables that a reader looks at first."""
     page.list(case_lines(runs, labels))
     page.table(runs_table(runs, labels))
     page.table(trust_table(runs, labels))
@@ -123,7 +123,7 @@ def add_first_read(page: "Report", runs: Sequence[RunResults], labels: Sequence[
 
 
 def check_runs(runs: Sequence[RunResults], times: Sequence[float]) -> None:
-    """There is something to show, and all lines reach the times asked for."""
+    """Raises InputError unless there is something to show, and all lines reach the times asked for."""
     if not any(run.has_samples for run in runs):
         raise InputError(
             runs[0].folder, "", "has neither lines nor openings", "ask for them in the case, and run it again"
@@ -170,7 +170,7 @@ def runs_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
 
 
 def named(run: RunResults, entry: str) -> str:
-    """What its summary says."""
+    """An entry of the run's summary, as text."""
     return printable(run.summary.get(entry, ""))
 
 
@@ -182,8 +182,8 @@ def end_of(run: RunResults) -> Optional[float]:
 
 
 def add_differences(page: "Report", lines: Table, samples: Table) -> None:
-    """Along the lines that `fsi-compare pressure` compares, where runs have them, and of all samples. One of them may be
-    empty; where both are, the first says so."""
+    """Along the lines that `fsi-compare pressure` compares, where runs have them, and of all samples. One of them may
+    be empty; where both are, the first says so."""
     samples.facts = Facts(samples.columns, samples.records)  # the CSV has all
     samples.records = [(label, found) for label, found in samples.records if found.largest != 0 or found.size != 0]
     if lines.rows or not samples.rows:
@@ -225,7 +225,7 @@ LINES: Sequence[Column[Apart]] = (
 
 
 def differences_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
-    """Of each run against the first, where both have the line and it has the same extent."""
+    """Differences of each run from the first, where both have the line and it has the same extent."""
     records = []
     for run, label in zip(runs[1:], labels[1:]):
         for line, reference, quantity, words in (

@@ -1,5 +1,5 @@
-"""How far runs are apart in their flows, openings, points, lines and planes: what `fsi-compare pressure` compares of vessels
-without a centre line, and `fsi-compare report` of all runs."""
+"""How far runs are apart in their flows, openings, points, lines and planes: what `fsi-compare pressure` compares of
+vessels without a centre line, and `fsi-compare report` of all runs."""
 
 from pathlib import Path
 from typing import List, Optional, Sequence, Tuple
@@ -15,7 +15,7 @@ TABLES = ("flow.csv", "openings.csv", POINTS, LINES, PLANES)
 
 
 def without_centre_line(folder: Path) -> bool:
-    """Whether a run has other tables, but no centre line: that of a vessel that branches."""
+    """Whether a run has other tables, but no centre line, as those of vessels that branch."""
     if exists(folder / "centerline_pressure.csv") or not any(is_file(folder / table) for table in TABLES):
         return False
     return not is_file(folder / LINES) or CENTRE_LINE not in read_samples(folder / LINES)
@@ -43,8 +43,8 @@ def compare_samples(folders: Sequence[Path], given_labels: Optional[Sequence[str
 
 
 def sample_differences(folders: Sequence[Path]) -> List[List[Difference]]:
-    """Of each run from the first: of each column of each table of samples, at the times that both have. Raises InputError for
-    tables that cannot be read."""
+    """Differences of each run from the first, in each column of each table of samples, at the times that both have.
+    Raises InputError for tables that cannot be read."""
     return [differences_of_tables(folders[0], folder, TABLES) for folder in folders[1:]]
 
 
@@ -60,6 +60,6 @@ COLUMNS: Sequence[Column[Tuple[str, Difference]]] = (
 
 
 def sample_table(found: Sequence[Sequence[Difference]], labels: Sequence[str]) -> Table:
-    """What sample_differences() found."""
+    """The result of sample_differences() as a table."""
     records = [(label, d) for of_run, label in zip(found, labels[1:]) for d in of_run]
     return Table("sample_differences", f"Largest differences from {labels[0]}", COLUMNS, records)

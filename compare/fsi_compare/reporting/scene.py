@@ -1,4 +1,4 @@
-"""The part of a report that shows the vessel in space: surfaces of the runs with their fields over time, packed for
+"""A report's view of the vessel in space: surfaces of the runs with fields over time, packed for
 templates/scene*.js."""
 
 from dataclasses import dataclass, field
@@ -35,7 +35,7 @@ class RunScene:
 
 
 class ReportScene:
-    """Of one or several runs of one scene, or of different ones. `notes` say what was left out."""
+    """The scene of one or several runs. `notes` say what was left out."""
 
     def __init__(self, names: Sequence[str], scenes: Sequence[Scene], frames: Optional[int] = None) -> None:
         self.notes: List[str] = []
@@ -61,7 +61,7 @@ class ReportScene:
         return parts, np.zeros(0)
 
     def _choose_times(self, frames: Optional[int]) -> None:
-        """At most what was asked for, and as many as the page may hold."""
+        """Chooses times: at most `frames`, and as many as the page may hold."""
         a_time = sum(self._numbers(run) for run in self.runs)
         most = max(FEWEST_FRAMES, min(frames or MOST_FRAMES, MOST_NUMBERS // max(a_time, 1)))
         for run in self.runs:
@@ -84,7 +84,7 @@ class ReportScene:
         return [name for name in part.surface.names if part.shows(name)]
 
     def _read(self, run: RunScene) -> None:
-        """Each field of a medium once, for all parts."""
+        """Reads each field of a medium once, for all parts."""
         for medium in run.scene.meshes.media.values():
             for name in medium.names:
                 parts = [part for part in run.parts if part.surface.medium is medium and part.shows(name)]
@@ -110,7 +110,7 @@ class ReportScene:
             run.apart = set(run.fields) == set(first.fields)
 
     def values(self) -> Dict[str, Any]:
-        """Of the element of the page."""
+        """The data of the page's element."""
         content: Dict[str, Any] = {
             "runs": [self._run(run) for run in self.runs],
             "quantities": self._quantities(),

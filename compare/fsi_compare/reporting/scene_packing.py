@@ -1,5 +1,5 @@
-"""Arrays as a page holds them: whole numbers of 16 or 32 bits, as differences from the row before, their bytes apart, deflated,
-in base64. templates/scene_data.js reads them."""
+"""Arrays as a page holds them: whole numbers of 16 or 32 bits, as differences from the row before, their bytes apart,
+deflated, in base64. templates/scene_data.js reads them."""
 
 import base64
 import zlib

@@ -9,7 +9,7 @@ MOST_TRIANGLES = 60_000  # of all parts of a run
 
 
 def thinned_part(part: Part, triangles: int) -> Part:
-    """As it is where a run's parts have few enough `triangles`; else clustered to its share."""
+    """The part itself where a run's parts have few enough `triangles`; else clustered to its share."""
     if triangles <= MOST_TRIANGLES:
         return part
     share = int(MOST_TRIANGLES * len(part.surface.triangles) / triangles)
@@ -17,8 +17,8 @@ def thinned_part(part: Part, triangles: int) -> Part:
 
 
 def clustered(surface: Surface, most: int) -> Surface:
-    """At most `most` triangles (or edges): the cube of space that is as small as that allows decides which points become one.
-    The point nearest to their mean stands for all, so that values remain those of nodes."""
+    """A surface of at most `most` triangles (or edges). Points within a cube become one; the cubes are as small as that
+    allows. The point nearest to their mean stands for all, so that values remain those of nodes."""
     points = surface.points
     size = float(np.ptp(points, axis=0).max())
     low, high = 0.0, 0.5

@@ -1,4 +1,4 @@
-"""Pages from the templates in `templates/`, by Jinja2. What goes into HTML is escaped, unless a template says otherwise."""
+"""Pages from the templates in `templates/`, by Jinja2. Text in HTML is escaped, unless a template says otherwise."""
 
 import html
 import re

@@ -57,7 +57,7 @@ def add_vessel(
 
 
 def stills_of(vessel: Vessel) -> List[Still]:
-    """Of the first run, each at the time at which the field is largest."""
+    """Stills of the first run, each at the time at which the field is largest."""
     scene, name = vessel.scenes[0], vessel.names[0]
     keys = [key for key in STILL_FIELDS if key in scene.quantities][:STILLS] or [scene.first]
     found: Dict[str, Still] = {}

@@ -1,4 +1,4 @@
-"""The library that draws the scene in a browser: three.js of Debian's package libjs-three, put into a page when it is made."""
+"""The library that draws the scene in a browser: three.js of Debian's libjs-three, copied into the page."""
 
 import json
 from pathlib import Path
@@ -24,7 +24,7 @@ class Library(NamedTuple):
 
 
 def library() -> Optional[Library]:
-    """None where the package is not installed."""
+    """Reads three.js; None where the package is not installed."""
     try:
         program = PROGRAM.read_text(encoding="utf-8")
     except OSError:

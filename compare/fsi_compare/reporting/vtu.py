@@ -1,5 +1,5 @@
-"""Unstructured grids as VTK's XML files (.vtu), and series of them by their times (.pvd): what VisIt, ParaView and meshio
-open. [Kitware's VTK file formats] Not by meshio's own writer: it leaves out the time."""
+"""Unstructured grids as VTK's XML files (.vtu), and series of them by their times (.pvd): what VisIt, ParaView and
+meshio open. [Kitware's VTK file formats] Not by meshio's own writer: it leaves out the time."""
 
 import base64
 import struct
@@ -23,8 +23,8 @@ def write_vtu(
     of_cells: Dict[str, np.ndarray],
     time: float,
 ) -> None:
-    """One grid at one time, in ms, which stands in the file as TimeValue. `points` (nodes, 3), `cells` (cells, 3, 4, 6 or
-    10), values (nodes or cells,) or (..., components). Numbers keep their bits."""
+    """One grid at one time, in ms, which stands in the file as TimeValue. `points` (nodes, 3), `cells` (cells, 3, 4, 6
+    or 10), values (nodes or cells,) or (..., components). Numbers keep their bits."""
     count = cells.shape[1]
     kinds = np.full(len(cells), CELL_TYPES[count], dtype=np.uint8)
     ends = count * np.arange(1, len(cells) + 1, dtype=np.int64)

@@ -1,4 +1,4 @@
-"""`fsi-compare watch`: follows a run while it goes on, in the terminal or in a small page that is written anew as steps come."""
+"""`fsi-compare watch`: follows a run while it goes on, in the terminal or in a page that is rewritten as steps come."""
 
 import argparse
 import math
@@ -104,7 +104,7 @@ def write_page(page: Path, state: State, every: float) -> None:
 
 
 def _points(values: np.ndarray) -> str:
-    """Of an SVG line."""
+    """The points of an SVG polyline."""
     shown = thinned_to(values, PAGE_POINTS)
     span = float(np.ptp(shown)) or 1.0
     x = np.linspace(2, PAGE_WIDTH - 2, len(shown)) if len(shown) > 1 else np.array([PAGE_WIDTH / 2])

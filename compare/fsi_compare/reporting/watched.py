@@ -47,7 +47,7 @@ class State:
 
 
 def state_of(folder: Path) -> State:
-    """Raises InputError for a folder that is no run's."""
+    """Reads how far a run is. Raises InputError for a folder that is no run's."""
     run = open_run(folder, unfinished=True)
     state = State(run.title, run.program, run.status, planned=planned_steps(folder / "run.log"))
     try:
@@ -70,7 +70,7 @@ def state_of(folder: Path) -> State:
 
 
 def planned_steps(log: Path) -> Optional[int]:
-    """That the log's first line names; None for adaptive steps, or without a log."""
+    """The number of steps in the log's first line; None for adaptive steps, or without a log."""
     try:
         with open(log, encoding="utf-8", errors="replace") as file:
             found = PLANNED.search(file.readline())
@@ -80,7 +80,7 @@ def planned_steps(log: Path) -> Optional[int]:
 
 
 def thinned_to(values: np.ndarray, most: int) -> np.ndarray:
-    """At most that many, means of neighbours where there are more."""
+    """At most that many values, means of neighbours where there are more."""
     if len(values) <= most:
         return values
     return np.array([part.mean() for part in np.array_split(values, most)])
@@ -97,7 +97,7 @@ def sparkline(values: np.ndarray, width: int, marks: str = BLOCKS) -> str:
 
 
 def lines_of(state: State, left: str, width: int, marks: str = BLOCKS) -> Sequence[str]:
-    """What the terminal shows; `left`: words for the seconds that are left."""
+    """The lines of the terminal; `left`: words for the seconds that are left."""
     of = f" of {state.planned}" if state.planned else ""
     speed = f", {state.step_seconds:.3g} s a step" if state.step_seconds is not None else ""
     lines = [f"{state.program}, {state.status}: step {state.steps}{of}, t = {state.time:g} ms{speed}{left}"]

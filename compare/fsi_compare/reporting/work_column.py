@@ -9,5 +9,5 @@ Record = TypeVar("Record")
 
 
 def work_column(head: str, csv: str, value: Callable[[Record], Optional[float]], group: str = "") -> Column[Record]:
-    """Empty for runs that did not measure the unit."""
+    """Column of work units; its cells are empty for runs that did not measure the unit."""
     return Column(head, csv, value, shown, group=group, missing="", behind=True)

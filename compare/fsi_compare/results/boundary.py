@@ -1,12 +1,13 @@
-"""Boundary of a mesh of simplices: faces that one cell has alone, as triangles (edges in two dimensions), and pieces of it that
-are smooth."""
+"""Boundary of a mesh of simplices: faces that one cell has alone, triangles or in two dimensions edges; smooth
+pieces."""
 
 from dataclasses import dataclass
 from typing import List, Tuple
 
 import numpy as np
 
-# Corners of the faces of a cell, outwards by the right hand, and the cell's corner opposite each; by the cell's corners.
+# Corners of the faces of a cell, outwards by the right hand, and the cell's corner opposite each; by the cell's
+# corners.
 FACES = {4: ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)), 3: ((0, 1), (1, 2), (2, 0))}
 # The node in the middle of each edge of a quadratic cell, in VTK's order.
 MIDDLES = {10: {(0, 1): 4, (1, 2): 5, (0, 2): 6, (0, 3): 7, (1, 3): 8, (2, 3): 9}, 6: {(0, 1): 3, (1, 2): 4, (0, 2): 5}}
@@ -22,7 +23,7 @@ class Boundary:
     parts: np.ndarray  # straight parts of each face, (faces, parts, dimension): one of a linear cell
 
     def some(self, which: np.ndarray) -> "Boundary":
-        """Those that a mask or numbers choose."""
+        """The faces that a mask or numbers choose."""
         return Boundary(self.faces[which], self.parts[which])
 
     def straight(self) -> np.ndarray:
@@ -31,7 +32,7 @@ class Boundary:
 
 
 def boundary_of(points: np.ndarray, cells: np.ndarray, up: np.ndarray) -> Boundary:
-    """Of cells with 3, 4, 6 or 10 nodes (see MediumFields.cells); `up`: see normals_of()."""
+    """Boundary of cells with 3, 4, 6 or 10 nodes (see MediumFields.cells); `up`: see normals_of()."""
     corners = CORNERS[cells.shape[1]]
     local = FACES[corners]
     faces = np.concatenate([cells[:, list(face)] for face in local])
@@ -78,7 +79,7 @@ def normals_of(points: np.ndarray, faces: np.ndarray, up: np.ndarray) -> np.ndar
 
 
 def smooth_pieces(faces: np.ndarray, normals: np.ndarray) -> np.ndarray:
-    """A number for each face: neighbours across a common edge (corner) have the same where the surface has no crease."""
+    """A number for each face: neighbours across a common edge (corner) have the same where there is no crease."""
     size = faces.shape[1]
     units = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
     sides = np.concatenate([np.delete(faces, i, axis=1) for i in range(size)])

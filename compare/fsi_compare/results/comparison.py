@@ -26,9 +26,9 @@ class LineDifference:
 def difference(
     line: Optional[Line], reference: Optional[Line], quantity: str, times: Optional[Sequence[float]] = None
 ) -> LineDifference:
-    """Difference of one quantity between the lines of two runs, on the points of the reference; linear between points and
-    between time levels. `times` in ms; without them the levels of the reference that the other run reaches. Raises
-    InputError for lines that are not there, quantities that they lack, times or points that one of them does not reach.
+    """Difference of one quantity between the lines of two runs, on the points of the reference; linear between points
+    and between time levels. `times` in ms; without them the levels of the reference that the other run reaches. Raises
+    InputError for missing lines or quantities, and for times or points that one of them does not reach.
     """
     if line is None or reference is None:
         raise InputError("", "line", "is not there", "compare runs that have both written it")

@@ -52,7 +52,7 @@ class MediumFields:
 
     @property
     def cells(self) -> np.ndarray:
-        """Numbers of nodes, (cells, 3, 4, 6 or 10): triangles or tetrahedra, middles of edges behind the vertices in VTK's
+        """Nodes of cells, (cells, 3, 4, 6 or 10): triangles or tetrahedra; middles of edges behind vertices in VTK's
         order."""
         return self._of_mesh("cells")
 
@@ -66,11 +66,11 @@ class MediumFields:
 
     @property
     def times(self) -> np.ndarray:
-        """Of the entries that were written, ms, (entries,)."""
+        """Times of the entries that were written, ms, (entries,)."""
         return np.array(sorted({entry.time for entries in self._entries.values() for entry in entries}))
 
     def times_of(self, field: str) -> np.ndarray:
-        """Of the entries that have this field, ms, (entries,). Raises InputError."""
+        """Times of the entries that have this field, ms, (entries,). Raises InputError."""
         return np.array([entry.time for entry in self._of(field)])
 
     def width(self, field: str) -> int:
@@ -81,9 +81,8 @@ class MediumFields:
         return self._widths[field]
 
     def at(self, time: float, field: str) -> np.ndarray:
-        """Values at a time in ms, linear between entries: (nodes,) or (cells,) of a scalar, (..., 3) of a vector, (..., 6)
-        of a symmetric tensor (xx, xy, xz, yy, yz, zz). Raises InputError for another field, or a time outside of the
-        entries."""
+        """Values at a time in ms, linear between entries: (nodes,) or (cells,) of a scalar, (..., 3) of a vector, (...,
+        6) of a symmetric tensor (xx, xy, xz, yy, yz, zz). Raises InputError for another field, or a time outside."""
         entries = self._of(field)
         times = np.array([entry.time for entry in entries])
         tolerance = 1e-6 * (float(np.min(np.diff(times))) if len(times) > 1 else max(abs(float(times[0])), 1.0))

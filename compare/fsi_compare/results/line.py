@@ -15,7 +15,7 @@ from .units import split_unit
 
 @dataclass(frozen=True)
 class Line:
-    """The same points at all time levels."""
+    """Values at the points of a line, the same at all time levels."""
 
     name: str
     times: np.ndarray  #: ms, increasing, (levels,)
@@ -63,8 +63,8 @@ VECTOR = ("_x", "_y", "_z")
 
 
 def line_of(name: str, path: Path, samples: Samples, position: str = "z_mm") -> Line:
-    """Of a line's samples in a table; `position`: the column of the place along the line. Columns of other places are those
-    of the points. Raises InputError."""
+    """A line from its samples in a table; `position`: the column of the place along the line. Columns of other places
+    are those of the points. Raises InputError."""
     if position not in samples.places:
         raise InputError(path, "line 1", f"column '{position}' is missing", "run it again")
     s = samples.places[position]
@@ -83,5 +83,5 @@ def line_of(name: str, path: Path, samples: Samples, position: str = "z_mm") -> 
 
 
 def lines_of(path: Path, finished: bool = True) -> Dict[str, Line]:
-    """By name, from `lines.csv`; `finished` as of read_samples(). Raises InputError."""
+    """All lines of `lines.csv` by name; `finished`: see read_samples(). Raises InputError."""
     return {name: line_of(name, path, line, "s_mm") for name, line in read_samples(path, finished).items()}

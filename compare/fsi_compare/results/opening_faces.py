@@ -1,5 +1,5 @@
-"""Which faces of the fluid's boundary are its openings. `fields.h5` has no names of surfaces; an opening is a flat piece of the
-boundary whose flow and mean pressure are those of a name in `openings.csv`."""
+"""Which faces of the fluid's boundary are its openings. `fields.h5` has no names of surfaces; an opening is a flat
+piece of the boundary whose flow and mean pressure are those of a name in `openings.csv`."""
 
 from typing import Dict, List, Mapping, Optional, Tuple
 
@@ -38,7 +38,7 @@ def named_openings(
     up: np.ndarray,
     turned: bool,
 ) -> Dict[str, np.ndarray]:
-    """Faces by the name of the opening; what nothing agrees with is left out. `turned`: axisymmetric, x is the radius."""
+    """Faces by the name of the opening; those that match none are left out. `turned`: axisymmetric, x is the radius."""
     levels = _levels(fluid, openings)
     if not len(levels) or not pieces:
         return {}
@@ -75,7 +75,7 @@ def _given(opening: Opening, levels: np.ndarray) -> np.ndarray:
 
 
 def _measured(fluid: MediumFields, piece: Boundary, levels: np.ndarray, up: np.ndarray, turned: bool) -> np.ndarray:
-    """The same of a piece of the boundary; NaN for a field that is not there."""
+    """Flow and mean pressure of a piece of the boundary, (2, levels); NaN for a field that is not there."""
     parts = piece.straight()
     normals = normals_of(fluid.points, parts, up)
     area = np.linalg.norm(normals, axis=1)

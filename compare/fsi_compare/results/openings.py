@@ -10,7 +10,7 @@ from .table import Table
 
 @dataclass(frozen=True)
 class Opening:
-    """Of one opening, at all time levels."""
+    """Flow and pressure of one opening, at all time levels."""
 
     name: str
     time: np.ndarray  #: ms, (levels,)
@@ -20,7 +20,7 @@ class Opening:
 
 
 def openings_of(table: Table) -> Dict[str, Opening]:
-    """From `openings.csv`, a row for each time and opening; a column of zeros is written for what stores no pressure."""
+    """Reads `openings.csv`, a row for each time and opening; what stores no pressure has a column of zeros."""
     found = {}
     for name, rows in table.groups("opening").items():
         pressure = rows["windkessel_pressure"] if "windkessel_pressure" in rows else np.array([])
@@ -30,7 +30,7 @@ def openings_of(table: Table) -> Dict[str, Opening]:
 
 
 def inlet_and_outlet(table: Table) -> Dict[str, Opening]:
-    """From `flow.csv`, where the flow of the inlet is positive inwards."""
+    """Reads `flow.csv`, where the flow of the inlet is positive inwards."""
     found = {}
     for name, outwards in (("inlet", -1.0), ("outlet", 1.0)):
         if f"{name}_flow" in table:

@@ -26,7 +26,7 @@ INCHES_WIDE, MOST_HIGH = 7.0, 4.6
 
 
 class Scene:
-    """Of one run: what a picture is made from, read once for many pictures."""
+    """Parts of one run that pictures are made from, read once for many pictures."""
 
     def __init__(self, meshes: Surfaces, file: str, plane: Optional[CutPlane] = None) -> None:
         self.meshes = meshes
@@ -49,7 +49,7 @@ class Scene:
             raise InputError(self.file, "", f"has no field '{key}'", remedy)
 
     def times(self, key: str) -> np.ndarray:
-        """Of the entries that have it, ms."""
+        """Times of the entries that have the quantity, ms."""
         (name, quantity), *_ = self.quantities[key].items()
         return self.meshes.media[name].times_of(quantity.field)
 
@@ -57,7 +57,7 @@ class Scene:
         return next(iter(self.quantities[key].values()))
 
     def values(self, part: Part, key: str, time: float) -> Optional[np.ndarray]:
-        """At the points of a part; None where it has none."""
+        """Values at the points of a part; None where the part has none."""
         quantity = self.quantities[key].get(part.surface.medium.name)
         if quantity is None or not part.shows(quantity.field):
             return None
@@ -72,8 +72,8 @@ class Scene:
         return self._range(key)[1]
 
     def visible_factor(self) -> float:
-        """1, 2 or 5 times a power of ten by which the largest displacement is a twentieth of the scene's size; 1 where it is
-        as large by itself, or where there is none."""
+        """1, 2 or 5 times a power of ten by which the largest displacement is a twentieth of the scene's size; 1 where
+        it is as large by itself, or where there is none."""
         if "displacement" not in self.quantities:
             return 1.0
         size = max(float(np.ptp(medium.points, axis=0).max()) for medium in self.meshes.media.values())
@@ -105,7 +105,7 @@ class Scene:
         return found
 
     def shown(self, key: str, cut: bool) -> List[Part]:
-        """Of a section in two dimensions; else the surfaces that have the quantity, or what a cut leaves of them."""
+        """The section in two dimensions; else the surfaces that have the quantity, or what a cut leaves of them."""
         quantity = self.quantities[key]
         fields = {name: q.field for name, q in quantity.items()}
         has = [part for part in self.parts if part.shows(fields.get(part.surface.medium.name, ""))]
@@ -169,9 +169,9 @@ def picture(
     title: str = "",
     size: Tuple[int, int] = PIXELS,
 ) -> "Figure":
-    """The vessel at a time in ms (default: the last) coloured by a field, moved by `factor` times the displacement. `cut`: opened
-    by a plane (default: where the field is of the inside, velocity). `span`: range of colours in `unit`. Raises InputError.
-    """
+    """The vessel at a time in ms (default: the last) coloured by a field, moved by `factor` times the displacement.
+    `cut`: opened by a plane (default: for fields of the inside, as velocity). `span`: colours in `unit`. Raises
+    InputError."""
     key = field or scene.first
     scene.check(key)
     quantity = scene.quantity(key)
@@ -222,7 +222,7 @@ def unit_of(own: str, wanted: Optional[str]) -> Tuple[str, float]:
 
 
 def scale_in(scale: Scale, span: Optional[Sequence[float]], per_own: float) -> Scale:
-    """With a range that was asked for."""
+    """The scale with the range that was asked for, `span` in the unit of the picture."""
     if span is None:
         return scale
     low, high = (end / per_own for end in span)
@@ -232,7 +232,7 @@ def scale_in(scale: Scale, span: Optional[Sequence[float]], per_own: float) -> S
 def framed(
     image: np.ndarray, scale: Scale, per_own: float, words: str, unit: str, title: str, robust: bool
 ) -> "Figure":
-    """With its legend: what the colours mean, and what occurs."""
+    """The picture with its legend: what the colours mean, and what occurs."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
@@ -269,7 +269,7 @@ def framed(
 
 
 def cropped(image: np.ndarray, border: int = 8) -> np.ndarray:
-    """Without the empty rows and columns around it."""
+    """The image without the empty rows and columns around it."""
     rows, columns = np.flatnonzero((image < 255).any(axis=(1, 2))), np.flatnonzero((image < 255).any(axis=(0, 2)))
     if not len(rows):
         return image

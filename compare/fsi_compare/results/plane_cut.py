@@ -21,8 +21,7 @@ class Cut:
 
 
 def cut_by_plane(points: np.ndarray, cells: np.ndarray, origin: np.ndarray, normal: np.ndarray) -> Cut:
-    """Of cells with 4 or 10 nodes; quadratic ones are cut as eight straight ones. A node counts as above the plane when it lies
-    in it."""
+    """Cuts cells with 4 or 10 nodes; quadratic ones as eight straight ones. A node in the plane counts as above it."""
     straight, owner = _straight(cells)
     above = (points - origin) @ normal >= 0
     pattern = above[straight] @ (1 << np.arange(4))

@@ -49,7 +49,7 @@ def _von_mises(values: np.ndarray) -> np.ndarray:
 
 
 def quantities_of(medium: MediumFields) -> List[Quantity]:
-    """Of all fields of a medium, in the order of their names."""
+    """Quantities of all fields of a medium, in the order of their names."""
     return [quantity for field in medium.names for quantity in quantities_of_field(medium, field)]
 
 

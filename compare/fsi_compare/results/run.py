@@ -27,8 +27,8 @@ NOT_WRITTEN = "ask for it in the case, or see summary.json for why it is not the
 
 
 class RunResults:
-    """What a run has left in its folder. Each part is read once, on first use; a part that the run did not write is None.
-    Made by `open_run`."""
+    """What a run has left in its folder. Each part is read once, on first use; a part that the run did not write is
+    None. Made by `open_run`."""
 
     def __init__(self, folder: Path, summary: Dict[str, Any]) -> None:
         self.folder = folder
@@ -50,7 +50,7 @@ class RunResults:
 
     @property
     def title(self) -> str:
-        """Of the case."""
+        """Title of the case."""
         return printable(self.summary.get("title", ""))
 
     @property
@@ -60,7 +60,7 @@ class RunResults:
 
     @property
     def processes(self) -> int:
-        """That solved it together; their seconds, memory and halo are in `summary["per_process"]`."""
+        """Number of processes; their seconds, memory and halo are in `summary["per_process"]`."""
         return int(self.summary.get("processes", 1))
 
     @property
@@ -151,7 +151,7 @@ class RunResults:
 
     @cached_property
     def openings(self) -> Dict[str, Opening]:
-        """By name; empty for a run without fluid."""
+        """Openings by name; empty for a run without fluid."""
         table = self._optional("openings.csv")
         if table is not None:
             return openings_of(table)
@@ -168,13 +168,13 @@ class RunResults:
 
     @cached_property
     def fields(self) -> Dict[str, MediumFields]:
-        """By medium, 'fluid' and 'wall'; empty when the run has written none. Values are read when they are asked for."""
+        """Fields by medium, 'fluid' and 'wall'; empty when the run has written none. Values are read on demand."""
         return read_fields(self.folder)
 
     def surface(self, name: str) -> Surface:
-        """Points, triangles (edges of a two-dimensional mesh) and fields over time of the 'interface', the 'lumen' (all of
-        the fluid's boundary but its openings), the 'openings' or one by its name, the wall's 'inner' and 'outer' side, or a
-        two-dimensional 'fluid section', 'wall section'. Raises InputError for one that is not there."""
+        """Points, triangles (edges of a two-dimensional mesh) and fields over time of the 'interface', the 'lumen' (all
+        of the fluid's boundary but its openings), the 'openings' or one by its name, the wall's 'inner' and 'outer'
+        side, or a two-dimensional 'fluid section', 'wall section'. Raises InputError for one that is not there."""
         return self.meshes.get(name)
 
     @cached_property
@@ -192,20 +192,21 @@ class RunResults:
         span: Optional[Tuple[float, float]] = None,
         view: Optional[str] = None,
     ) -> "Figure":
-        """The vessel coloured by a field as a matplotlib figure: at a time in ms (default: the last), moved by `factor` times the
-        displacement, `cut` open by a plane through its middle or not (default: for the velocity), in 'kPa', 'Pa' or 'mmHg',
-        with the range of colours `span`, seen from 'x', '-x', ... or an opening. Raises InputError."""
+        """The vessel coloured by a field as a matplotlib figure: at a time in ms (default: the last), moved by `factor`
+        times the displacement, `cut` open by a plane through its middle or not (default: for the velocity), in 'kPa',
+        'Pa' or 'mmHg', with the range of colours `span`, seen from 'x', '-x', ... or an opening. Raises InputError."""
         return picture(self.scene, field, time, factor, cut, unit, span, camera_named(self.scene, view), self.label)
 
     @cached_property
     def meshes(self) -> Surfaces:
-        """All surfaces, and cuts by planes. Raises InputError where the run has written no fields, and for fields of another
-        mesh than the run's."""
+        """All surfaces, and cuts by planes. Raises InputError where the run has written no fields, and for fields of
+        another mesh than the run's."""
         self._check_mesh()
         return Surfaces(self.folder, self.fields, self.openings, str(self.summary.get("geometry", "3d")))
 
     def _check_mesh(self) -> None:
-        """A medium that the scene leaves out has no fields: so that the mesh may have more cells than fields.h5, never fewer."""
+        """A medium that the scene leaves out has no fields: the mesh may have more cells than fields.h5, never
+        fewer."""
         mesh = self.summary.get("mesh", {})
         own = mesh.get("tetrahedra", mesh.get("triangles"))
         found = sum(len(medium.cells) for medium in self.fields.values())

@@ -54,8 +54,8 @@ def parts_of(meshes: Surfaces, plane: Optional[CutPlane]) -> List[Part]:
 
 
 def middle_plane(meshes: Surfaces) -> Optional[CutPlane]:
-    """Through the middle of the fluid (without one, of the wall), spanned by the directions in which it spreads most; None in
-    two dimensions."""
+    """Through the middle of the fluid (without one, of the wall), spanned by the directions in which it spreads most;
+    None in two dimensions."""
     if meshes.flat:
         return None
     medium = meshes.media.get("fluid") or next(iter(meshes.media.values()))
@@ -67,13 +67,13 @@ def middle_plane(meshes: Surfaces) -> Optional[CutPlane]:
 
 
 def key_of(medium: str, quantity: Quantity) -> str:
-    """Of a quantity in a scene that has fluid and wall: their pressures are two."""
+    """Key of a quantity in a scene that has fluid and wall: their pressures are two."""
     other = medium == "wall" and quantity.field == "pressure"
     return f"wall_{quantity.key}" if other else quantity.key
 
 
 def scene_quantities(meshes: Surfaces) -> Dict[str, Dict[str, Quantity]]:
-    """By key, then by medium."""
+    """Quantities by key, then by medium."""
     found: Dict[str, Dict[str, Quantity]] = {}
     for name, medium in meshes.media.items():
         for quantity in quantities_of(medium):
@@ -83,17 +83,17 @@ def scene_quantities(meshes: Surfaces) -> Dict[str, Dict[str, Quantity]]:
 
 
 def _idle_component(meshes: Surfaces) -> str:
-    """That vectors of a two-dimensional scene do not have."""
+    """The component that vectors of a two-dimensional scene do not have."""
     return ":y" if meshes.geometry == "axisymmetric" else ":z"
 
 
 def first_quantity(keys: Sequence[str], flat: bool) -> str:
-    """What a reader is shown unless he asks for another."""
+    """The quantity that a reader is shown first."""
     return next((key for key in FIRST[flat] if key in keys), keys[0])
 
 
 def camera_of(meshes: Surfaces, swept: bool = False) -> Camera:
-    """Of two-dimensional scenes straight on, the axis across; swept ones from the side that is left out."""
+    """The usual view: two-dimensional scenes straight on, the axis across; swept ones from the open side."""
     if not meshes.flat:
         medium = meshes.media.get("fluid") or next(iter(meshes.media.values()))
         return best_camera(medium.points)
@@ -105,7 +105,7 @@ def camera_of(meshes: Surfaces, swept: bool = False) -> Camera:
 
 
 def views_of(meshes: Surfaces) -> List[Tuple[str, Camera, Optional[np.ndarray]]]:
-    """Names and directions to look from: the usual one, along the axes, from the openings, of which the third is the middle in
+    """Names, directions to look from (the usual one, along the axes, from the openings), and the middle to look at in
     mm."""
     found: List[Tuple[str, Camera, Optional[np.ndarray]]] = [
         ("section" if meshes.flat else "oblique", camera_of(meshes), None)

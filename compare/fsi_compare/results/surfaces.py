@@ -50,13 +50,13 @@ class Surface:
 
     @property
     def cells(self) -> np.ndarray:
-        """As pyvista.PolyData takes faces, or lines: the number of corners, then their points, for one after the other."""
+        """Numbers of corners and points of each face or edge, one after the other, as pyvista.PolyData takes them."""
         count = np.full((len(self.triangles), 1), self.triangles.shape[1], dtype=np.int64)
         return np.hstack([count, self.triangles]).ravel()
 
     @property
     def names(self) -> List[str]:
-        """Of the fields."""
+        """Names of the fields."""
         return self.medium.names
 
     @property
@@ -69,12 +69,12 @@ class Surface:
         return self.medium.times
 
     def at(self, time: float, field: str) -> np.ndarray:
-        """Values at the points: (points,), (points, 3) or (points, 6); see MediumFields.at. A field of cells comes as the mean
-        of the cells at each node."""
+        """Values at the points: (points,), (points, 3) or (points, 6); see MediumFields.at. A field of cells comes as
+        the mean of the cells at each node."""
         return self.take(self.medium.at(time, field))
 
     def take(self, values: np.ndarray) -> np.ndarray:
-        """Of a field of the medium what lies at the points."""
+        """Values at the points, of a field of the medium."""
         return self._between(at_nodes(self.medium, values))
 
     def _between(self, values: np.ndarray) -> np.ndarray:
@@ -95,7 +95,7 @@ def at_nodes(medium: MediumFields, values: np.ndarray) -> np.ndarray:
 
 
 class Surfaces:
-    """Of one run. Which there are depends on the scene: `names`."""
+    """Surfaces of one run. Which there are depends on the scene: `names`."""
 
     def __init__(
         self, folder: Path, fields: Mapping[str, MediumFields], openings: Mapping[str, Opening], geometry: str
@@ -115,16 +115,16 @@ class Surfaces:
 
     @property
     def names(self) -> List[str]:
-        """That get() knows."""
+        """Names that get() knows."""
         return [*self._boundaries, *(f"{medium} section" for medium in self._fields if self.flat)]
 
     @property
     def openings(self) -> List[str]:
-        """Those that were found on the fluid's boundary."""
+        """Names of the openings that were found on the fluid's boundary."""
         return list(self._parts_of_fluid[1])
 
     def get(self, name: str) -> Surface:
-        """Raises InputError for one that is not there."""
+        """The surface of this name. Raises InputError."""
         if name not in self.names:
             hint = f"did you mean '{nearest(name, self.names)}'? It has {', '.join(self.names)}"
             raise InputError(self._folder, "", f"has no surface '{name}'", hint)
@@ -135,7 +135,7 @@ class Surfaces:
         return made(name, self._fields[which], boundary.straight())
 
     def cut(self, medium: str, origin: np.ndarray, normal: np.ndarray) -> Surface:
-        """Of a three-dimensional medium by a plane, in the reference configuration."""
+        """The cut of a three-dimensional medium by a plane, in the reference configuration."""
         of = self._fields[medium]
         found = cut_by_plane(of.points, of.cells, np.asarray(origin, float), np.asarray(normal, float))
         return Surface(f"{medium} cut", of, found.ends, found.weight, found.triangles)
@@ -194,7 +194,7 @@ class Surfaces:
 
     @cached_property
     def _shared(self) -> Dict[str, np.ndarray]:
-        """Whether each face of a medium is one of the other, too. Nodes there have the same places, to the bit."""
+        """Whether each face of a medium is also one of the other. Nodes there have the same places, to the bit."""
         points = [medium.points for medium in self._fields.values()]
         numbers = np.unique(np.concatenate(points), axis=0, return_inverse=True)[1]
         places = dict(zip(self._fields, np.split(numbers, np.cumsum([len(each) for each in points])[:-1])))
@@ -205,7 +205,7 @@ class Surfaces:
 
 
 def made(name: str, medium: MediumFields, parts: np.ndarray) -> Surface:
-    """Of triangles or edges by nodes of the medium."""
+    """A surface from triangles or edges by nodes of the medium."""
     nodes, local = np.unique(parts, return_inverse=True)
     return Surface(name, medium, np.stack([nodes, nodes], axis=1), np.zeros(len(nodes)), local.reshape(parts.shape))
 

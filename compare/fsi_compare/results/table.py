@@ -58,7 +58,7 @@ class Table(Mapping[str, np.ndarray]):
         return self.units[self._name(name)]
 
     def label(self, name: str) -> str:
-        """What to write beside an axis: 'inlet flow in mm^3/ms'. Raises MissingColumn."""
+        """A label for an axis: 'inlet flow in mm^3/ms'. Raises MissingColumn."""
         name = self._name(name)
         words = split_unit(self._headers[name])[0].replace("_", " ")
         return f"{words} in {self.units[name]}" if self.units[name] else words

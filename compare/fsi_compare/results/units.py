@@ -8,8 +8,8 @@ _FACTOR = re.compile(rf"({'|'.join(SYMBOLS)})([2-9]?)$")
 
 
 def split_unit(header: str) -> Tuple[str, str]:
-    """('inlet_flow', 'mm^3/ms') for 'inlet_flow_mm3_per_ms'; ('step', '') for a column without unit. The longest end that
-    is a unit counts, and something of the name is always left."""
+    """('inlet_flow', 'mm^3/ms') for 'inlet_flow_mm3_per_ms'; ('step', '') for a column without unit. The longest end
+    that is a unit counts, and something of the name is always left."""
     words = header.split("_")
     for first in range(1, len(words)):
         unit = _unit("_".join(words[first:]))

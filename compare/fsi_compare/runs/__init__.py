@@ -1,1 +1,1 @@
-"""Starting the programs and reading what their runs left."""
+"""Reads what runs left in their folders, and compares it."""

@@ -19,7 +19,7 @@ WENT_WRONG = "the run went wrong before this time; look at its run.log"
 
 
 class Columns(Dict[str, np.ndarray]):
-    """Of a file: to ask for one that it lacks is the file's fault, not the program's."""
+    """Columns of a file. Asking for another one is an InputError about the file, not a KeyError of the program."""
 
     def __init__(self, path: Path, columns: Mapping[str, np.ndarray]) -> None:
         super().__init__(columns)
@@ -30,7 +30,7 @@ class Columns(Dict[str, np.ndarray]):
 
 
 def number(field: str) -> float:
-    """Raises ValueError; Python's own underscores between digits are no number in a file."""
+    """Raises ValueError, also for Python's underscores between digits."""
     if "_" in field:
         raise ValueError(field)
     return float(field)
@@ -61,8 +61,8 @@ def read_fields(path: Path, finished: bool = True) -> Dict[str, List[str]]:
 
 
 def numbers(path: Path, name: str, fields: Sequence[str], gaps: bool = True, nan: bool = True) -> np.ndarray:
-    """Of a column; an empty field is NaN. `gaps`: there may be some; `nan`: a field may say so. Raises InputError naming
-    the line."""
+    """Numbers of a column; an empty field is NaN. `gaps`: there may be some; `nan`: a field may say so. Raises
+    InputError naming the line."""
     try:
         found = np.array([float(field) for field in fields])
         if np.all(np.abs(found) <= LARGEST) and "_" not in "".join(fields):

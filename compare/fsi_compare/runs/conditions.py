@@ -1,5 +1,5 @@
-"""On what a run was made, as far as its result folder tells: mesh, time step, length. Runs that differ in these differ in
-their waves for that reason too, whatever else is compared."""
+"""On what a run was made, as far as its result folder tells: mesh, time step, length. Runs that differ in these differ
+in their waves for that reason too, whatever else is compared."""
 
 from dataclasses import dataclass
 from typing import List, Optional, Sequence
@@ -28,7 +28,7 @@ class Conditions:
 
 
 def conditions(run: Run) -> Conditions:
-    """From `summary.json` and the time levels of the pressure; a run of one level began at rest at zero."""
+    """Reads them from `summary.json` and the time levels of the pressure; a run of one level began at rest at zero."""
     mesh = run.summary.get("mesh", {})
     nodes = mesh.get("nodes")
     parts = [printable(mesh.get("name", "")), f"{nodes} nodes" if nodes is not None else ""]

@@ -8,7 +8,7 @@ from .summary import PROGRAMS
 
 
 def coupling_kind(summary: Mapping[str, Any]) -> Optional[str]:
-    """None: it does not say, or one medium is alone."""
+    """`interface`, `block` or `monolithic`; None: the summary does not say, or one medium is alone."""
     kind = summary.get("coupling_kind")
     return printable(kind) if isinstance(kind, str) else None
 
@@ -22,13 +22,13 @@ def chosen_scheme(summary: Mapping[str, Any]) -> Optional[str]:
 
 
 def coupling_words(program: str, summary: Mapping[str, Any]) -> str:
-    """For legends and tables: `monolithic`, `partitioned (interface, iqn-ils)`, as far as the run says it."""
+    """Words for legends and tables: `monolithic`, `partitioned (interface, iqn-ils)`, as far as the summary says it."""
     return PROGRAMS.get(program, program) + _in_brackets(program, summary)
 
 
 def with_coupling(label: str, program: str, summary: Mapping[str, Any]) -> str:
-    """A name of a run that tells no kind, with kind and scheme behind it: `results (interface, iqn-ils)`. A monolithic run has
-    one kind, and keeps its name."""
+    """`label`, which tells no kind of coupling, with kind and scheme behind it: `results (interface, iqn-ils)`. A
+    monolithic run has one kind, and keeps its label."""
     return label + _in_brackets(program, summary)
 
 

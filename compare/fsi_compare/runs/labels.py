@@ -26,7 +26,8 @@ def read_labels(text: Optional[str], runs: int) -> Optional[List[str]]:
 
 
 def default_labels(runs: Sequence[Run]) -> list:
-    """Names that tell the runs apart, as short as that allows: the program with its kind of coupling, then its case or folder beside it."""
+    """Names that tell the runs apart, as short as possible: the program with its coupling, then its case or folder
+    beside it."""
     programs = [coupling_words(run.program, run.summary) for run in runs]
     places = [printable(str(run.folder)) for run in runs]
     choices = (

@@ -53,7 +53,7 @@ class PressureWaves:
         return self.z[0] - tolerance <= z[0] and z[-1] <= self.z[-1] + tolerance
 
     def on(self, z: np.ndarray) -> "PressureWaves":
-        """The same waves at other points, in mm; linear between this run's points. They must be covered."""
+        """The waves at other points, in mm; linear between this run's points, which must cover them."""
         assert self.covers_line(z)
         if np.array_equal(z, self.z):
             return self

@@ -28,7 +28,7 @@ class WaveReference:
 
 
 def read_reference(folder: Path) -> WaveReference:
-    """Raises InputError."""
+    """Reads a kept reference. Raises InputError."""
     path = folder / FILE
     data = read_object(path, REMEDY, REMEDY)
     own, case, step = data.get("own_error"), data.get("case", {}), data.get("step_ms")

@@ -32,8 +32,8 @@ class Samples:
 
 
 def read_samples(path: Path, finished: bool = True) -> Dict[str, Samples]:
-    """The samples of a table by name, in the order in which they come; the whole of a table without a column of names is
-    one sample "". `finished`: of a run that has ended; else what its last level lacks is left out with it. Raises
+    """The samples of a table by name, in the order in which they come; the whole of a table without a column of names
+    is one sample "". `finished`: of a run that has ended; else an incomplete last level is left out. Raises
     InputError naming line and column unless each has the same places at each time."""
     fields = read_fields(path, finished)
     if TIME not in fields:
@@ -66,8 +66,8 @@ def _by_level(path: Path, name: str, columns: Dict[str, np.ndarray], finished: b
 
 
 def requested_line(path: Path) -> Optional[str]:
-    """The line of `lines.csv` along which a vessel's pressure is read: the centre line that was found, else the first that
-    the case asks for with a pressure all along it. None where no line has one. Raises InputError."""
+    """The line of `lines.csv` along which a vessel's pressure is read: the centre line that was found, else the first
+    that the case asks for with a pressure all along it. None where no line has one. Raises InputError."""
     lines = read_samples(path)
     for name, line in sorted(lines.items(), key=lambda entry: entry[0] != CENTRE_LINE):
         pressure = line.values.get("pressure_Pa")
@@ -77,7 +77,7 @@ def requested_line(path: Path) -> Optional[str]:
 
 
 def waves_along(path: Path, name: str) -> PressureWaves:
-    """The pressure along a line of `lines.csv`, its arc length in place of z. Raises InputError when it is not there."""
+    """The pressure along a line of `lines.csv`, its arc length in place of z. Raises InputError when there is none."""
     lines = read_samples(path)
     if name not in lines:
         raise InputError(path, "", f"has no line '{name}'", f"ask for one with [output.lines.{name}] and run it again")
@@ -101,7 +101,7 @@ class Difference:
 
 
 def differences_of_tables(one: Path, other: Path, tables: Tuple[str, ...]) -> List[Difference]:
-    """Of the columns of the samples that two runs have in common, at the same places."""
+    """Differences between the columns of samples that two runs have in common, at the same places."""
     found = []
     for table in tables:
         if not (is_file(one / table) and is_file(other / table)):

@@ -8,16 +8,16 @@ SAME = 1e-6  # of the range: a curve that was prescribed repeats to round-off
 
 
 def sawtooth(values: np.ndarray) -> float:
-    """Largest part of a curve that changes its sign from step to step: (v[n-1] - 2 v[n] + v[n+1])/4 where it alternates with
-    the next of its kind, the smaller of the two."""
+    """Largest part of a curve that changes its sign from step to step: (v[n-1] - 2 v[n] + v[n+1])/4 where it alternates
+    with the next of its kind, the smaller of the two."""
     part = (values[:-2] - 2 * values[1:-1] + values[2:]) / 4
     pairs = np.minimum(np.abs(part[:-1]), np.abs(part[1:]))[part[:-1] * part[1:] < 0]
     return float(pairs.max()) if len(pairs) else 0.0
 
 
 def period_of(times: np.ndarray, flows: Mapping[str, np.ndarray]) -> Optional[float]:
-    """The shortest time in ms after which one of the flows repeats, twice at least; None where none does, or where steps are not
-    equal."""
+    """The shortest time in ms after which a flow repeats, twice at least; None where none does, or for unequal
+    steps."""
     steps = np.diff(times)
     if len(times) < 8 or np.ptp(steps) > 1e-6 * steps.mean():
         return None
@@ -39,7 +39,7 @@ def _repeats(values: np.ndarray) -> int:
 
 
 def cycle_change(times: np.ndarray, values: np.ndarray, period: float) -> float:
-    """Largest difference of the last cycle from the one before, relative to the range of the last."""
+    """Largest difference of the last two cycles, relative to the range of the last."""
     lag = round(period / float(np.diff(times).mean()))
     last, before = values[-lag:], values[-2 * lag : -lag]
     span = float(np.ptp(last))

@@ -90,8 +90,8 @@ SHAPE: Mapping[str, Shape] = {
 
 
 def read_summary(path: Path) -> Dict[str, Any]:
-    """Of a run that reached its end. Only `program` and `status` are demanded; an entry that is null counts as missing.
-    Raises InputError naming the key."""
+    """Reads the summary of a run that reached its end. Only `program` and `status` are demanded; an entry that is null
+    counts as missing. Raises InputError naming the key."""
     summary = read_object(path, FINISHED, AGAIN)
     _require_driver(path, summary.get("program"))
     _require_done(path, summary)
@@ -99,7 +99,7 @@ def read_summary(path: Path) -> Dict[str, Any]:
 
 
 def checked(path: Path, summary: Dict[str, Any]) -> Dict[str, Any]:
-    """What is there, without nulls. Raises InputError for an entry of another kind."""
+    """The entries without nulls. Raises InputError for an entry of another kind."""
     return _checked(path, "", summary, SHAPE)
 
 

@@ -15,7 +15,7 @@ STEP_COLUMNS = ("time_ms", "outer_iterations", "newton_iterations", "linear_iter
 
 @dataclass(frozen=True)
 class KeptBar:
-    """Of a quantity, as it was found."""
+    """The bar of a quantity, as it was found."""
 
     quantity: str
     unit: str
@@ -34,8 +34,8 @@ class Verification:
 
 
 def find_verification(folder: Path, summary: Mapping[str, Any]) -> Optional[Verification]:
-    """Of the run in `folder`: in its own folder or in those around it, the bars that were made for a run of the same
-    `identity`. None where there are none. Raises InputError for a broken file."""
+    """The bars for a run of the same `identity`, looked for in the run's own folder and in those around it. None where
+    there are none. Raises InputError for a broken file."""
     mine: Optional[Dict[str, Optional[str]]] = None
     for path in _candidates(folder):
         data = read_object(path, AGAIN, AGAIN)
@@ -68,9 +68,9 @@ def _fitting(path: Path, data: Dict[str, Any], mine: Mapping[str, Any]) -> Optio
 
 
 def identity(folder: Path, summary: Mapping[str, Any]) -> Dict[str, Optional[str]]:
-    """What a run is recognised by: program, case, mesh, its steps and the iterations of each. The hash of a case holds what is
-    solved, not how: step, end and tolerances are not in it. Newton's and the coupling's iterates are the same from run to
-    run; runs that made equally many of them in each step were stopped at the same ones, whatever their tolerances are
+    """What a run is recognised by: program, case, mesh, its steps and the iterations of each. The hash of a case holds
+    what is solved, not how: step, end and tolerances are not in it. Newton's and the coupling's iterates are the same
+    from run to run; runs with as many of them in each step were stopped at the same ones, whatever their tolerances are
     called. Raises InputError for a broken table."""
     return {
         **{name: summary.get(name) for name in ("program", "version", "case_hash")},
@@ -80,7 +80,7 @@ def identity(folder: Path, summary: Mapping[str, Any]) -> Dict[str, Optional[str
 
 
 def _steps_hash(table: Path) -> Optional[str]:
-    """None: the run has not kept its steps."""
+    """SHA-256 of the steps; None: the run has not kept them."""
     if not is_file(table):
         return None
     fields = read_fields(table)
@@ -89,7 +89,7 @@ def _steps_hash(table: Path) -> Optional[str]:
 
 
 def _same(mine: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
-    """What is not known of either is not the same."""
+    """Whether both agree; what is not known of either does not."""
     return all(value is not None and value == other.get(name) for name, value in mine.items())
 
 

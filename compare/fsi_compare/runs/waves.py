@@ -56,7 +56,7 @@ class Waves:
 
 
 def read_waves(path: Path, column: str) -> Waves:
-    """Of a table of a line. Raises InputError."""
+    """Reads a table of a line. Raises InputError."""
     return Waves(*read_levels(path, column))
 
 

@@ -19,13 +19,13 @@ NOTE_IN_ALL = f"Work units of all steps together. {NOTE}"
 
 
 def per_step(summary: Summary) -> Optional[float]:
-    """Of the steps of the program that wrote the summary, without output; None: it did not measure the unit."""
+    """Work units per step of the program that wrote the summary, without output; None: it did not measure the unit."""
     value = summary.get("totals", {}).get("work_units_per_step")
     return None if value is None else float(value)
 
 
 def in_all(summary: Summary) -> Optional[float]:
-    """Of the same steps together."""
+    """Work units of all steps together; None as in per_step()."""
     each, steps = per_step(summary), summary.get("totals", {}).get("steps")
     if each is None or steps is None:
         return None
@@ -33,16 +33,15 @@ def in_all(summary: Summary) -> Optional[float]:
 
 
 def shown(work: Optional[float]) -> str:
-    """In a table for readers: three digits, without exponent."""
+    """Text for tables: three digits, without exponent."""
     if work is None:
         return ""
     return f"{work:,.0f}" if work >= 100 else f"{work:.3g}"
 
 
 def about_machines(summaries: Sequence[Summary]) -> str:
-    """One sentence without its full stop where the runs were made on machines with several processors, or by several
-    builds of the programs; else nothing. A run of a version that did not say so counts as another build beside one that
-    does."""
+    """A sentence without full stop where the runs were made on machines with several processors, or by several builds
+    of the programs; else empty. A run that does not name its build counts as another build beside one that does."""
     processors = _distinct([_processor(s) for s in summaries])
     builds = _distinct([_build(s) for s in summaries])
     if any("build" in s for s in summaries) and not all("build" in s for s in summaries):
@@ -56,7 +55,7 @@ def about_machines(summaries: Sequence[Summary]) -> str:
 
 
 def _distinct(names: Sequence[str]) -> List[str]:
-    """In the order in which they come, without what is not known."""
+    """The names in the order in which they come, each once, without unknown ones."""
     return list(dict.fromkeys(name for name in names if name))
 
 
@@ -65,7 +64,7 @@ def _processor(summary: Summary) -> str:
 
 
 def _build(summary: Summary) -> str:
-    """Empty where the summary does not tell."""
+    """Name of the build; empty where the summary does not tell."""
     build = summary.get("build", {})
     words = [build.get("compiler", ""), build.get("instruction_set", "")]
     if not any(words):

@@ -1,8 +1,8 @@
 """One study, one folder: while a study works in a folder, no other one can have it.
 
-The lock is that of the C++ programs, which own its rules (common/io/folder_lock.hpp): the process holds the kernel's lock
-(flock) on `run.lock`, and the one line of that file names it. The test compare.folder_lock holds both against each other.
-"""
+The lock is that of the C++ programs, which own its rules (common/io/folder_lock.hpp): the process holds the kernel's
+lock (flock) on `run.lock`, and the one line of that file names it. The test compare.folder_lock holds both against each
+other."""
 
 import errno
 import fcntl
@@ -31,7 +31,7 @@ def locked(folder: Path) -> Iterator[None]:
         yield
     finally:
         if _is_at(handle, path):
-            os.unlink(path)  # before the kernel's lock is given up: whoever waits for it looks again
+            os.unlink(path)  # before the kernel's lock is given up: waiting processes look again
         os.close(handle)
 
 
@@ -56,7 +56,7 @@ def _taken(folder: Path, path: Path) -> int:
 
 
 def _take(handle: int, folder: Path, path: Path, tries: int) -> bool:
-    """One try; False when it is worth another."""
+    """One try; False when another one may succeed."""
     blocked = _is_blocked(handle, folder)
     text = os.pread(handle, 4096, 0).decode("utf-8", "replace")
     holder = text.partition("\n")[0]

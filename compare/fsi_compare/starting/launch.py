@@ -8,13 +8,13 @@ from ..base.errors import InputError
 
 
 def usable_cores() -> int:
-    """That this process may use: fewer than the machine's in a container or a batch job."""
+    """Cores that this process may use: fewer than the machine's in a container or a batch job."""
     return len(os.sched_getaffinity(0))
 
 
 def launched(command: Sequence, processes: int) -> List[str]:
-    """The command line that starts `command` as so many processes; the command itself for one. Raises InputError where
-    there is no mpirun."""
+    """The command that starts `command` as so many processes; itself for one. Raises InputError where there is no
+    mpirun."""
     words = [str(word) for word in command]
     if processes == 1:
         return words
@@ -34,7 +34,7 @@ def launched(command: Sequence, processes: int) -> List[str]:
 
 
 def without_chatter(said: str) -> str:
-    """What programs said, without mpirun's own words, which stand between lines of dashes."""
+    """The output of programs without mpirun's own words, which stand between lines of dashes."""
     kept, inside = [], False
     for line in said.splitlines():
         if len(line) >= 40 and not line.strip("-"):

@@ -57,8 +57,8 @@ def run_jobs(
     tick: Callable[[Sequence[int]], None] = lambda running: None,
 ) -> None:
     """Runs all, calling `ended` after each and `tick` with the keys of those that run, about once a second. When
-    fsi-compare is interrupted or asked to end, so are they, and Interrupted is raised. A program that cannot be started
-    ends with code 1."""
+    fsi-compare is interrupted, it ends them and raises Interrupted. A program that cannot be started ends with code
+    1."""
     running: Dict[int, _Running] = {}
     waiting = iter(jobs)
     with interruption.at_sudden_end(lambda: _kill(running)), _stopped_together(running):
@@ -111,14 +111,14 @@ def _start(job: Job) -> _Running:
 
 
 def _process(command: Sequence, **streams: Any) -> subprocess.Popen:
-    """In a process group of its own: Ctrl-C comes to fsi-compare alone, which passes it on."""
+    """Starts a process in a group of its own: Ctrl-C comes to fsi-compare alone, which passes it on."""
     words = [str(word) for word in command]
     ended_with_us = _die_with(os.getpid())
     return subprocess.Popen(words, stdin=subprocess.DEVNULL, process_group=0, preexec_fn=ended_with_us, **streams)
 
 
 def _die_with(parent: int) -> Callable[[], None]:
-    """In the new process: it is to be killed when fsi-compare is, however that happens."""
+    """A function for the new process, which lets it be killed when fsi-compare is, however that happens."""
 
     def prepare() -> None:
         _libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
@@ -157,8 +157,7 @@ def _kill(running: Dict[int, _Running]) -> None:
 
 @contextmanager
 def _stopped_together(running: Dict[int, _Running]) -> Iterator[None]:
-    """Ctrl-Z stops the programs too, which are in process groups of their own; what a program's time was is then none
-    of it."""
+    """Stops the programs with Ctrl-Z, since they are in groups of their own; the pause does not count as their time."""
     if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTSTP) != signal.SIG_DFL:
         yield
         return
@@ -181,7 +180,7 @@ def _stopped_together(running: Dict[int, _Running]) -> Iterator[None]:
 
 
 def answer(command: Sequence, time_limit: float) -> str:
-    """What a program says on its output. Raises OSError where it cannot be started or gives none in time."""
+    """A program's standard output. Raises OSError where it cannot be started or does not end in time."""
     with os.fdopen(os.memfd_create("output"), "w+b") as said:
         process = _process(command, stdout=said, stderr=subprocess.DEVNULL)
         latest = time.monotonic() + time_limit

@@ -43,8 +43,8 @@ def find_program(name: str, named: Optional[Path] = None, option: str = "--progr
 
 
 def _executable(path: Path, level: Optional[str]) -> Path:
-    """What runs when `path` is called: in a package with builds for several x86-64 levels, the build for the level that
-    it says (packages/start_level.c)."""
+    """The executable behind `path`: in a package with builds for several x86-64 levels, that of the level it reports
+    (packages/start_level.c)."""
     own = Path(os.path.realpath(path))
     build = own.parent / LEVELS / level / own.name if level else own
     return build if is_file(build) else path
@@ -72,7 +72,7 @@ def _beside(program: Path, name: str) -> Optional[Path]:
 
 
 def answer_to(path: Path, option: str) -> str:
-    """What a program prints. Raises InputError where it cannot be started."""
+    """A program's output for an option. Raises InputError where it cannot be started."""
     try:
         return answer([path, option], time_limit=60)
     except (OSError, ValueError, subprocess.SubprocessError) as error:

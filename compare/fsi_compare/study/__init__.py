@@ -1,1 +1,1 @@
-"""Making the runs of a study file, each once, and handing them to the kind of study that evaluates them."""
+"""Makes the runs of a study file, each once, and hands them to the kind of study that evaluates them."""

@@ -1,9 +1,9 @@
 """What a program has of studies: the kinds, by name, and the ready study files.
 
-A kind is a module with `check(study)`, which raises InputError before the first run when the study lacks something, and
+A kind is a module with `check(study)`, which raises InputError before the first run when the study is incomplete, and
 `evaluate(context)`, which fills the report and returns the exit code, 0 where it returns nothing. A kind that runs more
-than the study lists may have `also_runs(study)`, lines for --list, and `also_standing(study, runner)`, how many of those
-are there."""
+than the study lists may have `also_runs(study)`, lines for --list, and `also_standing(study, runner)`, how many of
+those are there."""
 
 import importlib
 import re
@@ -43,7 +43,7 @@ class Catalogue:
         return {path.stem: path for path in sorted(studies, key=lambda path: path.stem)}
 
     def path(self, text: str) -> Path:
-        """Of the study that a user names: a file, or a ready one. Raises InputError."""
+        """The file of the study that a user names: a file, or a ready study. Raises InputError."""
         path, ready = Path(text), self.ready
         if path.suffix == ".toml" or is_file(path):
             return path

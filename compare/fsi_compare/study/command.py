@@ -138,7 +138,7 @@ def make(options: argparse.Namespace, asked: Study, kind: Any, folder: Path, pro
 
 
 def list_ready(options: argparse.Namespace, catalogue: Catalogue) -> int:
-    """Each ready study in a line, with what its default output folder lacks."""
+    """Prints a line for each ready study, with what is still missing in its default output folder."""
     if not options.list:
         raise InputError(
             "", "STUDY", "is missing", f"give a study file, or a ready study: {', '.join(catalogue.ready)}"

@@ -1,5 +1,4 @@
-"""The plain kind: a table of all runs with how they ended and what they took; where there is JavaScript, the runs through
-time."""
+"""The plain kind: a table of all runs with how they ended and what they took; in a browser, the runs through time."""
 
 from ..reporting.player import Player
 from ..reporting.run_player import panels

@@ -23,7 +23,7 @@ def place_of(folder: Path, repetition: int) -> Path:
 
 
 def step_seconds(folder: Path) -> float:
-    """Of the time steps, from summary.json; NaN when there is none."""
+    """Seconds of the time steps, from summary.json; NaN when there is none."""
     try:
         return float(read_summary(folder / FILE)["totals"]["wall_s"])
     except (InputError, KeyError):
@@ -31,7 +31,7 @@ def step_seconds(folder: Path) -> float:
 
 
 def same_results(folders: Sequence[Path]) -> bool:
-    """Whether the repetitions have the first one's files, bit by bit; one that failed may lack them."""
+    """Whether the files of all repetitions equal the first one's, bit by bit; one that failed may have fewer."""
     first = folders[0]
     return all(
         is_file(other / file) and filecmp.cmp(first / file, other / file, shallow=False)

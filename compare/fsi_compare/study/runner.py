@@ -47,7 +47,7 @@ NOT_A_NUMBER = re.compile(r"(?:^|,)\s*[-+]?(?:nan|inf(?:inity)?)\s*(?=$|,)", re.
 
 @dataclass(frozen=True)
 class Standing:
-    """Of the runs that a study lists."""
+    """Number of runs that a study lists, and of those that are there."""
 
     asked: int
     finished: int  # the failed ones too: they are not made again
@@ -79,7 +79,7 @@ class Runner:
         self.builds = [self._taken_up]  # and of what a kind takes up by other means
 
     def run(self, requests: Sequence[Request]) -> List[StudyRun]:
-        """In the order of the requests. The same run asked for twice is made once."""
+        """Makes runs, and returns them in the order of the requests. The same run asked for twice is made once."""
         make_folder(self.folder / "runs")
         keys = [fingerprint(*self._what_decides(r)) for r in requests]
         progress = StudyProgress(self.quiet, self.jobs)
@@ -153,7 +153,7 @@ class Runner:
         )
 
     def _settle(self, key: str, request: Request, places: Sequence[Path]) -> None:
-        """Of all repetitions the median stays, if they had the same results."""
+        """Keeps the median of all repetitions, if they had the same results."""
         run, folder = self._known[key], self._place(key, request)
         record = read_object(folder / RECORD, AGAIN, AGAIN)
         if repeats.same_results([folder, *places]):
@@ -167,12 +167,12 @@ class Runner:
 
     @property
     def machines(self) -> str:
-        """About machines and builds of the finished runs; empty: they are all of one."""
+        """A sentence about machines and builds of the finished runs; empty: they are all of one."""
         return about_machines([run.summary for run in self._known.values() if run.done])
 
     @property
     def warning(self) -> str:
-        """About runs of other builds; empty: there are none."""
+        """A sentence about runs of other builds; empty: there are none."""
         return "; ".join(builds.warning for builds in self.builds if builds.warning)
 
     def _take(self, key: str, run: StudyRun) -> None:
@@ -311,12 +311,12 @@ class Runner:
 
 
 def is_interrupted(code: int) -> bool:
-    """Whether somebody ended the run: that says nothing about it, so that the next call makes it anew."""
+    """Whether the run was ended from outside: that says nothing about it, so that the next call makes it anew."""
     return any(code in (-number, 128 + number) for number in interruption.WATCHED)
 
 
 def recipe(mesh: StudyMesh) -> List[str]:
-    """What decides a mesh: its options, and what is in the scripts and meshes that they name."""
+    """What decides a mesh: its options, and the contents of the scripts and meshes that they name."""
     return [*mesh.options, *contents([mesh.command, *mesh.options])]
 
 
@@ -326,7 +326,7 @@ def write_record(folder: Path, record: Dict[str, Any]) -> None:
 
 
 def remove_runs(folder: Path) -> None:
-    """All runs that a study keeps in `folder`, unfinished ones too, but nothing that another command put there."""
+    """Removes all runs that a study keeps in `folder`, unfinished ones too, but nothing of other commands."""
     for name in listed(folder / "runs"):
         if OWN_PLACE.fullmatch(name):
             remove_tree(folder / "runs" / name)
@@ -390,7 +390,7 @@ def _finite(value: Any) -> bool:
 
 
 def toml_value(value: Any) -> str:
-    """As the drivers read it behind --set key=."""
+    """The value as the drivers read it behind --set key=."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, list):

@@ -11,7 +11,7 @@ LARGEST_NUMBER = 10**15
 
 
 class Section:
-    """`key`: the section's own, e.g. "report.sweeps"; empty: the file itself. All functions raise InputError naming file and
+    """`key`: the section's own, e.g. "report.sweeps"; empty: the file itself. All raise InputError naming file and
     key."""
 
     def __init__(self, path: Path, key: str, entry: Any, known: Sequence[str]) -> None:
@@ -31,7 +31,7 @@ class Section:
         return name in self.entries
 
     def section(self, name: str, known: Sequence[str]) -> "Section":
-        """Empty where it is missing."""
+        """The section of this name, empty where it is missing."""
         return Section(self.path, self.key_of(name), self.entries.get(name, {}), known)
 
     def table(self, name: str, needed: bool = False) -> Mapping[str, Any]:

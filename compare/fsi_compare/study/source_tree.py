@@ -1,5 +1,4 @@
-"""Names of what fsi-compare has in the source tree alone: the studies of this project, compare/research, which are not
-installed."""
+"""Names of what the source tree alone has: the studies of this project, compare/research, which are not installed."""
 
 from pathlib import Path
 from typing import Union

@@ -133,7 +133,7 @@ class Study:
 
 
 def _mesh_of(scene: Optional[Scene], quick: bool) -> Optional[StudyMesh]:
-    """None where the case is no scene."""
+    """The mesh of a scene; None where the case is no scene."""
     return None if scene is None else mesh_of_scene(scene, quick)
 
 
@@ -152,8 +152,8 @@ def show(value: Any) -> str:
 
 
 def read_study(path: Path, kinds: Sequence[str], quick: bool = False) -> Study:
-    """Raises InputError naming the key unless the file is a study that can be run. `quick`: each group in its quick
-    form; groups without one are left out."""
+    """Reads a study file. Raises InputError naming the key unless the study can be run. `quick`: each group in its
+    quick form; groups without one are left out."""
     if not exists(path):
         raise InputError(path, "", "no such study", "give a study file, or the name of a ready one")
     data = read_toml(path, "give a study file, or the name of a ready one", "give a study file")
@@ -182,7 +182,7 @@ def _require_shown(path: Path, key: str, entry: Any) -> None:
 
 @dataclass(frozen=True)
 class _Value:
-    """Of a quantity that a group varies."""
+    """A value of a quantity that a group varies."""
 
     shown: Any
     settings: Mapping[str, Any] = field(default_factory=dict)
@@ -380,7 +380,7 @@ class _Reader:
         return name
 
     def names(self, group: Dict[str, Any], name: str, known: Mapping[str, Any], section: str) -> List[str]:
-        """Of cases or methods: those that a group names, or all."""
+        """Cases or methods: those that a group names, or all."""
         given = group.get(name, list(known))
         if not isinstance(given, list):
             raise self.wrong(f"{section}.{name}", "is not a list of names", "write [a, b, ...]")

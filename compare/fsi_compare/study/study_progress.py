@@ -93,5 +93,6 @@ class StudyProgress:
 
 
 def _positive(value: Any, usual: float) -> float:
-    """What a study sets is for the driver to judge; here it only weighs the work."""
+    """The value if it is a positive number, else the usual one. A study's settings are for the driver to judge; here
+    they only weigh the work."""
     return float(value) if isinstance(value, (int, float)) and 1e-9 < value < 1e9 else usual

@@ -59,7 +59,7 @@ class StudyRun:
 
     @property
     def has_pressure(self) -> bool:
-        """Whether there is such a line. Raises InputError."""
+        """Whether there is a line of pressure. Raises InputError."""
         return has_pressure(self.folder)
 
     def columns(self, file: str) -> Columns:
@@ -71,8 +71,8 @@ class StudyRun:
 
     @property
     def method_label(self) -> str:
-        """As the study names the method; a partitioned one with its kind of coupling, and with its scheme where the study leaves
-        that to the driver: `IQN-ILS, interface`."""
+        """The method's name in the study; behind it the kind of coupling of a partitioned run, and the scheme where the
+        study leaves that to the driver: `IQN-ILS, interface`."""
         method = self.request.method
         if method.program != "fsi-partitioned":
             return method.label
@@ -90,12 +90,12 @@ class StudyRun:
 
     @property
     def work_units_per_step(self) -> Optional[float]:
-        """None: the run did not measure the unit."""
+        """Work units per step; None: the run did not measure the unit."""
         return per_step(self.summary)
 
     @property
     def work_units(self) -> Optional[float]:
-        """Of all time steps."""
+        """Work units of all time steps."""
         return in_all(self.summary)
 
     @property
@@ -107,5 +107,5 @@ class StudyRun:
 
 
 def known(value: float) -> Optional[float]:
-    """None for what is no number."""
+    """The value; None for NaN."""
     return value if value == value else None

@@ -13,7 +13,7 @@ from .vessel import Vessel
 
 
 def given_ends(scene: Scene, curves: Curves, phases: int) -> Dict[str, End]:
-    """Of all openings, as the case has their laws; what the case gives there, as a run shows it."""
+    """Ends of all openings, with the laws of the case; what the case gives there, as a run shows it."""
     found: Dict[str, End] = {}
     for name in curves.names:
         kind = scene.kind(name)
@@ -58,8 +58,7 @@ def shown_by_model(state: State, vessel: Vessel, ends: Mapping[str, End], target
 
 
 def outlets_of(ends: Mapping[str, End]) -> List[str]:
-    """What flow leaves by that nobody gives: laws, and openings free of traction where something else drives the
-    flow."""
+    """Openings by which flow leaves that is not given: laws, and free ones where something else drives the flow."""
     laws = [name for name, end in ends.items() if isinstance(end, Windkessel)]
     if not any(isinstance(end, GivenFlow) for end in ends.values()):
         return laws
@@ -91,7 +90,7 @@ def _shown(
 
 @dataclass(frozen=True)
 class Repetition:
-    """Of the pressure that a Windkessel stores, from the beginning of a beat to its end."""
+    """Pressure that a Windkessel stores at the beginning and at the end of a beat."""
 
     begin: float  # kPa
     end: float  # kPa
@@ -104,15 +103,14 @@ class Repetition:
 
     @property
     def distance(self) -> float:
-        """From there, at the beat's beginning, kPa: it is largest then."""
+        """Distance at the beat's beginning, where it is largest, from the periodic state, kPa."""
         return abs(self.begin - self.periodic)
 
 
 def repetitions(
     curves: Curves, values: Mapping[str, Windkessel], starts: Mapping[str, float], period: float
 ) -> Dict[str, Repetition]:
-    """Of all Windkessels. `starts`: their pressures in kPa at the start, where these are known; else the first
-    level's."""
+    """Repetitions of all Windkessels. `starts`: their pressures in kPa at the start; without them the first level's."""
     found = {}
     for name, law in values.items():
         stored = curves.stored.get(name, np.zeros(1))

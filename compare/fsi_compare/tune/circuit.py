@@ -32,7 +32,7 @@ class GivenPressure:
 
 @dataclass(frozen=True)
 class Windkessel:
-    """With `distal` 0 a resistance."""
+    """The law of an outlet; with `distal` 0 a resistance."""
 
     proximal: float  # kPa ms/mm^3
     compliance: float  # mm^3/kPa

@@ -118,7 +118,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def decided(scene: Scene, demand: Demand) -> List[str]:
-    """What the call does not say, in sentences."""
+    """Sentences on what was decided without the call saying it."""
     lines = [f"tuned: the Windkessels of {', '.join(scene.windkessels)}; a beat takes {scene.period:g} ms"]
     lines.append(f"proximal resistance: {demand.rule.words}; compliance: shared out like the mean flow")
     for target in demand.targets:
@@ -131,7 +131,7 @@ def decided(scene: Scene, demand: Demand) -> List[str]:
 
 
 def _share(option: str, text: str) -> float:
-    """0.02 for 2% and for 0.02. Raises InputError."""
+    """Reads a share: 0.02 for 2% and for 0.02. Raises InputError."""
     try:
         value = float(text[:-1]) / 100 if text.endswith("%") else float(text)
     except ValueError:
@@ -183,7 +183,7 @@ class Beats:
         return path
 
     def run(self, number: int, settings: Mapping[str, Any]) -> Ran:
-        """Raises InputError where the first beat fails, BeatFailed where a later one does."""
+        """Runs one beat. Raises InputError where the first one fails, BeatFailed where a later one does."""
         merged = {"time.end": self.scene.period, **settings}
         request = Request(
             "beats", self.scene.path.stem, self.method, {"beat": number}, self.case, self.mesh, merged, self.limit
@@ -201,7 +201,7 @@ class Beats:
 
 
 def _mesh(scene: Scene, words: Optional[str], mesh_maker: Optional[Path], place: Path) -> Optional[StudyMesh]:
-    """None: the case's own file or level."""
+    """The mesh of the beats; None: the case's own file or level."""
     section = scene.entries.get("mesh", {})
     own = section.get("file") if isinstance(section, dict) else None
     if words is None and (own is None or is_file(scene.path.parent / str(own))):

@@ -12,7 +12,7 @@ LEAD = 0.1  # of a beat, in which what the start at rest leaves dies out: not lo
 
 @dataclass(frozen=True)
 class Curves:
-    """At the levels of a run, all arrays of one length. The state at rest is none of them."""
+    """Values at the levels of a run, all arrays of one length. The state at rest is none of them."""
 
     time: np.ndarray  # ms
     pressure: Mapping[str, np.ndarray]  # kPa, mean over the opening
@@ -43,12 +43,11 @@ def curves_of(openings: Mapping[str, Opening]) -> Curves:
 
 
 def over_period(time: np.ndarray, values: np.ndarray, period: float, count: int) -> np.ndarray:
-    """At `count` equal phases from 0 on, linear in between. What a beat begins with is taken to be what it ends
-    with."""
+    """Values at `count` equal phases from 0 on, linear in between. A beat is taken to begin with its last value."""
     phases = np.arange(count) * period / count
     return np.interp(phases, time, values, period=period)
 
 
 def mean(time: np.ndarray, values: np.ndarray, period: float) -> float:
-    """Over one period, by the trapezoidal rule; before the first level that level's value holds."""
+    """The mean over one period, by the trapezoidal rule; before the first level that level's value holds."""
     return float(np.trapz(np.append(values[0], values), np.append(0.0, time)) / period)

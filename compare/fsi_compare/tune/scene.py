@@ -1,4 +1,4 @@
-"""What of a case file the tuning goes by: its openings, their Windkessels, the period."""
+"""What the tuning needs of a case file: its openings, their Windkessels, the period."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -34,7 +34,7 @@ class Scene:
         return next((law for law in LAWS if law in self.openings.get(opening, {})), "")
 
     def law(self, opening: str) -> Windkessel:
-        """Of a resistance or Windkessel, as the case has it."""
+        """The law of an opening, a resistance or Windkessel, as the case has it."""
         section = self.openings[opening]
         if WINDKESSEL not in section:
             return Windkessel(float(section["resistance"]), 1.0, 0.0, float(section.get("distal_pressure", 0.0)))
@@ -43,7 +43,7 @@ class Scene:
 
 
 def read_scene(path: Path, entries: Mapping[str, Any]) -> Scene:
-    """What the drivers check is left to them. Raises InputError."""
+    """Reads the openings of a case. What the drivers check is left to them. Raises InputError."""
     if "network" in entries:
         problem = "what is tuned are the Windkessels of [[opening]], not a network"
         raise InputError(
@@ -94,7 +94,7 @@ def _is_number(value: Any) -> bool:
 
 
 def checked_targets(scene: Scene, targets: Sequence[Target]) -> List[Target]:
-    """With the share that is left for an outlet that none is named for. Raises InputError."""
+    """The targets, with the remaining share for an outlet without a target. Raises InputError."""
     for target in targets:
         if target.opening not in scene.openings:
             raise InputError(

@@ -24,7 +24,7 @@ DIGITS = 6  # of the values that a case gets
 
 @dataclass(frozen=True)
 class Rule:
-    """Of proximal resistances."""
+    """Rule for proximal resistances."""
 
     share: Optional[float]  # of an outlet's whole; None: the case's values stay
 
@@ -96,8 +96,7 @@ class Solution:
 
 
 def solved(model: Model, targets: Sequence[Target], rule: Rule, correction: np.ndarray) -> Solution:
-    """`correction`: what a run shows beyond the model, (targets,). The nearest there is where the targets cannot be
-    met."""
+    """`correction`: what a run shows beyond the model, (targets,). The nearest values where targets cannot be met."""
     unknowns = Unknowns(model, targets, rule)
     asked = np.array([target.value for target in targets])
 
@@ -137,7 +136,7 @@ def _steps(count: int) -> List[np.ndarray]:
 
 
 def rounded(law: Windkessel) -> Windkessel:
-    """To the digits that a case file gets, so that a beat and the case are the same."""
+    """The law with the digits that a case file gets, so that a beat and the case are the same."""
     proximal, compliance, distal = (
         float(f"{value:.{DIGITS}g}") for value in (law.proximal, law.compliance, law.distal)
     )

@@ -17,7 +17,7 @@ from .tuning import Beat, Demand, Outcome
 
 @dataclass(frozen=True)
 class Found:
-    """Of one target in one beat."""
+    """A target in one beat."""
 
     beat: int
     target: Target
@@ -31,7 +31,7 @@ class Found:
 
 @dataclass(frozen=True)
 class Value:
-    """Of one outlet in one beat."""
+    """An outlet in one beat."""
 
     beat: Beat
     outlet: str

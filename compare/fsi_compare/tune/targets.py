@@ -142,7 +142,7 @@ def _kpa(word: _Word, number: str, unit: str) -> float:
 
 
 def _require_one_kind(targets: Sequence[Target]) -> None:
-    """Not more than there are numbers to find."""
+    """Refuses shares beside flows, and pressures other than a mean one or a diastolic with a systolic one."""
     if any(t.kind == SPLIT for t in targets) and any(t.kind == FLOW for t in targets):
         raise InputError("", "--split, --flow", "both are given", "give shares or flows, not both")
     pressures = sorted(t.kind for t in targets if t.is_pressure)

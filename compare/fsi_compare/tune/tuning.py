@@ -14,7 +14,7 @@ from .solving import DIGITS, Model, Rule, reachable_pulse, solved
 from .targets import FLOW, SYSTOLIC, Target
 from .vessel import Vessel, fitted_vessel
 
-NEAR = 0.01  # of the pressure: beats that begin further from periodic say nothing of what the model lacks
+NEAR = 0.01  # of the pressure: beats that begin further from periodic say nothing of the model's error
 FEWEST_LEVELS = 16  # behind the lead of a beat
 
 
@@ -73,7 +73,7 @@ RunBeat = Callable[[int, Mapping[str, Any]], Ran]  # number and entries over the
 
 
 def tune(scene: Scene, demand: Demand, run_beat: RunBeat, tell: Callable[[str], None]) -> Outcome:
-    """Raises InputError where a beat cannot be looked at."""
+    """Runs beats until one shows what is asked for. Raises InputError where a beat cannot be looked at."""
     outcome = Outcome()
     case = {name: scene.law(name) for name in scene.windkessels}
     values, starts = case, _starts_of_case(scene)
@@ -118,7 +118,7 @@ def tune(scene: Scene, demand: Demand, run_beat: RunBeat, tell: Callable[[str], 
 
 
 def _starts_of_case(scene: Scene) -> Dict[str, float]:
-    """Those that the case gives; with a lumped start the driver finds them."""
+    """Pressures that the case gives at the start; with a lumped start the driver finds them."""
     if scene.entries["time"].get("start") == "lumped":
         return {}
     return {n: float(scene.openings[n][WINDKESSEL].get("initial_pressure", 0.0)) for n in scene.windkessels}

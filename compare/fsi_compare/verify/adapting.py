@@ -1,9 +1,8 @@
-"""Meshes of `verify --adapt`: each is made by `fsi-mesh adapt` from the error indicator of the run on the one before.
+"""Meshes of `verify --adapt`: each is made by `fsi-mesh adapt` from the error indicator of the run on its predecessor.
 
-Their sizes are counted by their nodes: a mesh of N ratio^d nodes, d the dimension, is finer by the ratio than one of N, and as fine
-as a uniform one of as many. Where the elements of a uniform mesh converge with h^p, those of adapted ones do with N^(-p/d), also where
-the solution has kinks that would cost the uniform one its order.
-"""
+Their sizes are counted by their nodes: a mesh of N ratio^d nodes, d the dimension, is finer by the ratio than one of N,
+and as fine as a uniform one of as many. Where the elements of a uniform mesh converge with h^p, those of adapted ones
+do with N^(-p/d), also where the solution has kinks that would cost the uniform one its order."""
 
 import math
 from dataclasses import dataclass, field
@@ -24,7 +23,7 @@ REMEDY = "give a gmsh mesh of format 4.1 or 2.2"
 
 @dataclass(frozen=True)
 class Adapted(Recipe):
-    """Of the meshes of a case whose own mesh is made by `base`."""
+    """Recipe for the adapted meshes of a case whose own mesh is made by `base`."""
 
     base: Recipe = None  # type: ignore[assignment]
     dimension: int = 3
@@ -45,14 +44,15 @@ class Adapted(Recipe):
 
     @property
     def remakes(self) -> bool:
-        """Whether the script's shape is meshed anew; else cells are halved. A background field does not change counts of cells."""
+        """Whether the script's shape is meshed anew; else cells are halved. A background field changes no counts of
+        cells."""
         return self.base.geo is not None and not self.base.geo.counts
 
     def level(self, mesh: float) -> int:
         return round(-math.log(mesh) / math.log(RATIO))
 
     def mesh(self, factor: float, folder: Path, case: str) -> Optional[StudyMesh]:
-        """Raises InputError where the run that it is made from is missing."""
+        """The mesh of a level. Raises InputError where the run that it is made from is missing."""
         level = self.level(1 / factor)
         if level == 0:
             return self.base.mesh(1, folder, case)
@@ -84,13 +84,13 @@ def about_adapted(recipe: Adapted) -> str:
 
 
 def adapting_member(recipe: Adapted, runs: Mapping[Member, StudyRun], level: int) -> Member:
-    """Whose indicator makes the mesh of the next level."""
+    """The member whose indicator makes the mesh of the next level."""
     plain = (m for m in runs if m.step == 1 and not (m.looser or m.other) and recipe.level(m.mesh) == level)
     return next(plain, Member(round(RATIO**-level, 9), 1.0))
 
 
 def nodes_of(mesh: Path) -> int:
-    """Of a mesh file of gmsh, text or binary. Raises InputError."""
+    """Number of nodes in a mesh file of gmsh, text or binary. Raises InputError."""
     data = read_bytes(mesh, "make the mesh", REMEDY)
     try:
         version, kind, size = data[data.index(b"$MeshFormat") :].split(b"\n", 2)[1].split()[:3]

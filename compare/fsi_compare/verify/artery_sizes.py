@@ -31,7 +31,7 @@ def keeps_short_waves(entries: Mapping[str, Any]) -> bool:
 
 
 def waves_of(entries: Mapping[str, Any]) -> str:
-    """That mesh.error of a case is for: "damped" or "resolved"."""
+    """Waves that mesh.error of a case is for: "damped" or "resolved"."""
     return str(entries.get("mesh", {}).get("waves") or ("resolved" if keeps_short_waves(entries) else "damped"))
 
 
@@ -42,7 +42,7 @@ def cells_of(words: Sequence[str]) -> List[float]:
 
 
 def options_of(words: Sequence[str]) -> Dict[str, str]:
-    """Of --name value and --name=value; a flag has an empty value."""
+    """Options by name, of --name value and --name=value; a flag has an empty value."""
     found: Dict[str, str] = {}
     for i, word in enumerate(words):
         if word.startswith("--"):
@@ -53,7 +53,7 @@ def options_of(words: Sequence[str]) -> Dict[str, str]:
 
 
 def with_numbers(words: List[str], mesh_maker: Path) -> List[str]:
-    """In the place of a recommended mesh the numbers of cells that fsi-mesh says it has."""
+    """The words with the numbers of cells that fsi-mesh reports in the place of a recommended mesh."""
     options = options_of(words)
     if "--for" not in options:
         return words

@@ -1,4 +1,4 @@
-"""Which words of a mesh's commands make it finer by a factor, where each command takes the file of the one before
+"""Which words of a mesh's commands make it finer by a factor, where each command takes the file of its predecessor
 (gallery/mesh_chain.py):
 
 | command | divided by the factor | multiplied by it |
@@ -8,9 +8,8 @@
 | `thicken` | - | elements of each layer |
 | a script in Python, `refine` | - | - |
 
-All else says what the vessel is, and stays: its surface, openings, cuts and extensions, the thickness of its wall, that of all layers
-of thin cells together. Passes of smoothing stay, too: what they change vanishes with the elements.
-"""
+All else says what the vessel is, and stays: its surface, openings, cuts and extensions, the thickness of its wall, that
+of all layers of thin cells together. Passes of smoothing stay, too: what they change vanishes with the elements."""
 
 import math
 import re
@@ -34,7 +33,7 @@ class Command:
 
     @property
     def counts(self) -> List[float]:
-        """Of elements, which must stay whole and can become fewer."""
+        """Numbers of elements, which must stay whole and can become fewer."""
         return []
 
     @property
@@ -66,8 +65,7 @@ class Lumen(Command):
         return with_values(self.words, changed)
 
     def _layers(self, factor: float) -> Dict[str, str]:
-        """n layers, the first t thick and each g times the one before, are t (g^n - 1) / (g - 1) thick together. That and g^n
-        stay."""
+        """n layers, the first t thick and each g times its neighbour: t (g^n - 1)/(g - 1) in all. That and g^n stay."""
         given = value_of(self.words, "--layers")
         if given is None:
             return {}
@@ -114,8 +112,7 @@ def times(number: int, factor: float) -> int:
 
 
 def sized(words: Sequence[str], source: str) -> Command:
-    """A command other than `geo`. `source`: who names the words. Raises InputError where it has no sizes though it decides
-    them."""
+    """A command other than `geo`; `source` of its words. Raises InputError where it decides sizes but has none."""
     name = words[0]
     if name == "lumen":
         return _lumen(words, source)
@@ -163,12 +160,12 @@ def apart(words: Sequence[str]) -> List[str]:
 
 
 def value_of(words: Sequence[str], name: str) -> Optional[str]:
-    """None: the option is not given."""
+    """An option's value; None: it is not given."""
     return next((value for word, value in zip(words, [*words[1:], ""]) if word == name), None)
 
 
 def with_values(words: Sequence[str], values: Mapping[str, str]) -> List[str]:
-    """In the place of those that are given; others behind."""
+    """The words with these values in the place of given ones, others behind."""
     found = list(words)
     for name, value in values.items():
         if name in found:
@@ -179,7 +176,7 @@ def with_values(words: Sequence[str], values: Mapping[str, str]) -> List[str]:
 
 
 def layer_places(words: Sequence[str]) -> List[int]:
-    """Of the values of --layer, which takes several."""
+    """Places of the values of --layer, which takes several."""
     found, inside = [], False
     for place, word in enumerate(words):
         if word.startswith("--"):

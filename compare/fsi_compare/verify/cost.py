@@ -2,8 +2,8 @@
 
     seconds = start + c h^-alpha (steps)^1,    memory = m0 + m1 h^-beta
 
-start, of the program itself, does not grow. alpha is fitted to the members of several meshes; of too few it is a usual one, of
-quadratic elements that of a sparse factorisation."""
+start, of the program itself, does not grow. alpha is fitted to the members of several meshes; of too few it is a usual
+one, of quadratic elements that of a sparse factorisation."""
 
 from dataclasses import dataclass
 from typing import Mapping, Optional, Sequence
@@ -21,7 +21,7 @@ RANGE = {2: (1.5, 3.6), 3: (2.5, 6.5)}  # what a fit is held within
 
 @dataclass(frozen=True)
 class Costs:
-    """At sizes of elements and steps relative to the user's own."""
+    """Seconds and memory at sizes of elements and steps relative to the user's own."""
 
     seconds_own: float
     power: float
@@ -38,7 +38,7 @@ class Costs:
 
 
 def learn(runs: Mapping[Member, StudyRun], dimension: int, element: str = "p2p1") -> Optional[Costs]:
-    """None where no member has run."""
+    """Fits costs to the runs; None where no member has run."""
     done = {member: run for member, run in runs.items() if run.done and not member.looser and run.seconds > 0}
     if not done:
         return None
@@ -54,7 +54,7 @@ def learn(runs: Mapping[Member, StudyRun], dimension: int, element: str = "p2p1"
     memory = {m: float(r.summary.get("peak_memory_MiB", 0.0)) for m, r in done.items()}
     of_mesh = {1 / m.mesh: value for m, value in memory.items() if value > 0}
     memory_power = _slope(of_mesh, power * 0.8, 0.0, high)
-    base = max(done, key=lambda m: seconds[m])  # the dearest tells most
+    base = max(done, key=lambda m: seconds[m])  # the longest run tells most
     seconds_own = seconds[base] * base.mesh**power * base.step**step_power
     widest = min(memory, key=lambda m: m.mesh)
     return Costs(seconds_own, power, memory[widest] * widest.mesh**memory_power, memory_power, step_power, start)
@@ -67,12 +67,12 @@ def _start(run: StudyRun) -> float:
 
 
 def _dearest(lines: Sequence[Mapping[float, float]]) -> Mapping[float, float]:
-    """Of those with two members at least that of the longest run."""
+    """The line of the longest run, of those with two members at least."""
     return max((line for line in lines if len(line) > 1), key=lambda line: max(line.values()), default={})
 
 
 def _slope(points: Mapping[float, float], usual: float, low: float, high: float) -> float:
-    """Of the logarithms, by the two dearest: a start-up time flattens the cheap end."""
+    """Slope of the logarithms, by the two longest: a start-up time flattens the cheap end."""
     if len(points) < 2:
         return usual
     (x0, y0), (x1, y1) = sorted(points.items())[-2:]

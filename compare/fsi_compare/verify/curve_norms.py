@@ -1,4 +1,5 @@
-"""How far curves and lines of two members are apart: as a whole, at one time, in the mean square and where it is largest.
+"""How far curves and lines of two members are apart: as a whole, at one time, in the mean square and where it is
+largest.
 
     ||y||^2 = (1/T) (1/L) integral of y^2 over time and line,    |y| = the largest value at any level and point
 
@@ -16,7 +17,7 @@ SAME_LEVEL = 1e-6  # of a step
 
 @dataclass(frozen=True)
 class Stretch:
-    """What of a curve is compared, and how."""
+    """Which part of a curve is compared, and how."""
 
     largest: bool  # the largest difference, at any level and point; else the mean square
     time: Optional[float] = None  # ms, along the line then; None: at all levels
@@ -24,7 +25,7 @@ class Stretch:
 
 @dataclass(frozen=True)
 class CurveNorm:
-    """Of differences of curves, (levels * points,); NaN: one of them has no level there."""
+    """Norms of differences of curves, (levels * points,); NaN: one of them has no level there."""
 
     weights: np.ndarray
     largest: bool
@@ -61,8 +62,8 @@ def norm_on(times: np.ndarray, s: np.ndarray, stretch: Stretch) -> CurveNorm:
 def stretch_of(
     times: np.ndarray, s: np.ndarray, values: np.ndarray, of: "Tuple[np.ndarray, np.ndarray]", at: Stretch
 ) -> np.ndarray:
-    """`values`, (levels, points), at the levels and points `of` another curve, (levels * points,). Levels that lie between
-    this curve's own stay NaN: straight lines between them would be an error of their own."""
+    """`values`, (levels, points), at the levels and points `of` another curve, (levels * points,). Levels that lie
+    between this curve's own stay NaN: straight lines between them would be an error of their own."""
     levels, points = of
     if at.time is not None:
         row = np.array([np.interp(at.time, times, column) for column in values.T])

@@ -1,8 +1,8 @@
 """Which sizes of elements and steps reach a demanded error at the lowest cost, as far as the family tells.
 
-The bars of the family fall with their orders, its seconds grow with theirs (cost.py). Of all pairs of sizes on a grid whose
-widest predicted bar is within the demand, the cheapest is taken. The family then moves there: a prediction is no bar.
-"""
+The bars of the family fall with their orders, its seconds grow with theirs (cost.py). Of all pairs of sizes on a grid
+whose widest predicted bar is within the demand, the cheapest is taken. The family then moves there: a prediction is no
+bar."""
 
 from dataclasses import dataclass, replace
 from typing import List, Optional, Sequence
@@ -34,14 +34,14 @@ class Settings:
 
 
 def widest(judged: Sequence[Judged], mesh: float = 1.0, step: float = 1.0) -> float:
-    """Of the quantities that have a bar, relative."""
+    """The widest bar of those that are given, relative."""
     return max((one.bar.at(mesh, step) / one.bar.scale for one in judged if one.bar.given), default=0.0)
 
 
 def cheapest(
     judged: Sequence[Judged], costs: Costs, demand: float, ratio: float, static: bool, coarsens: bool
 ) -> Optional[Settings]:
-    """None: no pair on the grid is predicted to reach it."""
+    """The cheapest pair of sizes that is predicted to reach the demand; None: no pair on the grid is."""
     best: Optional[Settings] = None
     steps = [1.0] if static else [2.0**-k for k in range(STEPS_COARSEST, STEPS_FINEST + 1)]
     for power in range(COARSEST if coarsens else 0, FINEST + 1):
@@ -57,7 +57,7 @@ def cheapest(
 
 
 def tolerance_factor(judged: Sequence[Judged], demand: float) -> float:
-    """By which the solver's tolerances may change so that it has SOLVER_SHARE of the demanded error."""
+    """Factor by which the solver's tolerances may change so that it has SOLVER_SHARE of the demanded error."""
     solver = max((one.bar.solver / one.bar.scale for one in judged if one.bar.given), default=0.0)
     least, most = TOLERANCES
     factor = most if solver <= 0 else min(most, max(least, SOLVER_SHARE * demand / solver))
@@ -65,8 +65,8 @@ def tolerance_factor(judged: Sequence[Judged], demand: float) -> float:
 
 
 def shown_by(one: Judged, curve: Curve) -> Judged:
-    """The bar of another run, coarser than the family's centre or solved otherwise: that of the centre, and how far the two
-    are apart. Mesh and step share the distance as they share the bar."""
+    """The bar of another run, coarser than the family's centre or solved otherwise: that of the centre, and how far the
+    two are apart. Mesh and step share the distance as they share the bar."""
     bar, value, apart = one.bar, one.quantity.of(curve), one.apart(curve)
     share = bar.mesh.bar / (bar.mesh.bar + bar.step.bar) if bar.mesh.bar + bar.step.bar > 0 else 1.0
     mesh = replace(bar.mesh, bar=bar.mesh.bar + share * apart)
@@ -79,12 +79,12 @@ def reached(judged: Sequence[Judged], demand: float) -> bool:
 
 
 def outside(judged: Sequence[Judged]) -> List[Judged]:
-    """Those without a bar."""
+    """Quantities without a bar."""
     return [one for one in judged if not one.bar.given]
 
 
 def refinable(judged: Sequence[Judged]) -> List[Judged]:
-    """Those without a bar that may get one by refinement: no mesh makes one line of several."""
+    """Quantities without a bar that may get one by refinement: no mesh makes one line of several."""
     return [one for one in outside(judged) if "mesh" in one.bar.advice or "step" in one.bar.advice]
 
 

@@ -1,14 +1,14 @@
 """The error of one value in one thing that is refined, mesh or step, from three or more members of a family.
 
-With y(h) = y0 + a h^p the differences of successive members give p (accuracy's observed order, [Celik2008]). What the finest
-member still lacks is then e = d / (r^p - 1), d the last difference and r the ratio of its sizes. The bar of the user's own
-member is what is known to be wrong, its difference from the finest, and FACTOR times what is not known, e:
+With y(h) = y0 + a h^p the differences of successive members give p (accuracy's observed order, [Celik2008]). The
+error of the finest member is then e = d / (r^p - 1), d the last difference and r the ratio of its sizes. The bar of the
+user's own member is what is known to be wrong, its difference from the finest, and FACTOR times what is not known, e:
 
     bar = |y(1) - y(finest)| + FACTOR |e|.
 
-A sequence that swings is not extrapolated, neither is one whose differences do not fall. Of curves the differences are norms: they
-cannot cancel, and what one member moves where another does not is in them, too. See docs/guide/accuracy.md#verify.
-"""
+A sequence that swings is not extrapolated, neither is one whose differences do not fall. Of curves the differences are
+norms: they cannot cancel, and what one member moves where another does not is in them, too. See
+docs/guide/accuracy.md#verify."""
 
 import functools
 from dataclasses import dataclass, replace
@@ -31,7 +31,7 @@ TOO_FAST = 2.0  # times the order of theory: differences that fall faster do so 
 
 @dataclass(frozen=True)
 class Part:
-    """Of the error of a value at size 1, and at others by `share`."""
+    """Bar of a value at size 1, for its error in one direction, and at other sizes by `share`."""
 
     state: str  # AS_EXPECTED, WIDENED, OUTSIDE or SILENT
     bar: float  # in the value's unit
@@ -53,9 +53,9 @@ def part_of(
     sizes: Sequence[float], values: Sequence[float], expected: float, noise: float, curve: Optional[Part] = None
 ) -> Part:
     """`sizes` relative to the user's own, which is 1 and among them; `expected`: the order of elements or scheme;
-    `noise`: what differences may be by chance, of the solver or of a mesh's making. `curve`: the part of the curve that the
-    values are norms of. A norm can fall faster than its curve converges, while the curve moves without growing: it is
-    extrapolated by no larger order than the curve, and not at all where the curve's differences do not fall."""
+    `noise`: what differences may be by chance, of the solver or of a mesh's making. `curve`: the part of the curve that
+    the values are norms of. A norm can fall faster than its curve converges, while the curve moves without growing: it
+    is extrapolated by no larger order than the curve, and not at all where the curve's differences do not fall."""
     order = np.argsort(-np.asarray(sizes, dtype=float))
     x, y = np.asarray(sizes, dtype=float)[order], np.asarray(values, dtype=float)[order]
     steps = y[:-1] - y[1:]
@@ -80,8 +80,8 @@ def part_of(
 def part_of_curves(
     sizes: Sequence[float], curves: Sequence[np.ndarray], expected: float, noise: float, norm: CurveNorm
 ) -> Part:
-    """Like part_of() for whole curves, (levels * points,): the sum of the norms of the differences from each member to the finest
-    one is a sequence that falls, and whose order is that of the curve."""
+    """Like part_of() for whole curves, (levels * points,): the sum of the norms of the differences from each member to
+    the finest one is a sequence that falls, and whose order is that of the curve."""
     order = np.argsort(-np.asarray(sizes, dtype=float))
     x, y = np.asarray(sizes, dtype=float)[order], [curves[i] for i in order]
     if len(x) < 2 or np.any(x[:-1] <= x[1:]):
@@ -108,10 +108,10 @@ def part_of_curves(
 def by_elements(
     own: Any, other: Any, finer: Optional[Any], own_is_linear: bool, noise: float, norm: Callable[[Any], float] = abs
 ) -> Part:
-    """Of a mesh with too few others, by both elements on it. The quadratic element's error is taken to be at most half of the
-    linear one's (the saturation assumption of hierarchical estimates, [Bank1993]): of their difference d a linear result
-    may then be off by 2 d and a quadratic one by d. Where a linear result on a finer mesh is known it must be nearer to the
-    quadratic one."""
+    """The part of a mesh with too few others, by both elements on it. The quadratic element's error is taken to be at
+    most half of the linear one's (the saturation assumption of hierarchical estimates, [Bank1993]): of their difference
+    d a linear result may then be off by 2 d and a quadratic one by d. A known linear result on a finer mesh must be
+    nearer to the quadratic one."""
     apart = norm(own - other)
     if finer is not None and own_is_linear and norm(finer - other) > max(apart, noise):
         return Part(OUTSIDE, SWING * norm(finer - other))
@@ -149,7 +149,7 @@ def _of_monotone(
 
 
 def _promised(x: np.ndarray, y: np.ndarray, expected: float) -> float:
-    """The last difference that the one before and the order of theory promise."""
+    """The last difference as expected from its predecessor and the order of theory."""
     before = x[-3] ** expected - x[-2] ** expected
     return abs(float(y[-3] - y[-2])) * float((x[-2] ** expected - x[-1] ** expected) / before)
 
@@ -185,7 +185,7 @@ def fit(x: np.ndarray, y: np.ndarray, order: float) -> Tuple[np.ndarray, float]:
 
 @functools.lru_cache(maxsize=4096)  # orders are tried for every quantity of a family, whose members are the same
 def _equations(x_bytes: bytes, order: float) -> Tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Of fit(): weights, columns, roots of the weights, weighted columns; not to be changed."""
+    """Arrays for fit(), not to be changed: weights, columns, roots of the weights, weighted columns."""
     x = np.frombuffer(x_bytes)
     weights = 1.0 / x
     weights = weights / weights.sum()

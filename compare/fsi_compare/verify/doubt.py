@@ -14,10 +14,10 @@ PER_INTERVAL = 4  # steps within an interval of a table, below which its kinks a
 
 
 def doubt(quantity: Quantity, curves: Sequence[Curve], facts: CaseFacts) -> str:
-    """What to do about it; empty: nothing forbids a bar. `curves`: that of the quantity in each member.
+    """What to do so that a bar can be given; empty: nothing forbids one. `curves`: that of the quantity in each member.
 
-    A pressure answers the derivative of a given flow, which jumps at the points of its table. Steps about as long as the
-    table's intervals see the mean of each interval, and halves of them the same."""
+    A pressure follows the derivative of a given flow, which jumps at the points of its table. Steps about as long as
+    the table's intervals see the mean of each interval, and halves of them the same."""
     if is_another_line(curves):
         return "the line is another one in each member: give a line with ends in [output.lines.NAME]"
     interval = facts.flow_interval
@@ -30,7 +30,7 @@ def doubt(quantity: Quantity, curves: Sequence[Curve], facts: CaseFacts) -> str:
 
 
 def step_within(facts: CaseFacts) -> Optional[float]:
-    """Steps relative to the case's that are short enough for the table of its flow; None: it has none, or no steps of its own."""
+    """Steps, relative to the case's, that resolve the table of its flow; None: it has none, or no steps of its own."""
     if not facts.flow_interval or facts.adaptive or facts.static:
         return None
     return facts.flow_interval / PER_INTERVAL / facts.step

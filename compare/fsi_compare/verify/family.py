@@ -28,7 +28,7 @@ GIVE = "give a case file that a driver runs"
 
 @dataclass(frozen=True)
 class CaseFacts:
-    """What of a case file decides its family."""
+    """What in a case file decides its family."""
 
     path: Path
     entries: Mapping[str, Any]
@@ -43,7 +43,7 @@ class CaseFacts:
 
     @property
     def time_order(self) -> float:
-        """Of the error in the size of steps. Adaptive ones are counted by the root of their tolerance."""
+        """Order of the error in the size of steps. Adaptive ones are counted by the root of their tolerance."""
         return ORDERS.get(self.scheme, 2.0)
 
     def space_order(self, is_pressure: bool) -> float:
@@ -123,8 +123,8 @@ def read_case(path: Path, settings: Mapping[str, Any] = MappingProxyType({})) ->
 
 
 def _flow_interval(case: Path, openings: Any) -> Optional[float]:
-    """The smallest of all tables of flow rates, each by the median of its intervals; None: no table, or none that can be
-    read here, which the driver then says."""
+    """The smallest of all tables of flow rates, each by the median of its intervals; None: no table, or none that can
+    be read here, which the driver then says."""
     found = []
     for opening in openings if isinstance(openings, list) else []:
         table = opening.get("flow_rate") if isinstance(opening, dict) else None
@@ -141,13 +141,13 @@ def _flow_interval(case: Path, openings: Any) -> Optional[float]:
 
 
 def mesh_ratio(recipe: Recipe, levels: int, finer: bool) -> float:
-    """Between the meshes of members()."""
+    """Ratio between the meshes of members()."""
     below = -1 if finer else 0
     return recipe.ratio([-k for k in range(below, levels + below)])
 
 
 def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: bool) -> List[Member]:
-    """From cheap to dear. `levels` meshes; `finer`: one of them is finer than the user's own. A mesh file alone has no
+    """Members from cheap to dear. `levels` meshes; `finer`: one is finer than the user's own. A mesh file has no
     coarser ones."""
     below = -1 if finer else 0
     powers = [k for k in range(levels + below - 1, below - 1, -1)] if recipe.coarsens else list(range(0, -levels, -1))
@@ -164,7 +164,7 @@ def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: 
 
 
 def work(member: Member, dimensions: float) -> float:
-    """About, relative to the user's own."""
+    """Work of a member relative to the user's own, about."""
     return float(member.mesh**-dimensions / member.step)
 
 
@@ -173,7 +173,7 @@ def _method(driver: str) -> Method:
 
 
 class Requests:
-    """What the runner is asked for by member and driver."""
+    """Requests to the runner, by member and driver."""
 
     def __init__(
         self,
@@ -193,7 +193,7 @@ class Requests:
         self.scheme: Optional[str] = None  # which fsi-partitioned took where the case names none, once a run has told
 
     def study(self, threads: int) -> Study:
-        """What the runner knows of all runs."""
+        """The study of all runs, for the runner."""
         path = self.facts.path
         return Study(
             path, self.name, "verify", threads, 1, self.time_limit, {self.name: path}, self.methods, {}, (), {}, False
@@ -229,7 +229,7 @@ class Requests:
         return {"time.step": facts.step * member.step}
 
     def tolerances(self, program: str, factor: float) -> Dict[str, Any]:
-        """Those that a driver stops by, changed by a factor. Of a case that awaits_scheme() they are a guess."""
+        """Tolerances that a driver stops by, changed by a factor. For a case that awaits_scheme() they are a guess."""
         return {key: factor * value for key, value in governing(program, self.facts.entries, self.scheme).items()}
 
     def awaits_scheme(self, driver: str) -> bool:

@@ -14,7 +14,7 @@ def write_case(path: Path, entries: Mapping[str, Any], home: Path, comments: Lis
 
 
 def _with_full_names(entry: Any, home: Path) -> Any:
-    """All `file = "..."` by full paths."""
+    """The entry with full paths in all `file = "..."`."""
     if isinstance(entry, Mapping):
         return {
             key: str(absolute(home / value))

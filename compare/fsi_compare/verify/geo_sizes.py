@@ -2,9 +2,8 @@
 
 A constant of `DefineConstant[ name = number, ... ]` is a size where it stands in the fourth place of a Point or in a
 Mesh.MeshSize option, and a count where it stands behind `Transfinite ... =` or in `Layers{ }`. Sizes are divided by the
-factor, counts multiplied. Ratios of neighbouring cells (`Using Progression`) are taken to the power 1/factor, since twice
-as many cells of the same ratio would refine one end alone.
-"""
+factor, counts multiplied. Ratios of neighbouring cells (`Using Progression`) are taken to the power 1/factor, since
+twice as many cells of the same ratio would refine one end alone."""
 
 import re
 from dataclasses import dataclass
@@ -40,7 +39,7 @@ class GeoSizes:
     graded: bool  # has ratios of neighbouring cells
 
     def settings(self, factor: float, given: Dict[str, float]) -> Dict[str, float]:
-        """Of a mesh finer by `factor`; `given`: values other than the script's."""
+        """Constants for a mesh finer by `factor`; `given`: values other than the script's."""
         found = dict(given)
         for name, value in self.sizes.items():
             found[name] = given.get(name, value) / factor
@@ -50,7 +49,7 @@ class GeoSizes:
 
 
 def read_sizes(script: Path) -> GeoSizes:
-    """Raises InputError where the script has no constant that says how fine it is."""
+    """Reads a script. Raises InputError where it has no constant that says how fine it is."""
     text = without_comments(read_text(script, "give a gmsh script that is there", "give a gmsh script"))
     constants: Dict[str, float] = {}
     for block in CONSTANTS.findall(text):

@@ -1,6 +1,7 @@
-"""Families on the way to a demanded error. A cross varies meshes by long steps and steps on a coarse mesh, so that all of it
-together costs about half of what its centre would, which is not run. What either error changes by from there to the centre is told
-by the product of both (verdict.py). Where no mesh is coarser, or each is made from a run on the one before, the centre is run."""
+"""Families on the way to a demanded error. A cross varies meshes by long steps and steps on a coarse mesh, so that all
+of it together costs about half of what its centre would, which is not run. What either error changes by from there to
+the centre is told by the product of both (verdict.py). Where no mesh is coarser, or each is made from a run on its
+predecessor, the centre is run."""
 
 import math
 from typing import Callable, List, Optional, Sequence
@@ -18,7 +19,7 @@ def cross(meshes: Sequence[float], steps: Sequence[float]) -> List[Member]:
 
 
 def between(coarse: float, fine: float, ratio: float) -> List[float]:
-    """Sizes from one to the other, each by the ratio smaller than the one before."""
+    """Sizes from one to the other, each smaller by the ratio."""
     count = round(math.log(coarse / fine) / math.log(ratio))
     return [fine * ratio ** (count - k) for k in range(count)] + [fine]
 
@@ -43,10 +44,11 @@ def starting_member(
     nodes: Callable[[float], Optional[int]],
     longest: Optional[float] = None,
 ) -> Member:
-    """Coarser than the case by a ratio, so that a demand that it exceeds by far costs little, but by steps no longer than
-    `longest`, relative to the case's: longer ones give pressures no bar (doubt.py). Its mesh is the case's own where no
-    coarser ones can be made, would have fewer than one cell where the case has some, or stay as they are, since walls and
-    curves leave a mesh generator no choice. `nodes`: of the mesh of a size, which is made; None: it cannot be."""
+    """Coarser than the case by a ratio, so that a demand that it exceeds by far costs little, but by steps no longer
+    than `longest`, relative to the case's: longer ones give pressures no bar (doubt.py). Its mesh is the case's own
+    where no coarser ones can be made, would have fewer than one cell where the case has some, or stay as they are,
+    since walls and curves leave a mesh generator no choice. `nodes`: of the mesh of a size, which is made; None: it
+    cannot be."""
     coarsens = recipe.coarsens and all(count >= ratio**levels for count in recipe.counts)
     if coarsens:
         near, far = nodes(ratio), nodes(ratio**levels)

@@ -18,7 +18,8 @@ from .results import FamilyRuns
 
 
 class Maker:
-    """Keeps what became of each member, by driver. `names`: of the quantities that say whether an adaptation has paid; empty: all."""
+    """Keeps the outcome of each member, by driver. `names`: quantities that decide whether adaptation has paid; empty:
+    all."""
 
     def __init__(
         self, runner: Runner, requests: Requests, dimension: int, quiet: bool, names: Sequence[str] = ()
@@ -39,7 +40,7 @@ class Maker:
         return sum(run.seconds for run in [*runs, *self.others.values()])
 
     def run(self, members: Sequence[Member]) -> None:
-        """Those that are not there yet. Raises InputError where the user's own cannot run."""
+        """Runs the members that are not there yet. Raises InputError where the user's own cannot run."""
         recipe = self.requests.recipe
         if not isinstance(recipe, Adapted):
             self._together([pair for pair in self._wanted(members) if self._has_mesh(*pair)])
@@ -47,7 +48,7 @@ class Maker:
         moved: List[Member] = []
         for mesh in sorted(
             {member.mesh for member, _ in self._wanted(members)}, reverse=True
-        ):  # each from the one before
+        ):  # each from its predecessor
             level, here, plain = recipe.level(mesh), [m for m in members if m.mesh == mesh], Member(mesh, 1.0)
             for below in range(level):
                 self._climb(recipe, below)
@@ -63,12 +64,12 @@ class Maker:
         self._together([pair for pair in self._wanted(moved) if self._has_mesh(*pair)])
 
     def reaches(self, member: Member) -> bool:
-        """Whether adaptation has not stopped before its mesh."""
+        """Whether adaptation goes as far as the member's mesh."""
         recipe = self.requests.recipe
         return not isinstance(recipe, Adapted) or self.last is None or recipe.level(member.mesh) <= self.last
 
     def _wanted(self, members: Iterable[Member]) -> List[Tuple[Member, str]]:
-        """Those that are not there yet, each once."""
+        """Requests that are not there yet, each once."""
         pairs = [(m, driver) for m in dict.fromkeys(members) for driver in self.families]
         return [(m, driver) for m, driver in pairs if m not in self.families[driver].runs]
 
@@ -144,7 +145,7 @@ class Maker:
         return not problem
 
     def nodes(self, size: float) -> Optional[int]:
-        """Of the mesh of a size relative to the case's; None: there is none."""
+        """Number of nodes of the mesh of a size relative to the case's; None: there is none."""
         try:
             mesh = self.runner.mesh_file(self.requests.mesh(Member(round(size, 9), 1.0)))
             return None if mesh is None else nodes_of(mesh)
@@ -152,7 +153,7 @@ class Maker:
             return None
 
     def begin_again(self, settings: Mapping[str, Any]) -> None:
-        """All members with further entries of the case."""
+        """Forgets all runs; the next ones have these entries over the case's."""
         self.requests.settings.update(settings)
         for family in self.families.values():
             family.runs.clear()

@@ -25,7 +25,7 @@ from .geo_sizes import GeoSizes, graded_text, read_sizes
 
 HALVES = 2.0  # all that fsi-mesh refine makes
 RATIOS = (1.5, 2.0, 1.4, 1.6, 1.75)  # between members
-MADE_OF = ("lumen", "thicken", "refine")  # commands that take the file of the one before
+MADE_OF = ("lumen", "thicken", "refine")  # commands that take the file of their predecessor
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Recipe:
         return False
 
     def ratio(self, levels: Sequence[int]) -> float:
-        """Between meshes at `levels`, powers of it."""
+        """Ratio between meshes at `levels`, powers of it."""
         return ratio_for(self.counts, levels) if self.coarsens else HALVES
 
     @property
@@ -61,7 +61,7 @@ class Recipe:
         return cells_of(self.words)
 
     def mesh(self, factor: float, folder: Path, case: str) -> Optional[StudyMesh]:
-        """Of the mesh finer by `factor`; None: the case's own file as it stands."""
+        """The mesh finer by `factor`; None: the case's own file as it stands."""
         name = f"{case[:40]}-x{factor:.4g}"
         if self.chain:
             words = chained([command.finer(factor, folder) for command in self.chain])
@@ -118,8 +118,8 @@ def chained(commands: Sequence[Sequence[str]]) -> List[str]:
 
 
 def ratio_for(counts: Sequence[float], levels: Sequence[int]) -> float:
-    """Between meshes: the first of RATIOS that leaves whole numbers of cells whole at `levels`, powers of the ratio; where
-    none does, that which rounds them least. Rounded counts make meshes that are no multiples of each other."""
+    """The ratio between meshes: the first of RATIOS that leaves whole numbers of cells whole at `levels`, powers of the
+    ratio; else the one that rounds least. Rounded counts make meshes that are no multiples of each other."""
 
     def rounding(ratio: float) -> float:
         wanted = [c * ratio**k for c in counts for k in levels]
@@ -129,7 +129,7 @@ def ratio_for(counts: Sequence[float], levels: Sequence[int]) -> float:
 
 
 def find_recipe(case: Path, entries: Mapping[str, Any], named: Optional[str], mesh_maker: Path) -> Recipe:
-    """By --mesh, the scene of the gallery, the case's level or error, or its mesh file. Raises InputError."""
+    """The recipe by --mesh, the gallery's scene, the case's level or error, or its mesh file. Raises InputError."""
     element, geometry = str(entries.get("element", "p2p1")), str(entries.get("geometry", "3d"))
     section = entries.get("mesh", {})
     if named is not None:
@@ -163,7 +163,7 @@ def _split(text: str) -> List[str]:
 
 
 def recipe_of_scene(scene: Scene, mesh_maker: Path, quick: bool = False) -> Recipe:
-    """Of the mesh that a scene of the gallery names."""
+    """The recipe for the mesh of a scene of the gallery."""
     return _recipe(scene.mesh_words(quick), scene.folder, str(scene.folder / "scene.py"), mesh_maker)
 
 

@@ -1,12 +1,12 @@
 """Whether a further adaptation has paid (`verify --adapt`): whether the results came nearer to each other by it.
 
-fsi-mesh adapt takes the indicators of velocity, displacement and pressure alike. Of each kind k, with ||.|| the norm of a curve,
+fsi-mesh adapt takes the indicators of velocity, displacement and pressure alike. Of each kind k, with ||.|| the norm of
+a curve,
 
     D_k(n) = root of the mean over its curves of (||y_n - y_(n-1)|| / ||y_n||)^2
 
-is what the n-th adaptation has changed. The n-th has not paid for a kind where D_k(n) >= D_k(n-1), n >= 2: what finer meshes still
-change can no longer be told from what they have changed.
-"""
+is what the n-th adaptation has changed. The n-th has not paid for a kind where D_k(n) >= D_k(n-1), n >= 2: what finer
+meshes still change can no longer be told from what they have changed."""
 
 from dataclasses import dataclass
 from typing import Dict, List, Mapping, Sequence
@@ -33,7 +33,7 @@ class Unpaid:
 
 
 def kind_of(curve: Curve) -> str:
-    """Of what the meshes are adapted to that whose error it has: areas and volumes move with the wall."""
+    """The kind whose error the curve has, of those that meshes are adapted to: areas and volumes move with the wall."""
     words = curve.name.rpartition(": ")[2]
     if curve.is_pressure:
         return "pressure"
@@ -57,8 +57,8 @@ def changes(
 
 
 def unpaid(levels: Sequence[Mapping[str, Curve]], facts: CaseFacts, names: Sequence[str]) -> List[Unpaid]:
-    """Of the last of three meshes, each adapted from the one before. A kind that changes by less than a thousandth is as good as
-    converged."""
+    """Kinds for which the last of three meshes, each adapted from its predecessor, has not paid. A kind that changes by
+    less than a thousandth is as good as converged."""
     keyed = on_common_points({Member(float(-n), 1.0): dict(curves) for n, curves in enumerate(levels)})
     first, second, third = keyed.values()
     before, now = changes(first, second, facts, names), changes(second, third, facts, names)
@@ -67,7 +67,7 @@ def unpaid(levels: Sequence[Mapping[str, Curve]], facts: CaseFacts, names: Seque
 
 
 def about_unpaid(level: int, found: Sequence[Unpaid]) -> str:
-    """That adaptation stops, in words."""
+    """A sentence that adaptation stops, and why."""
     number = ORDINALS.get(level, f"{level}th")
     what = ", ".join(f"{one.kind} ({100 * one.now:.2g} %, before {100 * one.before:.2g} %)" for one in found)
     return (

@@ -43,9 +43,8 @@ OWN = Member(1.0, 1.0)
 
 
 def sample(maker: Maker, start: Member = OWN) -> Member:
-    """Where the case asks for no samples and has none by itself, standard ones, and says which. `start`: the member to run first;
-    gives it back, or the user's own where it fails. Raises InputError where that fails, too, or has no fields to choose by.
-    """
+    """Adds standard samples where the case has none, and says which. `start`: the member to run first; returns it, or
+    the user's own where it fails. Raises InputError where that fails, too, or has no fields to choose by."""
     maker.run([start])
     run = next(iter(maker.families.values())).runs[start]
     if not run.done and start != OWN:
@@ -66,7 +65,8 @@ def sample(maker: Maker, start: Member = OWN) -> Member:
 
 
 def within_budget(options: argparse.Namespace, maker: Maker, family: Sequence[Member]) -> Sequence[Member]:
-    """The family, or one without members finer than the case where that does not fit. Raises InputError where neither does."""
+    """The family, or where it does not fit one without members finer than the case. Raises InputError if neither
+    does."""
     budget = 60 * options.budget
     maker.run([member for member in family if member.is_own])
     if maker.seconds + maker.predicted(family) <= budget:
@@ -88,8 +88,8 @@ def within_budget(options: argparse.Namespace, maker: Maker, family: Sequence[Me
 
 
 def _try_out(maker: Maker, family: Sequence[Member], budget: float) -> None:
-    """Runs members of other meshes, from the cheapest, while one is predicted to take little of the budget: how seconds grow
-    with the mesh is measured, not assumed, before a family is refused."""
+    """Runs members of other meshes, from the cheapest, while one is predicted to take little of the budget: how seconds
+    grow with the mesh is measured, not assumed, before a family is refused."""
     for member in sorted((m for m in family if m.step == 1 and not (m.looser or m.other)), key=lambda m: -m.mesh):
         if maker.predicted([member]) > TRIED * budget or maker.seconds + maker.predicted([member]) > budget:
             return
@@ -97,8 +97,8 @@ def _try_out(maker: Maker, family: Sequence[Member], budget: float) -> None:
 
 
 def tell_damped(maker: Maker) -> None:
-    """That mesh.error is for other steps than the case's, where the case says so itself: runs of the family are made with the mesh
-    as a file, so that no driver does."""
+    """Tells that mesh.error is for other steps than the case's, where the case says so itself (mesh.waves). No driver
+    does: runs of the family have the mesh as a file."""
     entries = maker.requests.facts.entries
     mesh = entries.get("mesh", {})
     if "error" in mesh and mesh.get("waves") == "damped" and keeps_short_waves(entries):
@@ -109,7 +109,7 @@ def tell_damped(maker: Maker) -> None:
 
 
 def tell_mesh(maker: Maker, recipe: Recipe) -> None:
-    """What the family's meshes come from, where nobody has said it."""
+    """Tells what the family's meshes come from, unless that was told already."""
     tell_damped(maker)
     if isinstance(recipe, Adapted):
         maker.notes.append(about_adapted(recipe))
@@ -137,7 +137,7 @@ def shown(words: Sequence[str]) -> str:
 
 
 def tell_unpaid(maker: Maker, judged: Sequence[Judged]) -> None:
-    """Which curves further adaptation has not brought nearer to each other: their meshes are adapted to something else."""
+    """Tells which curves further adaptation has not brought nearer: their meshes are adapted to something else."""
     if not isinstance(maker.requests.recipe, Adapted):
         return
     curves = [one for one in judged if one.quantity.whole is not None and not one.quantity.whole.largest]
@@ -152,7 +152,7 @@ def tell_unpaid(maker: Maker, judged: Sequence[Judged]) -> None:
 
 
 def tell_unrefined(maker: Maker, families: Sequence[FamilyRuns]) -> Sequence[str]:
-    """That layers of the wall have as many elements in all meshes of the family; empty where none has."""
+    """Tells that layers of the wall have as many elements in all meshes of the family. Returns the sentences."""
     sizes = sorted({member.mesh for family in families for member in family.done})
     kept = maker.requests.recipe.unrefined(sizes, maker.requests.folder) if len(sizes) > 1 else {}
     if not kept:

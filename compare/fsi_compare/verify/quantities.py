@@ -1,5 +1,5 @@
-"""What is verified of a run: numbers read from all that the case samples, each with the largest value of the curve that it
-is of, which its error is relative to.
+"""What is verified of a run: numbers read from all that the case samples, each with the largest value of the curve that
+it is of, which its error is relative to.
 
 | of a curve over time | of a line |
 |---|---|
@@ -52,7 +52,7 @@ class Curve:
 
     @property
     def is_pressure(self) -> bool:
-        """Or of the order of one: stresses, forces, gradients of what is solved for."""
+        """Whether it is a pressure or of its order: stresses, forces, gradients of what is solved for."""
         words = self.name.rpartition(": ")[2]
         return self.derived or any(word in words for word in ("pressure", "stress", "force"))
 
@@ -75,7 +75,7 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Asked:
-    """What is asked for beside the usual numbers."""
+    """What is asked for in addition to the usual numbers."""
 
     times: Tuple[float, ...] = ()  # ms
     period: Optional[float] = None  # ms
@@ -83,7 +83,7 @@ class Asked:
 
 
 def curves_of(folder: Path) -> Dict[str, Curve]:
-    """Of a finished run, by name. Raises InputError for tables that cannot be read."""
+    """Curves of a finished run, by name. Raises InputError for tables that cannot be read."""
     found: Dict[str, Curve] = {}
     tables = list(TABLES) + ([] if is_file(folder / "openings.csv") else ["flow.csv"])
     for table in tables:
@@ -127,7 +127,7 @@ def _derived(folder: Path) -> Iterator[Curve]:
 
 
 def quantities_of(curves: Mapping[str, Curve], asked: Asked) -> List[Quantity]:
-    """Those of the user's own run, which decides which extremes there are."""
+    """Quantities of the user's own run, which decides which extremes there are."""
     sizes: Dict[str, float] = {}
     for curve in curves.values():
         sizes[curve.unit] = max(sizes.get(curve.unit, 0.0), curve.largest)
@@ -139,7 +139,7 @@ def quantities_of(curves: Mapping[str, Curve], asked: Asked) -> List[Quantity]:
 
 
 def norm_of(curve: Curve, stretch: Stretch) -> CurveNorm:
-    """Of differences from this curve, the user's own."""
+    """Norm of differences from this curve, the user's own."""
     return norm_on(curve.times, curve.s, stretch)
 
 
@@ -183,7 +183,7 @@ def _number(
 
 
 def size_of(curve: Curve, stretch: Stretch) -> float:
-    """What its error is relative to."""
+    """The size that the curve's error is relative to."""
     return max(norm_of(curve, stretch)(on(curve, curve, stretch)), AT_REST * curve.largest)
 
 
@@ -228,15 +228,15 @@ def _at_end(curve: Curve) -> List[Quantity]:
 
 
 def _extreme(curve: Curve, sign: float) -> float:
-    """Of all points at once; between levels by a parabola, so that it does not jump with the step."""
+    """The extreme over all points; between levels by a parabola, so that it does not jump with the step."""
     y = np.max(sign * curve.values, axis=1)
     return sign * peak(curve.times, y)
 
 
 def peak(t: np.ndarray, y: np.ndarray) -> float:
-    """The largest value, between levels by the parabola through the largest and its neighbours as far as the curve bends
-    there as it does one level before and behind: where it jumps or has a kink no parabola passes through it, and the
-    largest value itself counts."""
+    """The largest value, between levels by the parabola through the largest and its neighbours as far as the curve
+    bends there as it does one level before and behind: where it jumps or has a kink no parabola passes through it, and
+    the largest value itself counts."""
     i = int(np.argmax(y))
     if i == 0 or i == len(y) - 1:
         return float(y[i])
@@ -256,7 +256,7 @@ def _bend(t: np.ndarray, y: np.ndarray, i: int) -> float:
 
 
 def _at(curve: Curve, time: float) -> float:
-    """At a point the value, along a line its L2 norm."""
+    """The value of a point, or the L2 norm along a line."""
     row = np.array([np.interp(time, curve.times, column) for column in curve.values.T])
     return float(row[0]) if len(row) == 1 else _norm(curve.s, row)
 
@@ -299,5 +299,5 @@ def _swing(curve: Curve, begin: float) -> float:
 
 
 def chosen(quantities: Sequence[Quantity], names: Sequence[str]) -> List[Quantity]:
-    """Those whose name holds one of `names`; all where none is given."""
+    """Quantities whose name holds one of `names`; all where none is given."""
     return [q for q in quantities if not names or any(name.lower() in q.name.lower() for name in names)]

@@ -25,7 +25,7 @@ class Judged:
     own: Optional[Curve] = None  # that the value is of; of the coarsest mesh where the user's own is missing
 
     def apart(self, other: Curve) -> float:
-        """What the value of another run differs by."""
+        """Difference of another run's value."""
         stretch = self.quantity.whole
         if stretch is None or self.own is None:
             return abs(self.quantity.of(other) - self.bar.value)
@@ -47,7 +47,7 @@ class Band:
 
 @dataclass
 class FamilyRuns:
-    """Of one driver: finished members, and why others are not."""
+    """One driver's finished members, and why others are missing."""
 
     driver: str
     runs: Dict[Member, StudyRun]
@@ -84,7 +84,7 @@ def about(family: FamilyRuns, centre: Member) -> FamilyRuns:
 
 
 def relative(member: Member, centre: Member) -> Member:
-    """With sizes relative to another's."""
+    """The member with sizes relative to another's."""
     return Member(_same(member.mesh / centre.mesh), _same(member.step / centre.step), member.looser, member.other)
 
 
@@ -93,9 +93,9 @@ def _same(size: float) -> float:
 
 
 def sizes(runs: Mapping[Member, StudyRun]) -> Dict[float, float]:
-    """Real sizes of elements relative to the user's own by their planned ones, from the numbers of cells: counts are whole,
-    and a mesh generator makes of a size what it can. Cells go with size^-d; d, the number of directions that are refined,
-    is that of all meshes together."""
+    """Real sizes of elements relative to the user's own by their planned ones, from the numbers of cells: counts are
+    whole, and a mesh generator makes of a size what it can. Cells go with size^-d; d, the number of directions that are
+    refined, is that of all meshes together."""
     counts: Dict[float, float] = {}
     for member, run in runs.items():
         mesh = run.summary.get("mesh", {})
@@ -115,8 +115,8 @@ SAME_AS_ASKED = (0.5, 2.0)  # real ratio of two meshes' sizes, as a power of the
 
 
 def missed_sizes(runs: Mapping[Member, StudyRun]) -> str:
-    """That meshes have not the sizes which were asked for, as where a script bounds them; empty: they have. Such members do not
-    show what finer elements change."""
+    """A sentence that meshes have other sizes than asked for, as where a script bounds them, so that they do not show
+    what finer elements change; empty: they have not."""
     real = sizes(runs)
     planned = sorted(real, reverse=True)
     for coarse, fine in zip(planned, planned[1:]):
@@ -137,8 +137,8 @@ def judge(
     names: Sequence[str],
     additive: bool = False,
 ) -> List[Judged]:
-    """Of all quantities of the user's own run. `additive`: it may be missing where column and row tell it (verdict.py); the
-    quantities are then those of the coarsest mesh by the own step."""
+    """Bars of all quantities of the user's own run. `additive`: it may be missing where column and row tell it
+    (verdict.py); the quantities are then those of the coarsest mesh by the own step."""
     own = next((member for member in curves if member.is_own), None)
     if own is None and additive:
         row = [member for member in curves if member.step == 1 and not (member.looser or member.other)]
@@ -153,7 +153,7 @@ def judge(
 
 
 class _Judging:
-    """Of one driver's family."""
+    """Judges the quantities of one driver's family."""
 
     def __init__(
         self,
@@ -176,7 +176,7 @@ class _Judging:
         self._whole: Dict[Tuple[str, Stretch], Optional[Bar]] = {}
 
     def judged(self, quantity: Quantity) -> Optional[Judged]:
-        """None where nothing can be said of the user's own run."""
+        """The quantity's bar; None where nothing can be said of the user's own run."""
         if quantity.whole is not None:
             bar = self._of_curve(quantity, quantity.whole)
             return None if bar is None else self._doubted(quantity, bar, self._distances(quantity))
@@ -217,7 +217,7 @@ class _Judging:
         return self._whole[key]
 
     def _distances(self, quantity: Quantity) -> Tuple[Value, ...]:
-        """Of all members' curves from that of the user's own, or what stands for it."""
+        """Distances of all members' curves from the user's own, or from what stands for it."""
         assert quantity.whole is not None
         grid, stretch = self.own[quantity.curve], quantity.whole
         norm, own = norm_of(grid, stretch), on(grid, grid, stretch)
@@ -232,10 +232,10 @@ class _Judging:
 
 
 def bands(family: FamilyRuns, curves: Mapping[Member, Mapping[str, Curve]], judged: Sequence[Judged]) -> List[Band]:
-    """Of curves whose error has a bar: of points over time, of lines along them at the end and at the times asked for. At each
-    place the own curve's distance from the finest in each direction, and what that direction's order says is left beyond it;
-    the largest of the neighbourhood, since a wave that comes at another moment crosses the own curve where the distance is
-    zero."""
+    """Bands of curves whose error has a bar: of points over time, of lines along them at the end and at the times asked
+    for. At each place the own curve's distance from the finest in each direction, and what that direction's order says
+    is left beyond it; the largest of the neighbourhood, since a wave that comes at another moment crosses the own curve
+    where the distance is zero."""
     own = next((member for member in curves if member.is_own), None)
     found: List[Band] = []
     if own is None:
@@ -264,7 +264,7 @@ def _width(
     size: Callable[[Member], float],
     other: Callable[[Member], float],
 ) -> np.ndarray:
-    """In one direction; the factors are those of the bar."""
+    """Part of a band by one direction, on either side of the curve; the factors are those of the bar."""
     line = sorted((m for m in rows if not (m.looser or m.other) and other(m) == 1), key=size)
     if len(line) < 2:
         return np.zeros(len(rows[own]))

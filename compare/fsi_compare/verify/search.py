@@ -58,7 +58,7 @@ class Search:
         self.sets: Dict[Path, BarsOfRun] = {}  # of each run that bars were made for, by its folder
 
     def go(self) -> Outcome:
-        """Raises InputError where the user's own run fails or nothing is sampled."""
+        """Searches. Raises InputError where the user's own run fails or nothing is sampled."""
         judged = self._family()
         lines: List[str] = []
         for move in range(MOST_MOVES + 1):
@@ -167,7 +167,7 @@ class Search:
         return cheapest(judged, costs, demand, self.ratio, requests.facts.static, requests.recipe.coarsens)
 
     def _for_bars(self, judged: Sequence[Judged]) -> Member:
-        """Finer by a ratio; steps at once as short as the table of a flow asks for, where nothing but that is missing."""
+        """The centre refined by a ratio; where only its step is, at once to what the table of a flow needs."""
         target = self._finer(direction_of(judged))
         needed = step_within(self.maker.requests.facts)
         if target.mesh != self.centre.mesh or needed is None:
@@ -187,8 +187,8 @@ class Search:
         return _round(self.ratio ** round(math.log(mesh) / math.log(self.ratio)))
 
     def _towards(self, asked: Sequence[Judged]) -> Optional[Member]:
-        """The cheapest settings that are predicted to reach the demand, but no further from the centre than FURTHEST ratios: the
-        family's orders tell little beyond."""
+        """The cheapest settings that are predicted to reach the demand, but no further from the centre than FURTHEST
+        ratios: the family's orders tell little beyond."""
         best = self._best(asked, self.demand.error)
         if best is None:
             return self._finer("both")
@@ -203,7 +203,8 @@ class Search:
         return f"elements of {mesh * self.centre.mesh:.3g} and steps of {step * self.centre.step:.3g} of the case's"
 
     def _move(self, target: Member, lines: List[str]) -> bool:
-        """The family to another centre; False where adaptation has stopped before it, or that does not fit the budget."""
+        """Moves the family's centre; False where adaptation has stopped before it, or where that does not fit the
+        budget."""
         if not self.maker.reaches(target):
             lines.append("Adaptation has stopped: a finer mesh was none the better for what it is adapted to.")
             return False
@@ -226,7 +227,8 @@ class Search:
         return False
 
     def _follow(self) -> None:
-        """The cross's corner to the new centre, where it would be further from it than one ratio more than it has to be."""
+        """Moves the cross's corner to the new centre, where it would be more than one ratio further than it has to
+        be."""
         corner = self._corner(self.centre)
         mesh, step = self.corner.mesh, self.corner.step
         mesh = mesh if mesh <= corner.mesh * self.ratio * (1 + 1e-6) else corner.mesh
@@ -238,8 +240,8 @@ class Search:
         return budget is None or self.maker.seconds + seconds <= budget
 
     def _finish(self, asked: Sequence[Judged], lacking: bool) -> Outcome:
-        """The cheapest run so far that is good enough, with tolerances that suit the demand. `lacking`: quantities without a bar
-        remain; then the centre, which shows most of them."""
+        """The cheapest run so far that is good enough, with tolerances that suit the demand. `lacking`: quantities
+        without a bar remain; then the centre, which shows most of them."""
         final = next(iter([] if lacking else self._good_enough()), self.centre)
         judged = asked if final == self.centre else self._judged(final)
         for factor in dict.fromkeys([tolerance_factor(asked, self.demand.error), 1.0]):
@@ -316,8 +318,8 @@ def _as_made(mesh: StudyMesh) -> List[str]:
 
 
 def by_each_driver(maker: Maker, outcome: Outcome, drivers: Sequence[str]) -> Dict[str, StudyRun]:
-    """The settings found, as `found.toml` has them, run by each. Where another driver stops by tolerances that are not among
-    them a line says so."""
+    """The settings found, as `found.toml` has them, run by each. Where another driver stops by tolerances that are not
+    among them a line says so."""
     if outcome.final is None:
         return {}
     own = next(iter(maker.families))

@@ -1,4 +1,4 @@
-"""Samples for a case that asks for none: a point for each medium, where what it does at the end of the run is largest."""
+"""Samples for a case that asks for none: a point for each medium, where most happens at the end of the run."""
 
 from pathlib import Path
 from typing import Any, Dict
@@ -12,8 +12,8 @@ DIGITS = 9  # significant, of a coordinate: as a case file has them
 
 
 def standard_points(folder: Path) -> Dict[str, Any]:
-    """Entries of a case by their full keys, from the fields of its own run; empty where it has written none. A point lies in
-    the middle of the element whose nodes move most together, so that finer meshes have it inside, too."""
+    """Entries of a case by their full keys, from the fields of its own run; empty where it has written none. A point
+    lies in the middle of the element whose nodes move most together, so that finer meshes have it inside, too."""
     found: Dict[str, Any] = {}
     for medium, fields in read_fields(folder).items():
         field = FIELDS.get(medium, "")

@@ -7,9 +7,8 @@
 | partitioned, `block-newton` | `partitioned.tolerance` where the case names it, else as the monolithic driver |
 | partitioned, any other scheme | `partitioned.tolerance`; `force_tolerance` besides, where demanded |
 
-Where the case names no scheme, the driver chooses one by the scene (partitioned/scheme_choice.cpp), which a case file alone does
-not tell: a run's `summary.json` does (runs/coupling.py).
-"""
+Where the case names no scheme, the driver chooses one by the scene (partitioned/scheme_choice.cpp), which a case file
+alone does not tell: a run's `summary.json` does (runs/coupling.py)."""
 
 from typing import Any, Dict, Mapping, Optional
 
@@ -27,9 +26,9 @@ def names_scheme(entries: Mapping[str, Any]) -> bool:
 
 
 def governing(program: str, entries: Mapping[str, Any], chosen: Optional[str] = None) -> Dict[str, float]:
-    """Tolerances of `fsi-monolithic` or `fsi-partitioned` by their full keys. `entries`: of a case that the driver has run,
-    for numbers are not checked here. `chosen`: the scheme that the driver took where the case names none; None: no run has
-    told yet, and the one around vessels is assumed."""
+    """Tolerances of `fsi-monolithic` or `fsi-partitioned` by their full keys. `entries`: of a case that the driver has
+    run, for numbers are not checked here. `chosen`: the scheme that the driver took where the case names none; None: no
+    run has told yet, and the one around vessels is assumed."""
     newton, coupling = _section(entries, "newton"), _section(entries, "partitioned")
     if program == "fsi-partitioned":
         scheme = coupling.get("scheme", chosen or DEFAULT_SCHEME)
@@ -50,7 +49,7 @@ def governing(program: str, entries: Mapping[str, Any], chosen: Optional[str] = 
 
 
 def _beside(program: str, scheme: str, coupling: Mapping[str, Any], newton: Mapping[str, Any]) -> Dict[str, float]:
-    """What is demanded besides: an interface iteration has no residual of both media."""
+    """Tolerances demanded besides: an interface iteration has no residual of both media."""
     if program == "fsi-partitioned" and scheme == DEFAULT_SCHEME:
         return _demanded("partitioned", coupling, "force_tolerance")
     return _demanded("newton", newton, "residual_tolerance")
@@ -66,6 +65,6 @@ def _section(entries: Mapping[str, Any], name: str) -> Mapping[str, Any]:
 
 
 def _demanded(name: str, section: Mapping[str, Any], key: str) -> Dict[str, float]:
-    """Empty where it is 0, which demands nothing."""
+    """The tolerance by its full key; empty where it is 0, which demands nothing."""
     value = float(section.get(key, 0.0))
     return {f"{name}.{key}": value} if value > 0 else {}

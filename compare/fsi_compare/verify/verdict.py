@@ -1,13 +1,13 @@
-"""The error bar of one value at the user's own settings: its parts by mesh, step, their product and the solver, and what
-can be said of it. A value is a number, or a whole curve with a norm.
+"""The error bar of one value at the user's own settings: its parts by mesh, step, their product and the solver, and
+what can be said of it. A value is a number, or a whole curve with a norm.
 
     y(h, dt) = y0 + a h^p + b dt^q + c h^p dt^q
 
-a and b come from members that differ in one thing only (direction.py): a from a column of meshes, all by one step, b from a
-row of steps, all on one mesh. These are the user's own, or cheaper ones. c comes from members refined in both: of four members
-at the corners of a rectangle y11 - y10 - y01 + y00 = c (1 - h^p) (1 - dt^q), which is how much a difference of meshes changes
-when the step does. The parts are added up, not their squares: nothing says that they are independent.
-"""
+a and b come from members that differ in one thing only (direction.py): a from a column of meshes, all by one step, b
+from a row of steps, all on one mesh. These are the user's own, or cheaper ones. c comes from members refined in both:
+of four members at the corners of a rectangle y11 - y10 - y01 + y00 = c (1 - h^p) (1 - dt^q), which is how much a
+difference of meshes changes when the step does. The parts are added up, not their squares: nothing says that they are
+independent."""
 
 from dataclasses import dataclass, replace
 from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple
@@ -30,7 +30,7 @@ DETECTED = 1e-7  # relative to the curve's largest: differences below are round-
 
 @dataclass(frozen=True)
 class Value:
-    """Of one member."""
+    """Value of one member."""
 
     mesh: float  # size of elements relative to the user's own
     step: float  # the same of steps
@@ -66,7 +66,7 @@ class Bar:
         return self.total / self.scale if self.scale else 0.0
 
     def at(self, mesh: float, step: float) -> float:
-        """What the bar becomes at other sizes of elements and steps."""
+        """The bar at other sizes of elements and steps."""
         both = self.together * mesh**self.mesh.used * step**self.step.used
         return self.mesh.at(mesh) + self.step.at(step) + both + self.solver
 
@@ -81,10 +81,10 @@ def bar_of(
     norm: Optional[CurveNorm] = None,
     curve: Optional[Bar] = None,
 ) -> Optional[Bar]:
-    """None where the user's own member is missing. `scale`: the largest of the curve that the value is of. `additive`: it need not
-    be there for its bar; the value is then made of column and row, y(1, column) + y(row, 1) - y(row, column), which leaves out
-    c (1 - row^p) (1 - column^q). `norm`: of values that are curves. `curve`: the bar of the curve that the values are norms of.
-    """
+    """The bar; None where the user's own member is missing. `scale`: the largest of the curve that the value is of.
+    `additive`: that member may be missing; the value is then made of column and row, y(1, column) + y(row, 1) - y(row,
+    column), which leaves out c (1 - row^p) (1 - column^q). `norm`: of values that are curves. `curve`: the bar of the
+    curve that the values are norms of."""
     measured = norm or _size
     table = {(v.mesh, v.step): v.value for v in values if not (v.looser or v.other)}
     column, row = _step_of_meshes(table), _mesh_of_steps(table)
@@ -129,13 +129,13 @@ def _along(
 
 
 def _mesh_of_steps(table: Mapping[Tuple[float, float], Any]) -> float:
-    """The row, whose members tell the error of the step: the user's own mesh, or that on which most steps were tried."""
+    """Mesh of the row, whose members tell the error of the step: the user's own, or that with the most steps."""
     numbers = {m: sum(1 for other, _ in table if other == m) for m, s in table if s == 1.0}
     return _most(numbers)
 
 
 def _step_of_meshes(table: Mapping[Tuple[float, float], Any]) -> float:
-    """The column, whose members tell the error of the mesh: the user's own step, or that by which most meshes were tried."""
+    """Step of the column, whose members tell the error of the mesh: the user's own, or that with the most meshes."""
     numbers = {s: sum(1 for _, other in table if other == s) for m, s in table if m == 1.0}
     return _most(numbers)
 
@@ -153,8 +153,8 @@ def _together(
     noise: float,
     measured: Callable[[Any], float],
 ) -> float:
-    """Of the members refined in both the finest. Where row and column are not the user's own mesh and step, the sum of both parts
-    is off by c (row^p + column^q - 1)."""
+    """Error by mesh and step together, from the finest of the members refined in both. Where row and column are not the
+    user's own mesh and step, the sum of both parts is off by c (row^p + column^q - 1)."""
     corners = [
         (m, s)
         for m, s in table
@@ -198,6 +198,6 @@ def _advice(what: Sequence[str], lacking: Sequence[str] = ()) -> str:
 
 
 def inherited(bar: Bar, curve: Bar) -> Bar:
-    """Of a number whose members say nothing: it is off by no more than its curve is. Nothing is extrapolated."""
+    """Bar of a number whose members say nothing: it is off by no more than its curve is. Nothing is extrapolated."""
     parts = replace(curve.mesh, error=0.0), replace(curve.step, error=0.0)
     return Bar(bar.value, bar.scale, *parts, curve.together, curve.solver, BAR_WIDENED, "", bar.value)

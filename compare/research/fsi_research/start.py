@@ -1,4 +1,4 @@
-"""fsi-compare of a build in the source tree: that of fsi_compare, and the studies and commands of this project besides."""
+"""fsi-compare of a build in the source tree: fsi_compare with the studies and commands of this project."""
 
 import functools
 import sys

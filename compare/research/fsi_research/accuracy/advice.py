@@ -92,7 +92,7 @@ def _other_driver(measured: Sequence[Measured], chosen: Measured, target: float)
 
 
 def estimate(series: Sequence[Series], case: str, quantity: Quantity) -> Optional[Tuple[Series, Series]]:
-    """Of the series in which the quantity converges: that with the finest end in element size, and in time step."""
+    """The series in which the quantity converges that have the finest end, in element size and in time step."""
     own = [s for s in series if s.finest.run.request.case == case and s.last(quantity.column).order]
     space = [s for s in own if s.what == SPACE]
     time = [s for s in own if s.what == TIME]
@@ -127,7 +127,7 @@ def _long(seconds: float) -> str:
 
 
 def algebraic_advice(group: Sequence[Measured], targets: Sequence[float]) -> List[str]:
-    """Of runs that solve the same equations: the fastest of each kind of coupling that stays below each target."""
+    """For runs that solve the same equations: the fastest of each kind of coupling that stays below each target."""
     lines = []
     for target in targets:
         words = []

@@ -66,7 +66,7 @@ class Measured:
 
     @property
     def kind(self) -> str:
-        """Of coupling; where the run does not say it, the driver."""
+        """Kind of coupling; where the run does not say it, the driver."""
         return coupling_kind(self.run.summary) or ("partitioned" if self.partitioned else "monolithic")
 
     @property
@@ -115,7 +115,7 @@ class Measured:
 
 
 def measure(runs: Iterable[StudyRun], plan: Plan) -> List[Measured]:
-    """Of the runs that are done, in their order; the same run once."""
+    """The finished runs in their order, each once."""
     done: Dict[str, StudyRun] = {}
     for run in runs:
         if run.done:

@@ -9,14 +9,14 @@ ORDERS = (0.05, 6.0)  # outside of these a triple says nothing of convergence
 
 @dataclass(frozen=True)
 class SelfConvergence:
-    """Of three successive sizes, each solution's distance from the next."""
+    """Order from the distances between solutions of three successive sizes."""
 
     order: Optional[float]  # None: the distances do not fall, or faster than any order
     remaining: Optional[float]  # estimated error of the finest of the three, in the unit of the distances
 
 
 def slope(sizes: Sequence[float], errors: Sequence[float]) -> Optional[float]:
-    """Of the least-squares line through (log size, log error); None for fewer than two sizes."""
+    """Slope of the least-squares line through (log size, log error); None for fewer than two sizes."""
     points = [(math.log(h), math.log(e)) for h, e in zip(sizes, errors) if h > 0 and e > 0]
     if len({x for x, _ in points}) < 2:
         return None

@@ -47,7 +47,7 @@ def work_precision(measured: Sequence[Measured], title: str) -> Figure:
 
 
 def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity: Quantity, title: str) -> Figure:
-    """Error of stopping early against seconds, a panel per mesh and step: the frontier is named, a grey line along each method's
+    """Error of stopping early against seconds, a panel per mesh and step: the frontier is named, grey lines join
     tolerances."""
     figure, panels = _panels(len(groups), WIDE_INCHES, 1)
     shown: Set[str] = set()
@@ -75,8 +75,8 @@ def _setting(measured: Sequence[Measured]) -> Callable[[Measured], str]:
 
 
 def orders(series: Sequence[Series], what: str, title: str) -> Figure:
-    """Distance of each solution from the next finer one against its size, a panel per quantity. The longest three series have
-    names; the others are grey, and in the table."""
+    """Distance of each solution from the next finer one against its size, a panel per quantity. The longest three
+    series have names; the others are grey, and in the table."""
     figure, panels = _panels(len(QUANTITIES), PANEL_INCHES, 2)
     longest = sorted(range(len(series)), key=lambda i: -len(series[i].sizes))[: len(NAMED_SERIES)]
     named = sorted(longest)
@@ -134,8 +134,8 @@ def _frontier(
     name: Callable[[Measured], str],
     gain: float,
 ) -> Set[str]:
-    """The frontier is numbered from the left, as its table is, and named; the rest are grey and lie below. Of which kinds of
-    coupling it holds runs."""
+    """The frontier is numbered from the left, as its table is, and named; the rest are grey and lie below. Of which
+    kinds of coupling it holds runs."""
     best = frontier(points, gain)
     others = [point for i, point in enumerate(points) if i not in best]
     axes.plot([x for x, _ in others], [y for _, y in others], linestyle="none", marker="o", markersize=3.5, color=REST)

@@ -120,7 +120,7 @@ def _algebraic(m: Measured, q: Quantity) -> Optional[float]:
 
 
 def _errors(group: str, kind: str, error: Callable[[Measured, Quantity], Optional[float]]) -> List[Column[Measured]]:
-    """Of each quantity, in the CSV as NAME_KIND."""
+    """Columns of the quantities' errors, in the CSV named NAME_KIND."""
 
     def column(q: Quantity, head: str, csv: str) -> Column[Measured]:
         return Column(head, f"{csv}_{kind}", lambda m: error(m, q), percent, group=group)
@@ -129,7 +129,7 @@ def _errors(group: str, kind: str, error: Callable[[Measured, Quantity], Optiona
 
 
 def algebraic_table(number: int, name: str, runs: Sequence[Measured]) -> Table:
-    """Of the runs of one set of discrete equations, the quickest first."""
+    """The runs of one set of discrete equations, the quickest first."""
     best = frontier([(m.seconds, m.worst_algebraic) for m in runs])
     places = {id(runs[j]): place for place, j in enumerate(best, 1)}
     columns: List[Column[Measured]] = [

@@ -28,7 +28,8 @@ class Trend:
 
 
 def trend(points: Sequence[Point], gain: float = 0.0) -> Optional[Trend]:
-    """Of (seconds, error), by least squares in logarithms over the frontier's last points; None: they show none."""
+    """Trend of (seconds, error), by least squares in logarithms over the frontier's last points; None: there is
+    none."""
     best = [points[i] for i in frontier(points, gain)]
     if not best or not best[-1][1] > 0:
         return None

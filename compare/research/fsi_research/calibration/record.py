@@ -34,7 +34,7 @@ class Record:
 
     @property
     def ratio(self) -> float:
-        """Of the bar to the true error."""
+        """Bar over true error."""
         return self.bar.total / self.known
 
     @property
@@ -57,8 +57,8 @@ def records(
     skipped: Sequence[str],
     known: Known = lambda name, times: None,
 ) -> List[Record]:
-    """Of all quantities of the family about `centre`, whose members are given by their sizes relative to the case; the truth is
-    read from the reference, or where a curve is known exactly from that, at the reference's times."""
+    """Records of all quantities of the family about `centre`, whose members are given by sizes relative to the case.
+    The truth is the reference, or the exact curve where it is known, at the reference's times."""
     family = about(FamilyRuns("monolithic", {m: run for m, run in runs.items() if run.done}), centre)
     if family.own is None:
         return []
@@ -82,7 +82,7 @@ def records(
 
 @dataclass(frozen=True)
 class Score:
-    """Of all bars, or those of a scene."""
+    """Score of all bars, or of a scene's."""
 
     name: str
     records: Sequence[Record]
@@ -93,7 +93,7 @@ class Score:
 
     @property
     def counted(self) -> List[Record]:
-        """Those whose true error can be seen: a flow that is prescribed has none, and any bar holds it."""
+        """Records whose true error can be seen: a prescribed flow has none, and any bar holds it."""
         return [one for one in self.given if one.error > EXACT_TO * one.bar.scale]
 
     @property
@@ -103,7 +103,7 @@ class Score:
 
     @property
     def median(self) -> Optional[float]:
-        """Of bar over true error."""
+        """Median of bar over true error."""
         ratios = sorted(one.ratio for one in self.counted)
         return ratios[len(ratios) // 2] if ratios else None
 

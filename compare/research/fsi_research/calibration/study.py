@@ -1,5 +1,5 @@
-"""Kind `calibration`: scenes of the gallery, families about their normal size and a coarser one, bars against the truth of a
-far finer run."""
+"""Kind `calibration`: scenes of the gallery, families about their normal size and a coarser one, bars against the
+truth."""
 
 from dataclasses import dataclass
 from typing import Dict, List, Mapping, Sequence, Tuple
@@ -34,7 +34,7 @@ VERDICT_MARKS = {
 
 @dataclass(frozen=True)
 class Plan:
-    """Of a scene: how much finer the reference is in mesh and step, and which trap it holds."""
+    """How much finer a scene's reference is in mesh and step, and which difficulty the scene tests."""
 
     case: str
     reference: Tuple[float, float]
@@ -75,7 +75,7 @@ class Family:
 
 
 def families(recipe: Recipe, facts: CaseFacts, levels: int) -> List[Family]:
-    """Of normal size, and a coarser one whose finest member is the scene as it stands."""
+    """The family of normal size, and a coarser one whose finest member is the scene as it stands."""
     ratio = ratio_for(recipe.counts, [1, -1])
     found = []
     for size, power in zip(SIZES, (0, 1)):

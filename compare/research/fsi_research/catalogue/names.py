@@ -23,8 +23,8 @@ METHODS = ("direct", "fast", "petsc", *BLOCK_PRECONDITIONERS, *EXACT.values(), *
 
 
 def pick(option: str, text: str, known: Sequence[str]) -> List[str]:
-    """The names in a list separated by commas, in the order given. Raises InputError for one that is not known, naming
-    the nearest."""
+    """The names in a list separated by commas, in the order given. Raises InputError for another, naming the
+    nearest."""
     names = [name.strip() for name in text.split(",")]
     for name in names:
         if name not in known:

@@ -28,8 +28,8 @@ def newton_increments(material: str, mesh: str) -> List[float]:
 
 
 def iterations(method: str, material: str, mesh: str) -> Optional[int]:
-    """Iterations to a relative residual of 1e-9 at the first Newton system (Tables 4 and 5); None where the paper has
-    no number."""
+    """Iterations to a relative residual of 1e-9 at the first Newton system (Tables 4 and 5); None where there are
+    none."""
     counts = _numbers()["iterations"].get(method, {}).get(material)
     return counts[list(MESHES).index(mesh)] if counts and mesh in MESHES else None
 

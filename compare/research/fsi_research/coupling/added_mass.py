@@ -33,7 +33,7 @@ class AddedMass:
 
     @property
     def whole_wall(self) -> float:
-        """e: the mass with which a thick ring answers that moves as a whole, over rho_s h; incompressible, so that the
+        """e: the inertia of a thick ring that moves as a whole, over rho_s h; incompressible, so that the
         outside moves less than the inside: (R/h) ln(1 + h/R)."""
         ratio = self.tube.thickness / self.tube.radius
         return math.log(1 + ratio) / ratio
@@ -46,8 +46,7 @@ class AddedMass:
         return {1: 2.0, 2: 6.0}[order] * self.critical_density_ratio() / self.whole_wall
 
     def mass_ratio(self) -> float:
-        """rho_s h/(rho_f m). In the semi-discrete theory a loosely coupled Dirichlet-Neumann scheme is unstable below
-        1."""
+        """rho_s h/(rho_f m). By semi-discrete theory loosely coupled Dirichlet-Neumann schemes are unstable below 1."""
         return self.tube.wall_density * self.tube.thickness / (self.tube.fluid_density * self.column)
 
     def critical_density_ratio(self) -> float:

@@ -27,8 +27,8 @@ class Bracket:
 
 
 def bisect(holds: Callable[[float], bool], low: float, high: float, width: float) -> Bracket:
-    """Halves [low, high] on a logarithmic scale until the ratio of its ends is below 1 + `width`. Which end holds is
-    found by trying both."""
+    """Halves [low, high] on a logarithmic scale until the ratio of its ends is below 1 + `width`. Tries which end
+    holds."""
     low_holds, high_holds = holds(low), holds(high)
     runs = 2
     if low_holds == high_holds:

@@ -31,8 +31,8 @@ class Series:
 
 
 def passes_figure(all_series: List[Series], xlabel: str, settings: Mapping[str, Any], bound: float) -> Figure:
-    """Two logarithmic axes; above them a strip with a row per scheme that marks where it failed. Each line has its name at its
-    right end; three have shapes. Answers further than `bound` from the monolithic ones are crossed out."""
+    """Two logarithmic axes; above them a strip with a row per scheme that marks where it failed. Each line has its name
+    at its right end; three have shapes. Answers further than `bound` from the monolithic ones are crossed out."""
     figure = Figure(figsize=(9.6, 6.2))
     strip, axes = figure.subplots(2, 1, sharex=True, height_ratios=[1.5, 3])
     best = fewest_passes(all_series)
@@ -61,7 +61,7 @@ def passes_figure(all_series: List[Series], xlabel: str, settings: Mapping[str, 
 
 
 def fewest_passes(all_series: Sequence[Series]) -> List[int]:
-    """At most three: those with right answers at the most places, and of them those with the fewest passes on the whole."""
+    """At most three series: right at the most places, and of these with the fewest passes in all."""
 
     def worth(i: int) -> Any:
         right = [v for v, off in zip(all_series[i].passes, all_series[i].off) if v is not None and not off]

@@ -1,8 +1,8 @@
-"""The schemes over one quantity at a time, every answer held against the monolithic driver's.
+"""The schemes over one quantity at a time, every result compared with the monolithic driver's.
 
 `[report.sweeps]`: `bound`, the largest difference from the monolithic pressure that passes for the same answer;
-`one_pass`, schemes that do not iterate, or not on all, whose difference is relative to the largest pressure of the run, or the
-displacement's if that is larger."""
+`one_pass`, schemes that do not iterate, or not on all, whose difference is relative to the largest pressure of the run,
+or the displacement's if that is larger."""
 
 from dataclasses import dataclass
 from typing import Dict, List, Optional, Sequence
@@ -35,7 +35,7 @@ def settings_of(study: Study) -> Settings:
 
 
 def checked(runs: Sequence[StudyRun], settings: Settings) -> List[Cell]:
-    """The partitioned runs of a sweep, held against the monolithic ones in it."""
+    """The partitioned runs of a sweep, compared with its monolithic ones."""
     references = list(
         dict.fromkeys(run.request.method.name for run in runs if run.request.method.program == MONOLITHIC)
     )
@@ -102,7 +102,7 @@ def in_words(found: Sequence[Cell], settings: Settings) -> str:
 
 
 def _cells(group: str) -> List[Column[Cell]]:
-    """For the CSV."""
+    """Columns of the CSV."""
     return [
         Column(csv="scheme", value=lambda c: c.method),
         Column(csv=group, value=lambda c: varied(c.run)),

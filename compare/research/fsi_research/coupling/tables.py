@@ -91,7 +91,7 @@ def passes_table(runs: Sequence[StudyRun]) -> Table:
 
 
 class Growth(NamedTuple):
-    """Of the passes from the coarsest mesh to another, mean over the steps that both runs have."""
+    """Growth of the passes from the coarsest mesh to another, mean over the steps that both runs have."""
 
     run: StudyRun
     steps: int
@@ -125,7 +125,7 @@ def growth_table(runs: Sequence[StudyRun]) -> Table:
 
 
 class Agreement(NamedTuple):
-    """Of a scheme's run with the longest monolithic one of its mesh and case."""
+    """Difference of a scheme's run from the longest monolithic one of its mesh and case."""
 
     run: StudyRun
     levels: int  # time levels in common
@@ -137,7 +137,7 @@ class Agreement(NamedTuple):
 
 
 def agreements(runs: Sequence[StudyRun]) -> List[Agreement]:
-    """Of the schemes with the monolithic runs among them, scheme by scheme."""
+    """Agreement of the schemes with the monolithic runs, scheme by scheme."""
     schemes = [run for run in runs if run.request.method.program != MONOLITHIC]
     shown = places(schemes)
     return [_agreement(own[p], runs) for _, own in by_scheme(schemes) for p in shown if p in own]
@@ -197,7 +197,7 @@ def _levels(found: Sequence[Agreement], mesh: str) -> List[int]:
 
 
 class Saving(NamedTuple):
-    """By a monolithic run over another, per step: 1 - monolithic/partitioned."""
+    """Part that a monolithic run saves of another, per step: 1 - monolithic/partitioned."""
 
     whole: Cost
     cost: Cost

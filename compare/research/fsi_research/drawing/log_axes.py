@@ -8,13 +8,14 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 
 def plain_number(value: float, unit: str = "") -> str:
-    """As people write it, with its unit: 1e-05 becomes '0.00001'."""
+    """The number in plain form, with its unit: 1e-05 becomes '0.00001'."""
     text = f"{float(f'{value:.6g}'):,.15f}".rstrip("0").rstrip(".")
     return f"{text} {unit}" if unit else text
 
 
 def log_axes(axes: Axes, x_unit: str = "", y_unit: str = "", least: Tuple[float, float] = (4, 4)) -> None:
-    """Both axes, when everything is drawn; the ends of each are `least` apart as ratios, so that a percent looks like no more."""
+    """Makes both axes logarithmic, when everything is drawn. Their ends differ by `least` as ratios, so that a percent
+    looks small."""
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.margins(x=0.1, y=0.12)
@@ -34,7 +35,7 @@ def plain_log_axis(axis: Axis, unit: str = "", most: int = 7) -> None:
 
 
 def widened(limits: Sequence[float], factor: float) -> Tuple[float, float]:
-    """About their middle, where they are nearer than `factor`."""
+    """The limits, moved apart about their middle where they are nearer than `factor`."""
     low, high = float(limits[0]), float(limits[1])
     middle = (low * high) ** 0.5
     return (low, high) if high >= factor * low else (middle / factor**0.5, middle * factor**0.5)

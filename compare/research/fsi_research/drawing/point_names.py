@@ -1,4 +1,5 @@
-"""Names at the points of a frontier, which falls to the right: below and left of it nothing is drawn, so that they stand there."""
+"""Names at the points of a frontier, which falls to the right: they stand below and left of it, where nothing is
+drawn."""
 
 from typing import List, Sequence, Tuple
 
@@ -51,7 +52,7 @@ def name_points(
 
 
 def _apart(own: Sequence[float]) -> List[float]:
-    """Heights from the top, each at least a line below the one before."""
+    """Heights from the top, each at least a line below the last."""
     found: List[float] = []
     for height in own:
         found.append(min(height, found[-1] - LINE) if found else height)

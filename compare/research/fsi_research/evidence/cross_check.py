@@ -39,7 +39,8 @@ class Cell:
     # Largest over the time levels in common, relative to the largest of each level; of a method with one pass, of all.
     difference: Optional[float]
     against: Optional[StudyRun]  # whose levels these are
-    # Of a method that does not iterate: of the wall's radial displacement, Euclidean norm over levels and points, relative.
+    # Of a method that does not iterate: of the wall's radial displacement, Euclidean norm over levels and points,
+    # relative.
     displacement: Optional[float] = None
 
     @property
@@ -67,8 +68,8 @@ def point_of(run: StudyRun) -> Point:
 
 
 def waves_of(run: StudyRun) -> Optional[PressureWaves]:
-    """Pressure along the centre line, or the line that the case asks for, in Pa; of a wall without fluid its displacements (see
-    below). None: no finished time level."""
+    """Pressure along the centre line, or the line that the case asks for, in Pa; of a wall without fluid its
+    displacements (see below). None: no finished time level."""
     try:
         if run.has_pressure:
             return run.pressure
@@ -149,7 +150,7 @@ def _cell(
 
 
 def _displacement(reference: StudyRun, other: StudyRun) -> Optional[float]:
-    """Of the wall's inner face over the levels and points in common; None: there are none, or nothing moves."""
+    """Difference at the wall's inner face over the levels and points in common; None: there are none, or no motion."""
     expected, own = displacements_of(reference), displacements_of(other)
     if expected is None or own is None or not own.covers_line(expected.z):
         return None

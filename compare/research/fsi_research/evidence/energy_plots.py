@@ -67,7 +67,7 @@ class Balance:
 
 
 def balance(run: StudyRun) -> Optional[Balance]:
-    """None: the run wrote no energy balance."""
+    """A run's balance; None: it wrote none."""
     if not run.has(FILE):
         return None
     columns = run.columns(FILE)

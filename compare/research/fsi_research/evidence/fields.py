@@ -10,8 +10,8 @@ from fsi_compare.base.errors import InputError
 from fsi_compare.results import fields
 from fsi_compare.results.fields import FIRST as FILE
 
-# A quadratic tetrahedron as eight linear ones on its nodes, vertices and then middles of edges in VTK's order: four at the
-# vertices, and the octahedron between them about the line from the middle of edge (2, 0) to that of edge (1, 3).
+# A quadratic tetrahedron as eight linear ones on its nodes, vertices and then middles of edges in VTK's order: four at
+# the vertices, and the octahedron between them about the line from the middle of edge (2, 0) to that of edge (1, 3).
 TETRAHEDRA = np.array(
     [(0, 4, 6, 7), (4, 1, 5, 8), (6, 5, 2, 9), (7, 8, 9, 3), (6, 8, 4, 5), (6, 8, 5, 9), (6, 8, 9, 7), (6, 8, 7, 4)]
 )

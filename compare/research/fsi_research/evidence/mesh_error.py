@@ -1,4 +1,4 @@
-"""How far a run's wave is from the artery's own: the error of mesh and time step, by the measure of the accuracy study."""
+"""How far a run's wave is from the artery's own: the error of mesh and time step, as the accuracy study measures it."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -31,7 +31,7 @@ TUBES = ("3d", "axisymmetric")  # values of `geometry` in which the artery is th
 
 @dataclass(frozen=True)
 class MeshError:
-    """Of one run. Relative L2 over the centre line, or the wall's inner face, and the reference's levels; None: unknown."""
+    """Relative L2 errors over the centre line, or the wall's inner face, and the reference's levels; None: unknown."""
 
     pressure: Optional[float]
     displacement: Optional[float]  # radial
@@ -71,7 +71,7 @@ def physical(case: Mapping[str, Any], settings: Optional[Mapping[str, Any]] = No
 
 @lru_cache(maxsize=None)
 def references(folder: Path = REFERENCES) -> Dict[str, WaveReference]:
-    """Those that are kept, by material."""
+    """The kept references, by material."""
     return {name: read_reference(folder / name) for name in MATERIALS if is_file(folder / name / FILE)}
 
 

@@ -60,7 +60,7 @@ def _part(name: str) -> str:
 
 
 class Phases(NamedTuple):
-    """Of a run: seconds by part."""
+    """A run's seconds by part."""
 
     label: str
     run: StudyRun

@@ -15,7 +15,7 @@ SAME_SOLUTION = 1e-7  # relative difference to the direct solver's
 
 @dataclass(frozen=True)
 class Spent:
-    """By one method on one system."""
+    """Cost of one method on one system."""
 
     material: str
     mesh: str
@@ -30,7 +30,7 @@ class Spent:
 
     @property
     def failure(self) -> str:
-        """For the notes; empty: it converged."""
+        """Text for the notes; empty: it converged."""
         if self.entry.solve is not None:
             return ""
         method = "" if self.entry.status == "failed" else f"{self.method}, "
@@ -38,7 +38,7 @@ class Spent:
 
     @property
     def apart(self) -> bool:
-        """From the direct solver's solution."""
+        """Whether the solution differs from the direct solver's."""
         solve = self.entry.solve
         return solve is not None and solve.difference is not None and solve.difference > SAME_SOLUTION
 

@@ -1,4 +1,4 @@
-"""Iterations of the methods on one system beside the paper's: marked where they are more, with the notes that say so."""
+"""Iterations of the methods on one system beside the paper's: larger counts are marked, and explained by notes."""
 
 from dataclasses import dataclass, replace
 from typing import List, Optional, Tuple
@@ -13,7 +13,7 @@ from .results import NewtonSystem, System
 
 @dataclass(frozen=True)
 class Count:
-    """Of one method on one system."""
+    """Iterations of one method on one system."""
 
     material: str
     mesh: str
@@ -34,7 +34,7 @@ class Count:
 
 
 def count_columns(key: System) -> List[Column[Count]]:
-    """Of the CSV, before those that a table has of its own."""
+    """Columns of the CSV that come before a table's own."""
     return [
         Column(csv="step", value=lambda c: key[0]),
         Column(csv="newton_iteration", value=lambda c: key[1]),

@@ -32,7 +32,7 @@ def solver_tables(grid: Grid) -> List[Table]:
 
 
 class Increment(NamedTuple):
-    """Of a Newton iteration, ours and the paper's."""
+    """Norm of an increment in a Newton iteration, ours and the paper's."""
 
     material: str
     mesh: str
@@ -135,7 +135,7 @@ class Block:
 
     @property
     def ratio(self) -> Optional[float]:
-        """Of iterations."""
+        """Ratio of the iterations."""
         one, other = self.count.entry.iterations, self.exact.iterations
         return one / other if one is not None and other else None
 

@@ -156,7 +156,7 @@ class Cell(NamedTuple):
 
     @property
     def failure(self) -> str:
-        """For the notes."""
+        """Text for the notes."""
         where = f"{self.line.row.quantity} {self.line.row.value:g}".strip()
         return f"n.c.: {self.method}, {where}: {self.message}" if self.solve else f"failed: {where}: {self.message}"
 

@@ -1,5 +1,5 @@
-"""Runs of fsi-linear-study that solve single Newton systems by several methods, each in a folder of its own. A study can
-be stopped at any moment and called again: what is finished stays."""
+"""Runs of fsi-linear-study that solve single Newton systems by several methods, each in a folder of its own. A study
+can be stopped at any moment and called again: what is finished stays."""
 
 import hashlib
 import json
@@ -110,8 +110,7 @@ def run_study(program: Program, folder: Path, requests: Sequence[Request], quiet
 
 
 def finished(place: Path, request: Request, version: str) -> Optional[Tuple[LinearSolvers, float, str]]:
-    """Results, seconds and the program's digest of an earlier run in this folder when it holds all that is asked for
-    now."""
+    """Results, seconds and the program's digest of an earlier run in this folder that holds all that is asked for."""
     try:
         results = read_linear_solvers(place / FILE)
         memory = read_object(place / REQUEST, "", "")

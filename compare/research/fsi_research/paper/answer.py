@@ -1,5 +1,5 @@
-"""What the paper's study found, in five lines: drivers, wave, accuracy, cost, and what failed. Each is made from the runs;
-where they lack what a line needs, it says so."""
+"""What the paper's study found, in five lines: drivers, wave, accuracy, cost, and what failed. Each is made from the
+runs, or says what is missing."""
 
 import math
 from dataclasses import dataclass

@@ -39,7 +39,7 @@ def verdict(holds: bool, partly: bool = False) -> str:
 
 
 def compared(fewer: int, more: int) -> str:
-    """Of counts in single cells, ours against the paper's."""
+    """Verdict on counts in single cells, ours against the paper's."""
     return MIXED if fewer and more else MORE if more else FEWER
 
 

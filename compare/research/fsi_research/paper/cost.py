@@ -167,7 +167,7 @@ def cost_table(found: Sequence[StepCost]) -> Table:
 
 @dataclass(frozen=True)
 class Saving:
-    """Of a monolithic run over a partitioned one: 0.5 is half, negative is more."""
+    """Saving of a monolithic run over a partitioned one: 0.5 is half, negative is more."""
 
     mesh: str
     monolithic: StepCost
@@ -227,8 +227,7 @@ def saving_table(found: Sequence[Saving]) -> Table:
 
 
 def cycles_per_iteration(grid: Optional[Grid], mesh: str, method: str = "amg_fgmres") -> Optional[float]:
-    """Cycles of a sub-problem's AMG in an iteration of the coupled one: each smoothing step on each level takes
-    one."""
+    """Cycles of a sub-problem's AMG in an iteration of the coupled one: one for each smoothing step on each level."""
     if grid is None:
         return None
     for material in grid.materials:
@@ -365,7 +364,7 @@ def _newton_claim(runs: PaperRuns, found: Sequence[StepCost]) -> Claim:
 
 
 def _robust_claim(runs: PaperRuns) -> Claim:
-    """Of the runs to full accuracy; running out of time says nothing."""
+    """Claim on the runs to full accuracy; running out of time says nothing."""
     text = "The monolithic approach is more robust than the partitioned one"
     asked = [
         run

@@ -52,7 +52,7 @@ def _balances(runs: PaperRuns) -> List[Tuple[StudyRun, Balance]]:
 
 
 def remainders(balances: Sequence[Tuple[StudyRun, Balance]]) -> List[Remainder]:
-    """By group, approach, and whether the wall has fibres."""
+    """The worst remainders by group, approach, and whether the wall has fibres."""
     rows: Dict[Tuple[str, str, str], List[Tuple[float, str]]] = {}
     for run, one in balances:
         wall = "with fibres" if run.request.case == FIBRES_WALL else "without fibres"

@@ -64,7 +64,7 @@ class Chosen:
 
 
 def chosen(study: Study) -> Optional[Chosen]:
-    """Of this form of the study; None: no such runs."""
+    """The choice of this form of the study; None: no such runs."""
     section: Optional[Mapping[str, Any]] = study.report.get("linear")
     if section is None or (study.quick and "quick" not in section):
         return None
@@ -107,7 +107,7 @@ def standing(study: Study, runner: Runner) -> Standing:
 
 
 def _requests(study: Study, wanted: Chosen, threads: Optional[int]) -> Tuple[List[Request], List[Request]]:
-    """Of the first systems, and of the later ones."""
+    """Requests for the first systems, and for the later ones."""
 
     def of(meshes: Sequence[str], systems: Sequence[System], ending: str) -> List[Request]:
         return [

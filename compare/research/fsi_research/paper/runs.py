@@ -18,7 +18,7 @@ PICTURE_TIME = 8.0  # of the deformed walls
 
 
 class PaperRuns:
-    """Those that are done; `asked`: the others too."""
+    """The finished runs; `asked`: all."""
 
     def __init__(self, runs: Sequence[StudyRun]):
         self.asked = list(runs)

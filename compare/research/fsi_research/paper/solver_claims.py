@@ -12,8 +12,8 @@ from ..linear.grid import Grid
 from .claims import Claim, compared, unexamined, verdict
 from .linear import FIRST_SYSTEM
 
-# Increments below this times the first are round-off: they are sums over some thousand unknowns, each with the machine's
-# epsilon of what was subtracted.
+# Increments below this times the first are round-off: they are sums over some thousand unknowns, each with the
+# machine's epsilon of what was subtracted.
 ROUND_OFF = 100 * sys.float_info.epsilon
 
 # What each verdict asks for. The numbers are the claims' own, or the paper's tables'; none is ours.
@@ -138,7 +138,7 @@ def observed_orders(increments: Sequence[float]) -> List[float]:
 
 
 def _newton_order(grid: Grid) -> Finding:
-    """By the last order that round-off leaves: convergence is quadratic near the solution, not from the start."""
+    """Judges by the last order above round-off: convergence is quadratic near the solution, not from the start."""
     orders: Dict[Tuple[str, str], float] = {}
     theirs: Dict[Tuple[str, str], float] = {}
     steps = {}

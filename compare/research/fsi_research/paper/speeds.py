@@ -51,7 +51,7 @@ class Measured:
 
 @dataclass(frozen=True)
 class Speeds:
-    """Of one reading of one material's wall, mm/ms."""
+    """Wave speeds of one reading of one material's wall, mm/ms."""
 
     material: str
     reading: str  # how it departs from the case file; empty: not at all
@@ -84,7 +84,7 @@ def levels_of(runs: PaperRuns) -> List[str]:
 
 
 def speeds(runs: PaperRuns) -> List[Speeds]:
-    """Of the three materials as they are, then of the other readings."""
+    """Speeds of the three materials as they are, then of the other readings."""
     levels = levels_of(runs)
 
     def of(material: str, reading: str, tube: Tube, chosen: Sequence[StudyRun]) -> Speeds:
@@ -189,7 +189,7 @@ WALLS: Sequence[Column[Speeds]] = (
 
 
 def _measured_columns(levels: Sequence[str], name: str, form: str, group: str) -> List[Column[Speeds]]:
-    """Of the levels, and the error of the finest where there are several: one level tells none."""
+    """Columns of the levels, and the error of the finest where there are several."""
 
     def of_level(level: str) -> Column[Speeds]:
         return Column(

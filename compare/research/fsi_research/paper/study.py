@@ -68,7 +68,7 @@ def also_runs(study: Study) -> List[str]:
 
 
 def also_standing(study: Study, runner: Runner) -> Standing:
-    """The same for the list of studies: how many of them are there."""
+    """How many of also_runs() are there, for the list of studies."""
     return paper_linear.standing(study, runner)
 
 

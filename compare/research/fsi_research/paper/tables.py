@@ -19,7 +19,7 @@ UNITS = {"c10": "kPa", "c01": "kPa", "k1": "kPa", "k2": "", "alpha": "deg", "den
 
 
 class Parameter(NamedTuple):
-    """Of a wall, ours and the paper's."""
+    """A constant of a wall, ours and the paper's."""
 
     material: str
     first: bool  # of its material
@@ -90,8 +90,8 @@ def _structure(case: Path) -> dict:
 
 def mesh_counts(runs: PaperRuns, grid: Optional[Grid]) -> Dict[str, Dict[str, int]]:
     """Nodes, tetrahedra and unknowns of our meshes by level. Unknowns are those of the paper's coupled system where the
-    linear solvers were run: mesh displacement, velocity and pressure of the fluid, displacement and
-    pressure of the wall."""
+    linear solvers were run: mesh displacement, velocity and pressure of the fluid, displacement and pressure of the
+    wall."""
     found: Dict[str, Dict[str, int]] = {}
     for run in runs.all(WAVES):
         mesh = run.summary.get("mesh", {})

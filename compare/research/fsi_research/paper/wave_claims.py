@@ -107,7 +107,7 @@ def _percent(s: Stopped) -> str:
 
 
 def _lower(s: Stopped) -> bool:
-    """At all times from 4.5 ms on."""
+    """Whether peaks are lower at all times from 4.5 ms on."""
     return all(r is not None and r < 1 for r in s.ratios[2:])
 
 

@@ -35,7 +35,7 @@ def peaks(waves: PressureWaves, times: Sequence[float] = TIMES) -> List[Optional
 
 
 def wave_errors(runs: PaperRuns) -> Dict[Path, MeshError]:
-    """Of each run that shows the wave of a wall as it is, by its folder."""
+    """Errors by folder, of the runs that show the wave of a wall as it is."""
     return {run.folder: mesh_error(run) for run in shown_waves(runs)}
 
 
@@ -200,7 +200,7 @@ def stopped_early(runs: PaperRuns) -> Tuple[Optional[StudyRun], List[Stopped]]:
 
 
 class Wave(NamedTuple):
-    """Of a run that was stopped early, or of the monolithic one, which has neither passes nor difference."""
+    """A run that was stopped early, or the monolithic one, which has neither passes nor difference."""
 
     label: str
     passes: Optional[float]

@@ -29,12 +29,12 @@ class Record:
 
     @property
     def in_bars(self) -> Optional[float]:
-        """None: there is no bar."""
+        """Difference over the bar; None: there is no bar."""
         return self.off / self.bar.total if self.bar.given and self.bar.total > 0 else None
 
     @property
     def beyond(self) -> Optional[float]:
-        """The same for bar, spread of published values and what another model is worth together."""
+        """Difference over bar, spread of published values and error of the reference's model together."""
         room = self.bar.total + (self.number.spread + self.number.model) * abs(self.number.reference)
         return self.off / room if self.bar.given and room > 0 else None
 
@@ -43,13 +43,13 @@ class Record:
         return self.beyond is not None and self.beyond <= 1
 
     def relative(self, difference: float) -> float:
-        """Of the known value, or of what the scene counts its errors in."""
+        """Relative to the known value, or to the scale that the scene gives for its errors."""
         return difference / (self.number.scale or abs(self.number.reference))
 
 
 def numbers_of(scene: Scene, runs: Runs) -> Dict[Tuple[str, str], Dict[Member, Number]]:
-    """What the scene measures in each member, by (what it is, program). A scene may compare its drivers, so that both runs of
-    a member are read together."""
+    """What the scene measures in each member, by (what it is, program). A scene may compare its drivers, so that both
+    runs of a member are read together."""
     found: Dict[Tuple[str, str], Dict[Member, Number]] = {}
     for member in dict.fromkeys(member for of in runs.values() for member in of):
         here = {
@@ -65,7 +65,7 @@ def numbers_of(scene: Scene, runs: Runs) -> Dict[Tuple[str, str], Dict[Member, N
 
 
 def records(scene: Scene, facts: CaseFacts, runs: Runs) -> List[Record]:
-    """Of every number of the scene that is known otherwise than by its other driver."""
+    """Records of all numbers of the scene that are known otherwise than by its other driver."""
     found: List[Record] = []
     for (_, program), of in numbers_of(scene, runs).items():
         own = next((number for member, number in of.items() if member.is_own), None)

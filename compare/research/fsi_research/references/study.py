@@ -1,5 +1,5 @@
-"""Kind `references`: scenes of the gallery whose numbers are known, exactly or from publications. A family of runs about each
-scene, as that of `fsi-compare verify`, gives the numbers their error bars, by each driver."""
+"""Kind `references`: scenes of the gallery whose numbers are known, exactly or from publications. A family of runs
+about each scene, as that of `fsi-compare verify`, gives the numbers their error bars, by each driver."""
 
 from dataclasses import dataclass
 from typing import Dict, List, Sequence, Tuple
@@ -24,7 +24,7 @@ LEVELS = 3
 
 @dataclass(frozen=True)
 class Plan:
-    """Of a scene: how many meshes its family has, and whether one is finer than the scene's own."""
+    """How many meshes a scene's family has, and whether one is finer than the scene's own."""
 
     case: str
     levels: int

@@ -14,7 +14,7 @@ ALGEBRA = ("set-up", "solve", "coupling", "other")
 
 @dataclass(frozen=True)
 class Spread:
-    """Of the processes."""
+    """Spread of a number over the processes."""
 
     minimum: float
     mean: float
@@ -65,8 +65,8 @@ class Measured:
 
 
 def measure(run: StudyRun, label: str, processes: int, threads: int, cores: int) -> Measured:
-    """Of a run that is done. Raises InputError where its summary lacks what every run has, or says that it was made by
-    another number of processes than the study asked for."""
+    """Measures a finished run. Raises InputError where its summary is incomplete, or says that it was made by another
+    number of processes than the study asked for."""
     summary = run.summary
     path = run.folder / FILE
     try:

@@ -4,14 +4,13 @@ On P processes a step of a mesh of N nodes takes
 
     T = lambda (A (n + h) / n + S I(P) / I(1)) n + M t_latency + B / bandwidth + R ceil(log2 P) t_hop + W
 
-with n = N / P own nodes and h copies of others' (halo) on each. A and S are the seconds per node of element loops and of
-algebra, from a run on one process; element loops run over the halo's elements, too. I are the linear iterations of a step,
-lambda is the largest part over the mean one, W the seconds of writing, which is not shared out. The halo grows as the
-surface of a part, h = kappa f n^(2/3) (n^(1/2) in two dimensions): kappa as counted, f the faces that a part shares with
-others, as many as there are others and at most those of a cube (a square). M and B are messages and bytes that a process
-sends in a step: what was counted for a neighbour and for a copy, times how many there are. A part among many touches more
-neighbours than it has faces, most of them at little more than a point.
-"""
+with n = N / P own nodes and h copies of others' (halo) on each. A and S are the seconds per node of element loops and
+of algebra, from a run on one process; element loops run over the halo's elements, too. I are the linear iterations of a
+step, lambda is the largest part over the mean one, W the seconds of writing, which is not shared out. The halo grows as
+the surface of a part, h = kappa f n^(2/3) (n^(1/2) in two dimensions): kappa as counted, f the faces that a part shares
+with others, as many as there are others and at most those of a cube (a square). M and B are messages and bytes that a
+process sends in a step: what was counted for a neighbour and for a copy, times how many there are. A part among many
+touches more neighbours than it has faces, most of them at little more than a point."""
 
 import math
 from dataclasses import dataclass
@@ -22,14 +21,14 @@ from .measured import Measured
 
 @dataclass(frozen=True)
 class Machine:
-    """Of the machine that is imagined. The defaults are round figures of an InfiniBand or Slingshot network."""
+    """The machine of the model. The defaults are round figures of an InfiniBand or Slingshot network."""
 
     latency: float = 2e-6  # s, of a message between two nodes
     bandwidth: float = 5e9  # bytes/s that a process may send
     hop: float = 3e-6  # s, of a reduction for each doubling of the processes
     neighbours: float = 0.0  # of a part among many; 0: 14 in space, 6 in the plane, as of packed bubbles
     solver_exchanges: float = 20.0  # of the linear solver in an iteration, where its library does not count them
-    solver_halos: float = 4.0  # of these, how many halos of four numbers their bytes are worth
+    solver_halos: float = 4.0  # bytes of these, in halos of four numbers
     solver_reductions: float = 2.0  # in an iteration, likewise
 
 
@@ -94,8 +93,8 @@ class Memory:
 
 
 def counted(runs: Sequence[Measured], dimension: int, others: Sequence[Measured] = ()) -> Optional[Counted]:
-    """From the run on one process and the one on most; None where one of them is missing. `others`: on other meshes, too,
-    for the memory of the reading stage."""
+    """Counts from the run on one process and the one on most; None where one of them is missing. `others`: on other
+    meshes, too, for the memory of the reading stage."""
     alone = next((run for run in runs if run.processes == 1), None)
     most = max((run for run in runs if run.processes > 1), key=lambda run: run.processes, default=None)
     if alone is None or most is None:
@@ -122,7 +121,8 @@ def counted(runs: Sequence[Measured], dimension: int, others: Sequence[Measured]
 
 
 def _memory(runs: Sequence[Measured], all_runs: Sequence[Measured]) -> Optional["Memory"]:
-    """Least squares of peak memory over local nodes, of runs of one mesh, and of the reading stage's over whole meshes."""
+    """Least squares of peak memory over local nodes, of runs of one mesh, and of the reading stage over whole
+    meshes."""
     solving = _line(
         [
             (run.nodes / run.processes + run.halo.mean / run.copies, run.memory.mean)
@@ -210,7 +210,7 @@ def step(counted: Counted, machine: Machine, nodes: int, processes: int) -> Step
 
 
 def assumptions(counted: Counted, machine: Machine, cores: int) -> List[str]:
-    """In words, for readers of the model's figures."""
+    """The model's assumptions in words."""
     seen = counted.growth.most
     power = "2/3" if counted.dimension == 3 else "1/2"
     lines = [

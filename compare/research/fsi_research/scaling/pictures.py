@@ -26,7 +26,8 @@ Lines = Sequence[Sequence[Measured]]  # of each method, by processes
 
 
 def times_figure(strong: Lines, weak: Lines) -> Figure:
-    """Speed-up on one mesh and, where there are such runs, efficiency on a growing one; runs whose seconds mean something."""
+    """Speed-up on one mesh and, if there are such runs, efficiency on a growing one; of runs with meaningful
+    seconds."""
     panels = 2 if any(_shown(runs) for runs in weak) else 1
     figure = Figure(figsize=(4.2 * panels + (1.4 if panels == 1 else 0), 3.1))
     grid = figure.subplots(1, panels, squeeze=False)[0]

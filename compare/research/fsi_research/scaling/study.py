@@ -1,5 +1,5 @@
-"""Kind `scaling`: one case on more and more processes, on the cores that are here, and a model of what more of them would
-give.
+"""Kind `scaling`: one case on more and more processes, on the cores that are here, and a model of what more of them
+would give.
 
 `[report.scaling]` names groups of runs: `strong`, one mesh on varied processes; `weak`, meshes that grow with them;
 `counts`, on more processes than cores, whose iterations and messages count and whose seconds do not. `[report.model]`:
@@ -92,8 +92,7 @@ def evaluate(context: Context) -> int:
     broken = [run for run in context.runs if not run.done]
 
     def lines(group: str) -> List[List[Measured]]:
-        """Of each method (and mesh, unless that goes with the processes) of a group its runs that are done, by
-        processes."""
+        """Finished runs of each method (and mesh, unless that grows with the processes) of a group, by processes."""
         found = [run for run in context.runs if run.done and run.request.group == settings.groups[group]]
         meshes = {_mesh(run) for run in found} if group != "weak" else set()
         by_line: Dict[str, List[Measured]] = {}

@@ -164,7 +164,7 @@ class Modelled(NamedTuple):
 
 
 def _part(name: str, csv: str, value: Callable[[Step], float]) -> Column[Modelled]:
-    """Of a step's time: seconds in the CSV, for people milliseconds."""
+    """A part of a step's time: seconds in the CSV, for people milliseconds."""
     return Column(
         name, csv, lambda m: value(m.step), lambda seconds: short(1e3 * seconds), "s", "milliseconds per step"
     )

@@ -1,5 +1,5 @@
-"""Kind `scenes`: scenes of the gallery by both drivers, side by side in one table: what they compute, what is published,
-and what that costs."""
+"""Kind `scenes`: scenes of the gallery by both drivers, side by side in one table: what they compute, what is
+published, and what that costs."""
 
 from dataclasses import dataclass
 from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple
@@ -127,7 +127,7 @@ class Row(NamedTuple):
         return "" if run is None else duration(run.seconds) if run.done else run.status
 
     def kind(self, program: str) -> str:
-        """With its scheme."""
+        """Kind of coupling with its scheme."""
         run = self.run(program)
         known = (coupling_kind(run.summary), chosen_scheme(run.summary)) if run is not None else ()
         return ", ".join(word for word in known if word)

@@ -30,7 +30,7 @@ class Economy:
     off_label: str
     on: Sequence[Any]  # requests or runs, its repetitions
     off: Sequence[Any]
-    differs: str  # why the two answers are not the same; empty: they are
+    differs: str  # why the two results differ; empty: they are the same
 
 
 def check(study: Study) -> None:
@@ -38,8 +38,8 @@ def check(study: Study) -> None:
 
 
 def economies(study: Study, items: Sequence[Any], request_of: Callable[[Any], Request]) -> List[Economy]:
-    """`items`: requests or runs; `request_of` gives an item's request. Groups that the quick form leaves out are left
-    out."""
+    """`items`: requests or runs; `request_of` gives an item's request. Groups that the quick form leaves out are
+    skipped."""
     report = report_of(study, REPORT_KEYS)
     repeat = report.text("repeat", "repeat")
     groups: Dict[str, Dict[Tuple, List[Any]]] = {}
@@ -112,7 +112,7 @@ class Measured:
     noise: float  # factor by which seconds differ for no reason; see with_common_noise
     on_count: Optional[float]
     off_count: Optional[float]
-    difference: Optional[float]  # of the two answers: largest over the time levels, relative to each level's largest
+    difference: Optional[float]  # of the two results: largest over the time levels, relative to each level's largest
 
     @property
     def request(self) -> Request:

@@ -122,7 +122,7 @@ def _inflated(cell: Cell, at_rest: bool, wall: Wall) -> Inflated:
 
 
 def _furthest(runs: Sequence[Inflated]) -> List[Inflated]:
-    """Of each mesh the run at rest that came furthest; the coarsest mesh first."""
+    """The furthest run at rest on each mesh; the coarsest mesh first."""
     best: Dict[str, Inflated] = {}
     for run in runs:
         if run.at_rest and (run.mesh not in best or run.pressure > best[run.mesh].pressure):

@@ -101,8 +101,7 @@ TUBE_KEYS = ("radii", "shear_moduli")
 
 
 def read_wall(settings: Section) -> Wall:
-    """From the study's [report.tube]: radii of the faces in mm and shear moduli of the layers in kPa, from the inside
-    outward."""
+    """Reads [report.tube]: radii of the faces in mm and shear moduli of the layers in kPa, from the inside outward."""
     radii, moduli = settings.numbers("radii"), settings.numbers("shear_moduli")
     if len(radii) != len(moduli) + 1 or sorted(set(radii)) != radii:
         raise settings.wrong("radii", "are not one more than the layers, rising", "give the radius of each face in mm")
@@ -119,7 +118,7 @@ class Inflation:
 
     @property
     def steps(self) -> int:
-        """Of equal size, from nothing to the whole load in statics."""
+        """Number of equal load steps, from nothing to the whole load in statics."""
         return round(1 / float(self.times[0]))
 
 
@@ -187,8 +186,7 @@ def static_figure(runs: Sequence[Curve], wall: Wall) -> Figure:
 
 
 def pulse_figure(runs: Sequence[Curve], title: str) -> Figure:
-    """Each curve is named at its end; the longest pulse lies broad and dark beneath the others, which coincide with it
-    while they last."""
+    """Each curve is named at its end; the longest pulse lies broad and dark beneath others, which coincide with it."""
     figure = Figure(figsize=(6.4, 3.6))
     axes = figure.subplots()
     runs = sorted(runs, key=lambda run: -run.load)

@@ -27,7 +27,7 @@ class Settings:
     pulse: str  # quantity that is the pulse's length; empty: none
 
     def label(self, name: str) -> str:
-        """Of a quantity, with its unit; its key where it has no label."""
+        """A quantity's label, with its unit; its key where it has none."""
         return str(self.quantities.get(name, {}).get("label", name))
 
     def at_rest(self, run: StudyRun) -> bool:

@@ -1,5 +1,5 @@
-"""What methods leave that do not iterate until fluid and wall agree, or not on all that they share: pressure and displacement
-against the other driver's with the same step."""
+"""What methods leave that do not iterate until fluid and wall agree, or not on all that they share: pressure and
+displacement against the other driver's with the same step."""
 
 from typing import Any, Dict, List, NamedTuple, Sequence
 

@@ -97,7 +97,7 @@ def _detail(cell: Cell) -> str:
 
 
 class Outcomes(NamedTuple):
-    """Of a method's runs."""
+    """Outcomes of a method's runs."""
 
     name: str
     label: str
