@@ -135,6 +135,7 @@ class Arrays {
       double value = 0;
       const auto [stop, error] = std::from_chars(at, end, value);
       if (error == std::errc::invalid_argument) throw Damaged("has what is no number among its numbers");
+      if (error == std::errc::result_out_of_range) value = std::strtod(std::string(at, stop).c_str(), nullptr);
       numbers.push_back(value);
       at = stop;
     }
@@ -165,8 +166,11 @@ class Arrays {
     const std::size_t blocks = first, head_bytes = size * (3 + blocks);
     const std::string head = plain(head_bytes);
     std::size_t together = 0;
-    for (std::size_t b = 0; b < blocks; ++b) together += header(head, 3 + b);
-    if (together > most_bytes) throw Damaged("is damaged");
+    for (std::size_t b = 0; b < blocks; ++b) {
+      const std::size_t bytes = header(head, 3 + b);
+      if (bytes > most_bytes || together > most_bytes - bytes) throw Damaged("is damaged");
+      together += bytes;
+    }
     std::string_view behind = from;
     behind.remove_prefix(std::min(behind.size(), raw ? head_bytes : coded(head_bytes)));
     const std::string data = raw ? std::string(behind.substr(0, std::min(together, behind.size())))
@@ -258,7 +262,8 @@ VtkMesh mesh_of(const std::string& text) {
   if (const auto at = text.find("<AppendedData"); at != std::string::npos) {
     const auto end = text.find('>', at), mark = text.find('_', end);
     if (end == std::string::npos || mark == std::string::npos) throw Damaged("is cut off");
-    raw = xml.substr(at, end - at).find("\"raw\"") != std::string_view::npos;
+    const std::string_view tag = xml.substr(at, end - at);
+    raw = tag.find("\"raw\"") != std::string_view::npos || tag.find("'raw'") != std::string_view::npos;
     appended = xml.substr(mark + 1);
     xml = xml.substr(0, at);
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "materials/law_parameters.hpp"
 
 namespace fsi {
 
@@ -34,11 +35,7 @@ struct SettlesOf<Law, std::void_t<decltype(&Law::settle)>> : std::true_type {};
 
 template <class Law>
 Material make(const ParameterValues& values) {
-  Law law;
-  for (const auto& parameter : Law::parameters()) {
-    const auto value = values.find(parameter.name);
-    if (value != values.end()) law.*parameter.member = value->second;
-  }
+  Law law = with_parameters<Law>(values);
   if constexpr (SettlesOf<Law>::value) law.settle();
   return law;
 }
@@ -108,10 +105,10 @@ std::optional<ParameterProblem> problem_of(const MaterialKind& kind, const Param
   const bool whole = std::any_of(kind.sets.begin(), kind.sets.end(), [&](const auto& set) {
     return set.size() == given.size() && std::is_permutation(set.begin(), set.end(), given.begin());
   });
-  if (given.empty()) return ParameterProblem{"has no elastic constants", choice_of(kind.sets)};
+  if (given.empty()) return ParameterProblem{"has too few constants", choice_of(kind.sets)};
   if (!whole)
     return ParameterProblem{
-        all_of(given) + (given.size() == 1 ? " alone does" : " together do") + " not make its elastic constants",
+        all_of(given) + (given.size() == 1 ? " alone is" : " together are") + " no set of its constants",
         choice_of(kind.sets)};
   const auto bulk = std::visit([](const auto& law) { return law.own_bulk_modulus(); }, kind.make(values));
   if (bulk && !(*bulk > 0))
@@ -130,6 +127,16 @@ Material make_material(const std::string& name, const ParameterValues& values) {
   if (const auto wrong = problem_of(kind, values))
     throw InputError("", "parameters of " + name, wrong->problem, wrong->remedy);
   return kind.make(values);
+}
+
+ParameterValues parameter_values(const Material& material) {
+  return std::visit(
+      [](const auto& law) {
+        ParameterValues values;
+        for (const auto& p : law.parameters()) values[p.name] = law.*p.member;
+        return values;
+      },
+      material);
 }
 
 double shear_modulus(const Material& material) {

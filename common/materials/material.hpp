@@ -35,6 +35,8 @@ std::vector<std::string> materials_with_fibres();
 /// Bounds of single values are not checked.
 /// \throws InputError for an unknown name, unknown or missing parameters of this material, and problem_of()
 Material make_material(const std::string& name, const ParameterValues& values);
+/// The values of all its parameters, those that follow from others too.
+ParameterValues parameter_values(const Material& material);
 
 // What the rest of the program asks of any material, see law_list.hpp.
 double shear_modulus(const Material& material);

@@ -6,23 +6,20 @@
 #include <cstddef>
 #include <utility>
 
+#include "materials/law_parameters.hpp"
+
 namespace fsi {
 
 namespace {
 
 template <class Law>
 ViscosityLaw make_viscosity(const ParameterValues& values) {
-  Law law;
-  for (const auto& parameter : Law::parameters())
-    if (const auto value = values.find(parameter.name); value != values.end()) law.*parameter.member = value->second;
-  return law;
+  return with_parameters<Law>(values);
 }
 
 template <class Law>
 std::pair<std::string, ViscosityKind> viscosity_row() {
-  ViscosityKind kind{{}, make_viscosity<Law>};
-  for (const auto& p : Law::parameters())
-    kind.parameters.push_back({p.name, p.about, &p.quantity, p.bounds, p.required, Law().*p.member});
+  ViscosityKind kind{parameters_of_law<Law>(), make_viscosity<Law>};
   return {Law::name, kind};
 }
 

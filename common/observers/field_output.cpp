@@ -145,7 +145,7 @@ constexpr bool in_wall_errors(const GridFacts& grid) {
 }
 
 /// Constants that are fields where they are not the same in the whole wall, and their units.
-constexpr std::array<std::pair<std::string_view, const char*>, 13> constants_of_walls{{{"c10", "kPa"},
+constexpr std::array<std::pair<std::string_view, const char*>, 17> constants_of_walls{{{"c10", "kPa"},
                                                                                        {"c01", "kPa"},
                                                                                        {"k1", "kPa"},
                                                                                        {"k2", "1"},
@@ -157,7 +157,11 @@ constexpr std::array<std::pair<std::string_view, const char*>, 13> constants_of_
                                                                                        {"lame_lambda", "kPa"},
                                                                                        {"lame_mu", "kPa"},
                                                                                        {"bulk_modulus", "kPa"},
-                                                                                       {"viscosity", "kPa ms"}}};
+                                                                                       {"viscosity", "kPa ms"},
+                                                                                       {"c20", "kPa"},
+                                                                                       {"c30", "kPa"},
+                                                                                       {"k1_second", "kPa"},
+                                                                                       {"k2_second", "1"}}};
 template <int n, std::size_t k>
 constexpr OutputField<n> constant_field() {
   return {constants_of_walls[k].first,
@@ -247,7 +251,11 @@ constexpr std::array<OutputField<n>, 19 + constants_of_walls.size()> output_fiel
      constant_field<n, 9>(),
      constant_field<n, 10>(),
      constant_field<n, 11>(),
-     constant_field<n, 12>()}};
+     constant_field<n, 12>(),
+     constant_field<n, 13>(),
+     constant_field<n, 14>(),
+     constant_field<n, 15>(),
+     constant_field<n, 16>()}};
 
 /// Whether every name of output.fields asks for a field, and every field is asked for by one of these names or none.
 template <int n>

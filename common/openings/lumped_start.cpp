@@ -11,24 +11,27 @@ namespace {
 
 using Kept = std::vector<std::vector<double>>;
 
+/// The pressure in the vessel, kPa: the one that is given, or with which the laws let out what flows in. A law without
+/// resistance sets it.
+double pressure_in(const LumpedVessel& vessel, const Kept& kept, double k, double time) {
+  if (vessel.pressure) return vessel.pressure(time);
+  double flow = vessel.inflow(time), conductance = 0;
+  for (std::size_t a = 0; a < kept.size(); ++a) {
+    const double slope = vessel.laws[a]->slope(k), at_rest = vessel.laws[a]->pressure(k, kept[a].data(), 0);
+    if (slope == 0) return at_rest;
+    flow += at_rest / slope;
+    conductance += 1 / slope;
+  }
+  return flow / conductance;
+}
+
 /// What the laws keep a period later.
 Kept marched(const LumpedVessel& vessel, Kept kept, int steps) {
   const double step = vessel.period / steps, k = 2 / step;  // the balance is in the middle of a step
   for (int i = 0; i < steps; ++i) {
-    const double time = (i + 0.5) * step;
-    double pressure = 0;
-    if (vessel.pressure) {
-      pressure = vessel.pressure(time);
-    } else {
-      double flow = vessel.inflow(time), conductance = 0;
-      for (std::size_t a = 0; a < kept.size(); ++a) {
-        const double slope = vessel.laws[a]->slope(k);
-        flow += vessel.laws[a]->pressure(k, kept[a].data(), 0) / slope;
-        conductance += 1 / slope;
-      }
-      pressure = flow / conductance;
-    }
+    const double pressure = pressure_in(vessel, kept, k, (i + 0.5) * step);
     for (std::size_t a = 0; a < kept.size(); ++a) {
+      if (kept[a].empty()) continue;
       const OpeningLaw& law = *vessel.laws[a];
       const double flow = (pressure - law.pressure(k, kept[a].data(), 0)) / law.slope(k);
       const std::vector<double> middle = law.kept(k, kept[a].data(), flow);

@@ -73,6 +73,8 @@ class LayerConstants {
       blends_.push_back({&blend, RegionWeight(setup.structure->regions[blend.region]), std::move(fields), 0});
       for (const auto& [key, value] : blend.values) ranges_[key];
     }
+    completes_ =
+        std::any_of(ranges_.begin(), ranges_.end(), [&](const auto& range) { return base_.count(range.first) == 0; });
   }
 
   /// Whether a parameter varies that decides the law's form.
@@ -94,8 +96,15 @@ class LayerConstants {
   LawHere at(const Point& x, double weight, bool counted, std::map<std::string, double>& mean,
              std::set<std::size_t>& in) {
     ParameterValues& values = values_;
-    for (const auto& [key, range] : ranges_) values[key] = base_.at(key);
+    for (const auto& [key, range] : ranges_) {
+      const auto known = base_.find(key);
+      if (known == base_.end())
+        values.erase(key);
+      else
+        values[key] = known->second;
+    }
     for (const auto& [key, field] : fields_) values[key] = from_file(key, data_.fields.at(key), field, x);
+    if (completes_) values.merge(parameter_values(material_of(values, x)));
     for (std::size_t b = 0; b < blends_.size(); ++b) {
       const Blend& blend = blends_[b];
       const double w = blend.region(x);
@@ -185,6 +194,7 @@ class LayerConstants {
   std::vector<std::pair<std::string, PointField>> fields_;
   std::vector<Blend> blends_;
   std::map<std::string, Range> ranges_;  ///< by constant that varies
+  bool completes_;  ///< a region gives constants that outside it follow from the layer's, as those of a second family
 };
 
 /// All processes throw what the first that has a problem says of it.

@@ -85,14 +85,14 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:6: structure.bulk_modulus: belongs to no layer: each has a bulk modulus of its own by its elastic "
        "constants; remove it"},
       {"ConstantsMissing", static_case, "c10 = 3", "",
-       "case.toml:7: structure.layers.wall: has no elastic constants; give c10, or young and poisson"},
+       "case.toml:7: structure.layers.wall: has too few constants; give c10, or young and poisson"},
       {"ConstantsHalf", static_case, "\"neo-hookean\"\nc10 = 3", "\"linear-elastic\"\nyoung = 3",
-       "case.toml:7: structure.layers.wall: young alone does not make its elastic constants; give young and poisson, "
+       "case.toml:7: structure.layers.wall: young alone is no set of its constants; give young and poisson, "
        "or "
        "lame_lambda and lame_mu"},
       {"ConstantsOfTwoPairs", static_case, "\"neo-hookean\"\nc10 = 3",
        "\"saint-venant-kirchhoff\"\nyoung = 3\npoisson = 0.3\nlame_mu = 1",
-       "case.toml:7: structure.layers.wall: young, poisson and lame_mu together do not make its elastic constants; "
+       "case.toml:7: structure.layers.wall: young, poisson and lame_mu together are no set of its constants; "
        "give "
        "young and poisson, or lame_lambda and lame_mu"},
       {"PoissonIncompressible", static_case, "\"neo-hookean\"\nc10 = 3", "\"linear-elastic\"\nyoung = 3\npoisson = 0.5",

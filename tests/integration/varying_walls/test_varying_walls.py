@@ -137,6 +137,29 @@ class LawsWithoutLoopsOfTheirOwn(VaryingTest):
         self.assertAgree(runs[0], constant, 1e-12)
         walls = [arrays(folder / "checkpoint.h5")["arrays/level0.wall"] for folder in (runs[1], constant)]
         self.assertGreater(np.abs(walls[0] - walls[1]).max(), 1e-4 * np.abs(walls[1]).max())
+        shown = [values for name, values in arrays(runs[1] / "fields.h5").items() if "c20" in name.split("/")]
+        self.assertGreater(len(shown), 0, "the constant is a field")
+        self.assertGreater(len(np.unique(shown[0])), 5)
+
+    def test_a_region_may_give_what_the_layer_leaves_to_follow(self):
+        """Outside the region the second family is as the first one, whose constants may vary themselves."""
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        (self.base / "stiffness.csv").write_text(points(lambda x, y, z: 2 + x))
+        for first in ("2.0", FROM_FILE):
+            alike = self.FIBRES.replace("k1_second = 1.0\nk2_second = 2.0\n", "").replace("k1 = 2.0", f"k1 = {first}")
+            region = SOFT_EDGE.replace("c10 = 30.0\nviscosity = 2.0\n", "k1_second = 2.0\nk2_second = 0.8\n")
+            same = [
+                run(MONOLITHIC, self.case(wall), self.base / f"alike{i}", *settings)
+                for i, wall in enumerate((alike, alike + region))
+            ]
+            with self.subTest(first=first):
+                if first == "2.0":
+                    self.assertAgree(*same, 1e-10)
+                found = {name: v for name, v in arrays(same[1] / "fields.h5").items() if "k1_second" in name.split("/")}
+                self.assertGreater(len(found), 0)
+                values = next(iter(found.values()))
+                self.assertAlmostEqual(values.min(), 2.0, delta=1e-6 if first == "2.0" else 0.5)
+                self.assertEqual(len(np.unique(np.round(values, 9))) > 5, first != "2.0")
 
     def test_a_prestressed_wall_is_in_balance(self):
         for wall in (self.YEOH, self.FIBRES):

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -156,6 +157,13 @@ TEST(VtkFile, IsReadAsTextAndInBase64) {
   ASSERT_EQ(mesh.arrays.size(), 2u);
   EXPECT_EQ(mesh.arrays[0].values, (std::vector<double>{1, 2, 3, 4}));
   EXPECT_TRUE(mesh.arrays[1].of_cells);
+}
+
+TEST(VtkFile, TakesNumbersTooSmallOrTooLargeForADoubleAsTheNearestOnes) {
+  std::string text = text_of_vtk;
+  text.replace(text.find("1 2 3 4<"), 8, "1e-400 2 3 1e400<");
+  const VtkMesh mesh = read_vtk(text, "a.vtu");
+  EXPECT_EQ(mesh.arrays[0].values, (std::vector<double>{0, 2, 3, std::numeric_limits<double>::infinity()}));
 }
 
 TEST(VtkFile, IsRefusedWhereItIsDamaged) {

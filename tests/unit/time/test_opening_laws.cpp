@@ -15,6 +15,7 @@
 #include "materials/law_parameters.hpp"
 #include "openings/lumped_start.hpp"
 #include "openings/opening_laws.hpp"
+#include "openings/resistance.hpp"
 #include "openings/windkessel.hpp"
 #include "time/bdf2.hpp"
 #include "time/euler_newmark.hpp"
@@ -245,6 +246,12 @@ TEST(LumpedStart, SharesAFlowByConductance) {
 }
 
 TEST(LumpedStart, NeedsAWayOut) {
+  // Beside an opening without resistance, whatever flows.
+  const auto open = std::make_shared<Resistance>();
+  open->distal_pressure = 1.5;
+  const auto beside = periodic_start({{std::make_shared<Windkessel>(law), open}, nullptr, flow, cycle});
+  const auto given = periodic_start({{std::make_shared<Windkessel>(law)}, [](double) { return 1.5; }, nullptr, cycle});
+  EXPECT_NEAR(beside.at(0).at(0), given.at(0).at(0), 1e-12);
   EXPECT_THROW(periodic_start({{}, nullptr, flow, cycle}), std::runtime_error);
 }
 
