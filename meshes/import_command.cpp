@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/names.hpp"
 #include "base/output_file.hpp"
 #include "host/removed_on_signal.hpp"
 #include "host/standard_streams.hpp"
@@ -98,13 +98,9 @@ AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file
 
 /// A file of XML that is to become a folder is a case: case.toml and mesh.msh, not a mesh alone.
 bool is_case(const ImportRequest& request) {
-  const auto lower = [](std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-  };
   return request.files.size() == 1 &&
-         lower(std::filesystem::path(request.files.front()).extension().string()) == ".xml" && !request.list &&
-         lower(std::filesystem::path(request.output.file).extension().string()) != ".msh";
+         lower_case(std::filesystem::path(request.files.front()).extension().string()) == ".xml" && !request.list &&
+         lower_case(std::filesystem::path(request.output.file).extension().string()) != ".msh";
 }
 
 /// A folder beside the one that it is to become; removed with what is in it unless it was moved to its name.

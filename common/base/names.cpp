@@ -1,6 +1,7 @@
 #include "base/names.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 
 #include "base/error.hpp"
@@ -27,6 +28,11 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
     return edit_distance(name, a) < edit_distance(name, b);
   });
   return nearest == candidates.end() ? std::string() : *nearest;
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
 }
 
 std::string one_of(const std::vector<std::string>& candidates) {

@@ -11,6 +11,9 @@ int edit_distance(const std::string& a, const std::string& b);
 /// The candidate nearest to `name` by edit distance; empty when there is no candidate.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
 
+/// Letters of ASCII in lower case.
+std::string lower_case(std::string text);
+
 /// "a, b or c", for messages.
 std::string one_of(const std::vector<std::string>& candidates);
 

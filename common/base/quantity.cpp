@@ -66,6 +66,11 @@ const Quantity& viscosity() {
   return q;
 }
 
+const Quantity& wall_viscosity() {
+  static const Quantity q{"kPa ms", {}};
+  return q;
+}
+
 const Quantity& pressure() {
   static const Quantity q{
       "kPa", {{"mmHg", 0.133322, 60, 300}, {"Pa", 1e-3, 300, 5e4}, {"dyn/cm^2", 1e-4, 5e4, 5e5}}, true};

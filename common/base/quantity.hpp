@@ -51,6 +51,7 @@ const Quantity& density();  ///< without other units: no value gives a wrong one
 const Quantity& fluid_density();
 const Quantity& wall_density();
 const Quantity& viscosity();
+const Quantity& wall_viscosity();  ///< a thousand to a million times that of blood: no value gives a wrong unit away
 const Quantity& pressure();
 const Quantity& stiffness();
 const Quantity& bulk_modulus();

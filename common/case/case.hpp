@@ -39,7 +39,6 @@ struct SupportData {
   std::optional<std::vector<std::string>> fixed;  ///< components that do not move: "x", "y", "z", "r" or "normal"
 
   bool holds() const { return spring > 0 || normal_spring > 0 || (fixed && !fixed->empty()); }
-  bool loads() const { return pressure.has_value() || !traction.empty(); }
 };
 
 /// [prestress]: the load that the wall carries in the shape of its mesh (docs/theory.md, section 4.6).

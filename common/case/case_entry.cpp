@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "base/error.hpp"
@@ -184,6 +185,14 @@ std::string CaseEntry::line() const {
   return given;
 }
 
+std::filesystem::path CaseEntry::path(const std::string& what) const {
+  const std::string name = line();
+  if (name.empty()) refuse_value("is empty", "give the " + what);
+  std::error_code error;
+  if (source_->is_overridden(key_) && std::filesystem::exists(name, error)) return name;
+  return std::filesystem::path(source_->file).parent_path() / name;
+}
+
 std::vector<CaseEntry> CaseEntry::elements() const {
   const auto* array = node_->as_array();
   if (array == nullptr) refuse_type("an array");
@@ -221,7 +230,8 @@ void refuse_unknown_keys(const CaseEntry& section, const std::vector<std::string
   for (const auto& entry : section.children()) {
     const auto name = entry.key().substr(prefix.size());  // a quoted key may hold dots
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    if (const auto former = nearest_name(name, former_names(section.key())); edit_distance(name, former) <= 2)
+    const auto former = nearest_name(name, former_names(section.key()));
+    if (!former.empty() && edit_distance(name, former) <= 2)
       entry.refuse("unknown key", "did you mean " + prefix + former + "?");
     const auto nearest = nearest_name(name, known);
     const std::string problem = entry.is_section() ? "unknown section" : "unknown key";

@@ -4,6 +4,7 @@
 
 #include <toml++/toml.h>
 
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -79,6 +80,9 @@ class CaseEntry {
   std::string text() const;
   /// Text that is shown to people and stands in tables: one line of printable characters, at most 1,000 bytes.
   std::string line() const;
+  /// A file, by a line(): relative to the case file; given by --set, relative to the working directory if it exists
+  /// there. \param what  "path of a file", for the remedy of an empty name
+  std::filesystem::path path(const std::string& what) const;
   std::vector<CaseEntry> elements() const;
   bool is_array() const { return node_->is_array(); }
   bool is_text() const { return node_->is_string(); }

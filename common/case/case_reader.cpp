@@ -115,13 +115,17 @@ void check_named_times(const CaseEntry& whole_case, const Case& scene) {
 
 void check_output_times(const CaseEntry& whole_case, const Case& scene) {
   check_named_times(whole_case, scene);
-  if (!scene.time || !scene.output.interval) return;
+  if (!scene.output.interval) return;
+  const CaseEntry output = whole_case.child("output"), interval = output.child("interval");
+  // --set output.every=0 switches the fields of any case off.
+  const CaseSource& source = whole_case.source();
+  if (scene.output.every == 0 && (!source.is_overridden("output.every") || source.is_overridden("output.interval")))
+    interval.refuse("asks for fields, and output.every = 0 writes none", "remove one of the two");
+  if (!scene.time) return;
   const double times = scene.time->end / *scene.output.interval;
   if (times > most_output_times)
-    whole_case.child("output")
-        .child("interval")
-        .refuse(fmt::format("{} would end {:.3g} steps for the sake of output", *scene.output.interval, times),
-                fmt::format("give at least {:.12g}", scene.time->end / most_output_times));
+    interval.refuse(fmt::format("{} would end {:.3g} steps for the sake of output", *scene.output.interval, times),
+                    fmt::format("give at least {:.12g}", scene.time->end / most_output_times));
 }
 
 /// Elements that are stable by themselves have nothing to stabilise.

@@ -9,7 +9,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "base/error.hpp"
@@ -114,7 +113,7 @@ void warn_of_values(const CaseEntry& entry, const Quantity& quantity, double mid
   const bool by_size = stress && !slip && middle > 1e7 && middle <= most_dynes;
   if (!slip && !by_size) return;
   const std::string pascal = "Pa", dyne = "dyn/cm^2";
-  if (!stress || (slip->unit != pascal && slip->unit != dyne && !by_size)) {
+  if (!by_size && !(stress && (slip->unit == pascal || slip->unit == dyne))) {
     entry.warn_of_unit(quantity, middle);
     return;
   }
@@ -140,7 +139,7 @@ ConstantField read_constant_field(const CaseEntry& entry, const Parameter& param
   const CaseEntry file = entry.child("file", about_file);
   ConstantField field;
   field.key = entry.key();
-  field.file = file_of_entry(file, about_file);
+  field.file = file.path(about_file);
   field.field = entry.child("field", "name of an array or column").line();
   if (entry.has("within")) {
     const CaseEntry within = entry.child("within", "distance in mm");
@@ -191,9 +190,8 @@ std::string text_of(const ConstantField& field) {
 }
 
 const Parameter& layer_viscosity_parameter() {
-  static const Quantity unit{"kPa ms", {}};
   static const Parameter parameter{
-      MaterialData::viscosity_key, "eta of the layer", &unit, not_negative, false, 0, false};
+      MaterialData::viscosity_key, "eta of the layer", &quantity::wall_viscosity(), not_negative, false, 0, false};
   return parameter;
 }
 
@@ -216,14 +214,6 @@ CaseKey<MaterialData> may_vary(CaseKey<MaterialData> key, const Parameter& param
     values.push_back({path, text_of(found->second), KeyRole::physics});
   };
   return key;
-}
-
-std::filesystem::path file_of_entry(const CaseEntry& entry, const std::string& what) {
-  const std::string name = entry.line();
-  if (name.empty()) entry.refuse_value("is empty", "give the " + what);
-  std::error_code error;
-  if (entry.source().is_overridden(entry.key()) && std::filesystem::exists(name, error)) return name;
-  return std::filesystem::path(entry.source().file).parent_path() / name;
 }
 
 void refuse_file_of(const CaseEntry& entry, const std::exception& problem) {

@@ -25,10 +25,6 @@ const Parameter& layer_viscosity_parameter();
 /// The parameter of a layer's material, or the viscosity, of this name; null: none.
 const Parameter* constant_of_layer(const MaterialData& layer, const std::string& name);
 
-/// A file that a case names: relative to the case file; given by --set, relative to the working directory if it exists
-/// there. \param what  "path of a file", for the remedy \throws InputError for an empty name
-std::filesystem::path file_of_entry(const CaseEntry& entry, const std::string& what);
-
 /// Refuses an entry with a file reader's problem and remedy. \throws InputError always
 [[noreturn]] void refuse_file_of(const CaseEntry& entry, const std::exception& problem);
 

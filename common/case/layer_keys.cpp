@@ -108,6 +108,8 @@ std::vector<KeyHelp> layers_help() {
   help.push_back({"layers.NAME.CONSTANT.within",
                   "how far the wall may be from the file's points in mm, default three times their distance",
                   optional});
+  help.push_back({"layers.NAME.CONSTANT.unit", "of the file's values, default that of the constant", optional});
+  help.push_back({"layers.NAME.CONSTANT.length_unit", "of the file's coordinates, default mm", optional});
   return help;
 }
 

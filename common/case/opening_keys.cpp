@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "base/names.hpp"
 #include "case/key_values.hpp"
 #include "case/openings.hpp"
 #include "case/parameter_keys.hpp"
@@ -19,7 +19,6 @@ namespace fsi {
 namespace {
 
 using presence::optional, presence::required;
-constexpr std::size_t most_jumps = 100'000;  // each ends a step
 constexpr const char* in_place = ", in place of a pressure";
 
 /// The conditions of which an opening has at most one.
@@ -43,11 +42,6 @@ std::vector<CaseKey<ParameterValues>> keys_of_law(const OpeningLawKind& kind) {
   std::vector<CaseKey<ParameterValues>> keys;
   for (const auto& p : kind.parameters) keys.push_back(parameter_key(p, all));
   return keys;
-}
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
 }
 
 /// By their spelling, textbooks' letters for the parts of a Windkessel are nearer to other keys than to those they
@@ -233,12 +227,7 @@ void check_openings(const CaseEntry& whole_case, const Case& scene) {
     const PressureTable* table = conditions.pressure    ? &*conditions.pressure
                                  : conditions.flow_rate ? &conditions.flow_rate->table
                                                         : nullptr;
-    if (table == nullptr || table->period == 0) continue;
-    const double jumps = static_cast<double>(table->jumps_in_period()) * scene.time->end / table->period;
-    if (jumps > static_cast<double>(most_jumps))
-      openings.child(surface).child("period").refuse(
-          fmt::format("the table would jump {:.3g} times in {} ms, and end a step each time", jumps, scene.time->end),
-          "give a longer period, or a table without jumps whose last value is its first");
+    if (table != nullptr) check_jumps(openings.child(surface), *table, scene.time->end);
   }
 }
 

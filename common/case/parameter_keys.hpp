@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "case/key_values.hpp"
@@ -10,16 +11,22 @@ namespace fsi {
 /// A parameter for help and messages: "meaning in unit, default 0".
 std::string about(const Parameter& parameter);
 
-/// The key of a law's parameter. \param place  where the Target has the law's values
-template <class Target>
-CaseKey<Target> parameter_key(const Parameter& p, Place<Target, ParameterValues> place) {
-  KeyValue<Target> value;
-  value.read = [p, place](const CaseEntry& entry, Target& target) {
+/// Reads a parameter into the values that `place` finds.
+template <class Row, class Target>
+std::function<void(const CaseEntry&, Target&)> parameter_reader(const Row& p, Place<Target, ParameterValues> place) {
+  return [p, place](const CaseEntry& entry, Target& target) {
     const double given = entry.number();
     if (!p.bounds.contains(given)) entry.refuse_value(p.bounds.problem(), p.bounds.remedy());
     entry.warn_of_unit(*p.quantity, given);
     place(target)[p.name] = given;
   };
+}
+
+/// The key of a law's parameter. \param place  where the Target has the law's values
+template <class Target>
+CaseKey<Target> parameter_key(const Parameter& p, Place<Target, ParameterValues> place) {
+  KeyValue<Target> value;
+  value.read = parameter_reader(p, place);
   value.write = [p, place](const Target& target) {
     const ParameterValues& values = place(target);
     const auto found = values.find(p.name);

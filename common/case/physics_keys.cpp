@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <system_error>
 
 #include "base/names.hpp"
 #include "case/case_keys.hpp"
@@ -35,20 +34,6 @@ using presence::optional, presence::required;
 
 // [mesh].
 
-/// Relative to the case file; given by --set, relative to the working directory if the file exists there.
-void read_mesh_file(const CaseEntry& entry, MeshData& mesh) {
-  const std::string name = entry.text();
-  if (name.empty()) entry.refuse_value("is empty", "give the path of a gmsh file");
-  if (name.find('\0') != std::string::npos)
-    entry.refuse_value("holds a zero byte, which no path can", "give the path of a gmsh file");
-  const std::filesystem::path file = name;
-  std::error_code error;
-  if (entry.source().is_overridden(entry.key()) && std::filesystem::exists(file, error))
-    mesh.file = file;
-  else
-    mesh.file = std::filesystem::path(entry.source().file).parent_path() / file;
-}
-
 void check_mesh(const CaseEntry& entry, MeshData& mesh) {
   if (mesh.file.empty() && mesh.level.empty() && mesh.error == 0)
     entry.refuse("neither file nor level", "give file = \"NAME.msh\", level = \"coarse\" or error = \"3%\"");
@@ -68,7 +53,8 @@ void read_mesh_error(const CaseEntry& entry, MeshData& mesh) {
 std::vector<CaseKey<MeshData>> mesh_keys() {
   return {
       leaf<MeshData>("file", optional, "gmsh mesh, path relative to the case file",
-                     {read_mesh_file, [](const MeshData& mesh) { return mesh.file.string(); }}),
+                     {[](const CaseEntry& entry, MeshData& mesh) { mesh.file = entry.path("path of a gmsh file"); },
+                      [](const MeshData& mesh) { return mesh.file.string(); }}),
       leaf("level", optional, "artery mesh made on demand: {}", name_from(at(&MeshData::level), artery_levels())),
       leaf<MeshData>(
           "error", optional,
@@ -120,19 +106,6 @@ std::vector<CaseKey<FluidData>> fluid_keys() {
           {read_closed, [](const FluidData& fluid) { return text_of_closed(fluid); }}, KeyRole::running),
       leaf("grad_div", optional, "grad-div stabilisation, default {}", flag(at(&FluidData::grad_div))),
   };
-}
-
-/// Reads one of the parameters that time schemes list into a map of them.
-template <class Row, class Data>
-KeyValue<Data> parameter_value(const Row& p, std::map<std::string, double> Data::*values) {
-  KeyValue<Data> value;
-  value.read = [p, values](const CaseEntry& entry, Data& data) {
-    const double given = entry.number();
-    if (!p.bounds.contains(given)) entry.refuse_value(p.bounds.problem(), p.bounds.remedy());
-    entry.warn_of_unit(*p.quantity, given);
-    (data.*values)[p.name] = given;
-  };
-  return value;
 }
 
 // [structure].
@@ -292,7 +265,8 @@ void check_time(const CaseEntry& entry, TimeData& time) {
 
 /// A parameter of one of the schemes.
 CaseKey<TimeData> scheme_key(const SchemeParameter& p) {
-  KeyValue<TimeData> value = parameter_value(p, &TimeData::scheme_values);
+  KeyValue<TimeData> value;
+  value.read = parameter_reader(p, at(&TimeData::scheme_values));
   value.write = [p](const TimeData& time) {
     const auto found = time.scheme_values.find(p.name);
     if (found == time.scheme_values.end() && !p.standard) return std::string("chosen");

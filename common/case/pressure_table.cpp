@@ -26,7 +26,6 @@ double PressureTable::integral(double from, double to) const {
   // Only the segments that the step lies in: a table may have many. The others would add zeros.
   const auto behind = std::upper_bound(points.begin(), points.end(), from,
                                        [](double time, const auto& point) { return time < point.first; });
-  integral += 0.0;
   for (std::size_t i = behind == points.begin() ? 0 : static_cast<std::size_t>(behind - points.begin()) - 1;
        i + 1 < points.size() && points[i].first < to; ++i)
     if (points[i + 1].first > points[i].first)

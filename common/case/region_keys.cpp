@@ -136,7 +136,7 @@ void read_file(const CaseEntry& region, RegionInput& input) {
   RegionShape& shape = input.region.shape;
   Fnv1a hash;
   const auto add = [&](const auto& numbers) { hash.add(numbers.data(), numbers.size() * sizeof(numbers[0])); };
-  const auto path = file_of_entry(entry, "path of a file");
+  const auto path = entry.path("path of a file");
   try {
     if (shape.kind == Kind::line) {
       constexpr const char* kinds = "give a .csv with columns x, y, z in mm";

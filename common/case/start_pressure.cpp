@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "case/support_loads.hpp"
 #include "materials/material.hpp"
 
 namespace fsi {
@@ -53,7 +54,7 @@ void warn_of_start_pressure(const CaseEntry& whole_case, const Case& scene) {
     }
     // A pulse is intended; a periodic table is a beat that may begin anywhere, which no vessel without load does.
     if (conditions.pressure && conditions.pressure->period > 0)
-      warn(entry.child("pressure"), conditions.pressure->at(0), false);
+      warn(entry.child("pressure"), first_value(*conditions.pressure), false);
   }
 }
 

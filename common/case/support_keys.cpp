@@ -4,8 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <limits>
 #include <utility>
 
 #include "base/names.hpp"
@@ -17,8 +15,6 @@ namespace fsi {
 namespace {
 
 using presence::optional;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Bounds anything{-infinity, infinity, false, false};
 constexpr const char* normal_name = "normal";
 
 /// A support as it stands in the file.
@@ -36,25 +32,24 @@ std::vector<std::string> directions(Geometry geometry) {
   return {"x", "y", "z"};
 }
 
-/// Reads the rows of a table: times that do not decrease, each with the same number of values.
-void read_rows(const CaseEntry& entry, const std::string& row_form, std::vector<std::vector<double>>& rows) {
-  const auto given = entry.elements();
-  if (given.size() > most_table_rows)
-    entry.refuse(fmt::format("a table of {} rows", given.size()), fmt::format("give at most {}", most_table_rows));
-  bool warned = false;
-  for (const CaseEntry& row : given) {
+/// Reads the rows of a table, each a time and a value per component.
+void read_traction_rows(const CaseEntry& entry, std::vector<TableInput>& traction) {
+  bool warned_of_time = false, warned_of_value = false;  // once is enough
+  for (const CaseEntry& row : rows_of_table(entry)) {
     const auto numbers = row.is_array() ? row.elements() : std::vector<CaseEntry>{};
-    if (numbers.size() < 2 || (!rows.empty() && numbers.size() != rows.front().size()))
-      row.refuse_value("is no row of this table", "give " + row_form);
-    rows.emplace_back();
-    for (const CaseEntry& number : numbers) rows.back().push_back(number.number());
-    if (!warned) warned = numbers[0].warn_of_unit(quantity::time(), rows.back()[0]);
-    const auto n = rows.size();
-    if (n > 1 && rows[n - 1][0] < rows[n - 2][0])
-      row.refuse_value(fmt::format("comes before the time {} of the row above", rows[n - 2][0]),
-                       "sort the table by time");
-    if (n > 2 && rows[n - 1][0] == rows[n - 3][0])
-      row.refuse_value("is the third row with this time", "give two rows for a jump");
+    if (numbers.size() < 2 || (!traction.empty() && numbers.size() != traction.size() + 1))
+      row.refuse_value("is no row of this table", "give [time, a component per direction]");
+    traction.resize(numbers.size() - 1);
+    const double time = numbers[0].number();
+    if (!warned_of_time) warned_of_time = numbers[0].warn_of_unit(quantity::time(), time);
+    for (std::size_t k = 0; k < traction.size(); ++k) {
+      const double value = numbers[k + 1].number();
+      if (!warned_of_value) warned_of_value = numbers[k + 1].warn_of_unit(quantity::pressure(), value);
+      traction[k].is_table = true;
+      traction[k].table.points.emplace_back(time, value);
+    }
+    check_last_row(traction.front().table.points,
+                   [&](const std::string& problem, const std::string& remedy) { row.refuse_value(problem, remedy); });
   }
 }
 
@@ -62,20 +57,9 @@ void read_traction(const CaseEntry& entry, SupportInput& input) {
   const auto elements = entry.elements();
   if (elements.empty()) entry.refuse_name("is empty", "give a component per direction of the scene");
   auto& traction = input.traction;
-  if (!elements.front().is_array()) {
-    for (const CaseEntry& component : elements) {
-      traction.emplace_back();
-      traction.back().table.points = {{0.0, component.number(quantity::pressure())}};
-    }
-    return;
-  }
-  std::vector<std::vector<double>> rows;
-  read_rows(entry, "[time, a component per direction]", rows);
-  traction.resize(rows.front().size() - 1);
-  for (std::size_t k = 0; k < traction.size(); ++k) {
-    traction[k].is_table = true;
-    for (const auto& row : rows) traction[k].table.points.emplace_back(row[0], row[k + 1]);
-  }
+  if (elements.front().is_array()) return read_traction_rows(entry, traction);
+  for (const CaseEntry& component : elements)
+    traction.emplace_back().table.points = {{0.0, component.number(quantity::pressure())}};
 }
 
 void read_fixed(const CaseEntry& entry, SupportInput& input) {
@@ -193,12 +177,10 @@ CaseKey<Case> prestress_section() {
            "pressure in {unit} on the inner face that the wall carries in the shape of its mesh, at rest; a fluid "
            "begins "
            "with it",
-           number(at(&PrestressData::pressure), anything, quantity::pressure())),
+           number(at(&PrestressData::pressure), any_number, quantity::pressure())),
       leaf<PrestressData>("file", optional, "prestress.h5 of an earlier run, path relative to the case file",
                           {[](const CaseEntry& entry, PrestressData& prestress) {
-                             const std::string name = entry.line();
-                             if (name.empty()) entry.refuse_value("is empty", "give the path of a prestress.h5");
-                             prestress.file = std::filesystem::path(entry.source().file).parent_path() / name;
+                             prestress.file = entry.path("path of a prestress.h5");
                            },
                            [](const PrestressData& prestress) { return prestress.file.string(); }},
                           KeyRole::running)};
@@ -228,12 +210,13 @@ void check_supports(const CaseEntry& whole_case, const Case& scene) {
         if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
           entry.child("fixed").refuse(fmt::format("\"{}\" is no direction of this scene", name),
                                       "give some of " + one_of(allowed));
-    const auto require_constant = [&](const char* key, const PressureTable& table) {
+    const auto check_course = [&](const char* key, const PressureTable& table) {
       if (scene.static_load && table.points.size() > 1)
         entry.child(key).refuse("changes in time, but the case is static", "give one value, without until");
+      if (scene.time) check_jumps(entry, table, scene.time->end);
     };
-    if (support.pressure) require_constant("pressure", *support.pressure);
-    for (const auto& component : support.traction) require_constant("traction", component);
+    if (support.pressure) check_course("pressure", *support.pressure);
+    for (const auto& component : support.traction) check_course("traction", component);
     if (scene.static_load && (support.damper > 0 || support.normal_damper > 0))
       entry.child(support.damper > 0 ? "damper" : "normal_damper")
           .refuse("resists velocity, which a static case has none of", "remove it, or replace [static] by [time]");

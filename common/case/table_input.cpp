@@ -6,12 +6,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include "base/error.hpp"
 #include "base/input_file.hpp"
@@ -21,16 +19,6 @@ namespace fsi {
 namespace {
 
 constexpr const char *time_unit_key = "time_unit", *value_unit_key = "value_unit";
-
-/// Requires rows sorted by time, at most two of one time. \param refuse  called with problem and remedy
-template <class Refuse>
-void check_last_row(const std::vector<std::pair<double, double>>& points, Refuse refuse) {
-  const auto n = points.size();
-  if (n > 1 && points[n - 1].first < points[n - 2].first)
-    refuse(fmt::format("comes before the time {} of the row above", points[n - 2].first), "sort the table by time");
-  if (n > 2 && points[n - 1].first == points[n - 3].first)
-    refuse("is the third row with this time", "give two rows for a jump");
-}
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
@@ -54,15 +42,6 @@ std::optional<std::pair<double, double>> row_of(std::string_view line) {
   const auto time = number_of(line.substr(0, comma)), value = number_of(line.substr(comma + 1));
   if (!time || !value) return std::nullopt;
   return std::pair{*time, *value};
-}
-
-/// Relative to the case file; given by --set, relative to the working directory if the file exists there.
-std::filesystem::path path_of(const CaseEntry& entry) {
-  const std::string name = entry.line();
-  if (name.empty()) entry.refuse_value("is empty", "give the path of a CSV file");
-  std::error_code error;
-  if (entry.source().is_overridden(entry.key()) && std::filesystem::exists(name, error)) return name;
-  return std::filesystem::path(entry.source().file).parent_path() / name;
 }
 
 /// The units that a header names; without any, ms and that of the kind.
@@ -130,7 +109,7 @@ ColumnFactors factors_of(std::string_view header, const CaseEntry& section, cons
 
 void read_file(const CaseEntry& section, const TableKind& kind, TableInput& input) {
   const CaseEntry entry = section.child("file", "path of a CSV file");
-  const auto file = path_of(entry);
+  const auto file = entry.path("path of a CSV file");
   const std::string remedy =
       fmt::format("give a CSV file with a header and two columns, time in ms and {} in {}", kind.key, kind.values.unit);
   try {
@@ -175,10 +154,7 @@ void read_file(const CaseEntry& section, const TableKind& kind, TableInput& inpu
 void read_rows(const CaseEntry& entry, const TableKind& kind, const ColumnFactors& factors, TableInput& input) {
   bool warned_of_time = factors.time_named, warned_of_value = factors.value_named;  // once is enough
   auto& points = input.table.points;
-  const auto rows = entry.elements();
-  if (rows.size() > most_table_rows)
-    entry.refuse(fmt::format("a table of {} rows", rows.size()), fmt::format("give at most {}", most_table_rows));
-  for (const auto& row : rows) {
+  for (const auto& row : rows_of_table(entry)) {
     const auto pair = row.is_array() ? row.elements() : std::vector<CaseEntry>{};
     if (pair.size() != 2) row.refuse_value("is no pair", fmt::format("give [time, {}]", kind.key));
     const double time = pair[0].number(), value = pair[1].number();
@@ -223,6 +199,22 @@ const TableKind& flow_rate_kind(bool plane) {
   static const TableKind kind{"flow_rate", "flow rates", quantity::flow_rate(), ColumnKind::flow_rate};
   static const TableKind of_depth{"flow_rate", "flow rates", quantity::flow_rate(), ColumnKind::flow_rate_of_depth};
   return plane ? of_depth : kind;
+}
+
+std::vector<CaseEntry> rows_of_table(const CaseEntry& entry) {
+  auto rows = entry.elements();
+  if (rows.size() > most_table_rows)
+    entry.refuse(fmt::format("a table of {} rows", rows.size()), fmt::format("give at most {}", most_table_rows));
+  return rows;
+}
+
+void check_last_row(const std::vector<std::pair<double, double>>& points,
+                    const std::function<void(const std::string& problem, const std::string& remedy)>& refuse) {
+  const auto n = points.size();
+  if (n > 1 && points[n - 1].first < points[n - 2].first)
+    refuse(fmt::format("comes before the time {} of the row above", points[n - 2].first), "sort the table by time");
+  if (n > 2 && points[n - 1].first == points[n - 3].first)
+    refuse("is the third row with this time", "give two rows for a jump");
 }
 
 void read_table(const CaseEntry& entry, const TableKind& kind, bool with_file, TableInput& input) {
@@ -270,6 +262,16 @@ void finish_table(const CaseEntry& entry, const TableKind& kind, TableInput& inp
         fmt::format("{} is shorter than the table, which ends at {} ms", *input.period, points.back().first),
         fmt::format("give at least {}, or a shorter table", points.back().first));
   input.table.period = *input.period;
+}
+
+void check_jumps(const CaseEntry& entry, const PressureTable& table, double end) {
+  constexpr double most = 100'000;
+  if (table.period == 0) return;
+  const double jumps = static_cast<double>(table.jumps_in_period()) * end / table.period;
+  if (jumps > most)
+    entry.child("period").refuse(
+        fmt::format("the table would jump {:.3g} times in {} ms, and end a step each time", jumps, end),
+        "give a longer period, or a table without jumps whose last value is its first");
 }
 
 std::string text_of_table(const PressureTable& table) {

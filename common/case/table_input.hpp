@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/quantity.hpp"
@@ -42,6 +45,14 @@ void read_period(const CaseEntry& entry, TableInput& input);
 /// Applies `until` and `period` to the table once all keys are read.
 /// \param entry  the section of `until` and `period` \throws InputError where they contradict the table
 void finish_table(const CaseEntry& entry, const TableKind& kind, TableInput& input);
+/// The rows of a table in the case file. \throws InputError for more than most_table_rows
+std::vector<CaseEntry> rows_of_table(const CaseEntry& entry);
+/// Requires rows sorted by time, at most two of one time, of a table that ends with the last one read.
+void check_last_row(const std::vector<std::pair<double, double>>& points,
+                    const std::function<void(const std::string& problem, const std::string& remedy)>& refuse);
+/// Each jump ends a step: refuses a period in which a run up to `end` (ms) would have too many.
+/// \param entry  the section of `period`
+void check_jumps(const CaseEntry& entry, const PressureTable& table, double end);
 
 /// The rows as canonical text.
 std::string text_of_table(const PressureTable& table);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <stdexcept>
 #include <vector>
 
@@ -60,11 +59,6 @@ constexpr std::array units = {
 };
 constexpr std::array velocities = {"m/s", "cm/s", "mm/s", "mm/ms"};
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 /// "ml per s", "mm^3_per_ms", "ml*s^-1": as the tables spell it.
 std::string normal_spelling(std::string text) {
   const auto replace = [&](const std::string& from, const std::string& to) {
@@ -92,8 +86,8 @@ const Unit* unit_of(const std::string& text) {
   const auto exact = std::find_if(units.begin(), units.end(), [&](const Unit& unit) { return unit.name == text; });
   if (exact != units.end()) return &*exact;
   if (text == "mPa") return nullptr;  // not MPa
-  const auto alike =
-      std::find_if(units.begin(), units.end(), [&](const Unit& unit) { return lower(unit.name) == lower(text); });
+  const auto alike = std::find_if(units.begin(), units.end(),
+                                  [&](const Unit& unit) { return lower_case(unit.name) == lower_case(text); });
   return alike == units.end() ? nullptr : &*alike;
 }
 

@@ -17,12 +17,6 @@ namespace {
 using presence::optional, presence::required;
 constexpr const char* newtonian = "newtonian";
 
-/// eta of the wall, a thousand to a million times that of blood: no value gives a wrong unit away.
-const Quantity& wall_viscosity() {
-  static const Quantity q{"kPa ms", {}};
-  return q;
-}
-
 /// The names of the laws, after that of a constant viscosity.
 std::vector<std::string> model_names() {
   std::vector<std::string> names{newtonian};
@@ -124,7 +118,7 @@ void check_viscosity(const CaseEntry& fluid, FluidData& data) {
 CaseKey<MaterialData> layer_viscosity_key() {
   auto key = leaf(MaterialData::viscosity_key, optional,
                   "of any material: eta in {unit} of a stress eta dE/dt beside the elastic one, default {}",
-                  number(at(&MaterialData::viscosity), not_negative, wall_viscosity()));
+                  number(at(&MaterialData::viscosity), not_negative, quantity::wall_viscosity()));
   key.list = [list = key.list](const MaterialData& layer, const std::string& path, std::vector<CaseValue>& values) {
     if (layer.viscosity > 0) list(layer, path, values);
   };

@@ -23,6 +23,8 @@ namespace {
 
 constexpr std::uint64_t unbounded = std::numeric_limits<std::uint64_t>::max();
 
+constexpr const char* control_group = "its control group";
+
 std::atomic<const char*> doing_now{"starting"};
 std::atomic_flag ending = ATOMIC_FLAG_INIT;
 thread_local int may_fail = 0;
@@ -96,16 +98,6 @@ void program_name(char (&name)[64]) noexcept {
   if (char* end = std::strchr(name, '\n')) *end = 0;
 }
 
-/// The remedy, by program and by what sets the bound.
-void write_advice(const char* program, const char* bound, char* text, std::size_t size) noexcept {
-  const bool limited = std::strncmp(bound, "ulimit", 6) == 0;
-  const char* const raise = limited ? "a higher limit" : "a machine with more memory";
-  if (std::strcmp(program, "fsi-mesh") == 0)
-    std::snprintf(text, size, "take a coarser mesh or %s", raise);
-  else
-    std::snprintf(text, size, "take a coarser mesh, linear_solver = \"fast\", fewer threads (--threads) or %s", raise);
-}
-
 [[noreturn]] void end_with(const char* message) noexcept {
   const std::size_t length = std::strlen(message);
   for (std::size_t done = 0; done < length;) {
@@ -161,7 +153,7 @@ MemoryRoom available_memory() noexcept {
   MemoryRoom room{unbounded, ""};
   char text[8192];
   if (read_text("/proc/meminfo", text)) tighten(room, machine_room(text), "this machine");
-  if (read_text("/proc/self/cgroup", text)) tighten(room, group_room(text, "/sys/fs/cgroup"), "its control group");
+  if (read_text("/proc/self/cgroup", text)) tighten(room, group_room(text, "/sys/fs/cgroup"), control_group);
   const bool sizes = read_text("/proc/self/statm", text);
   rlimit limit{};
   if (sizes && getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
@@ -182,6 +174,16 @@ void write_memory_text(double bytes, char* text, std::size_t size) noexcept {
   std::snprintf(text, size, bytes < 10 ? "%.1f %s" : "%.0f %s", bytes, units[unit]);
 }
 
+void write_memory_advice(const char* program, const char* bound, char* text, std::size_t size) noexcept {
+  const char* const raise = std::strncmp(bound, "ulimit", 6) == 0    ? "a higher limit"
+                            : std::strcmp(bound, control_group) == 0 ? "a higher limit of the container or job"
+                                                                     : "a machine with more memory";
+  if (std::strcmp(program, "fsi-mesh") == 0)
+    std::snprintf(text, size, "take a coarser mesh or %s", raise);
+  else
+    std::snprintf(text, size, "take a coarser mesh, linear_solver = \"fast\", fewer threads (--threads) or %s", raise);
+}
+
 void give_back_memory() noexcept {
 #ifdef __GLIBC__
   malloc_trim(0);
@@ -200,7 +202,7 @@ std::string message_of(const std::string& asked, const std::string& remedy) {
   const MemoryRoom room = available_memory();
   char program[64], advice[256];
   program_name(program);
-  write_advice(program, room.bound, advice, sizeof advice);
+  write_memory_advice(program, room.bound, advice, sizeof advice);
   return fmt::format("out of memory ({}): {}, {} available ({}); {}", doing_now.load(), asked,
                      memory_text(static_cast<double>(room.bytes)), room.bound, remedy.empty() ? advice : remedy);
 }
@@ -230,7 +232,7 @@ void end_out_of_memory(std::size_t asked) noexcept {
   const MemoryRoom room = available_memory();
   char program[64], advice[256], size[64], left[64], message[1024];
   program_name(program);
-  write_advice(program, room.bound, advice, sizeof advice);
+  write_memory_advice(program, room.bound, advice, sizeof advice);
   write_memory_text(static_cast<double>(asked), size, sizeof size);
   write_memory_text(static_cast<double>(room.bytes), left, sizeof left);
   std::snprintf(message, sizeof message, "%s: error: out of memory (%s): %s%s%s available (%s); %s\n", program,

@@ -11,7 +11,7 @@ namespace fsi {
 /// Memory that this process may still take.
 struct MemoryRoom {
   std::uint64_t bytes = 0;
-  const char* bound = "";  ///< what sets it: "ulimit -v", "this machine"; empty: nothing could be read
+  const char* bound = "";  ///< what sets it: "ulimit -v", "its control group", "this machine"; empty: not known
 };
 
 /// The least of what the limits of this process (ulimit -v, ulimit -d), its control groups and the machine
@@ -33,6 +33,9 @@ void give_back_memory() noexcept;
 std::string memory_text(double bytes);
 /// The same into `text`; allocates nothing.
 void write_memory_text(double bytes, char* text, std::size_t size) noexcept;
+
+/// What helps a program, by the bound of available_memory(), into `text`; allocates nothing.
+void write_memory_advice(const char* program, const char* bound, char* text, std::size_t size) noexcept;
 
 /// Memory ran out, or would. Programs print what() and exit with code 1.
 /// The message reads `out of memory (DOING): ASKED, ROOM available (BOUND); REMEDY`, DOING being the current activity.

@@ -44,11 +44,19 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
+/// Ignored signals are inherited: where SIGCHLD is one, the system throws the status of children away.
+void keep_status_of_children() {
+  struct sigaction action {};
+  if (::sigaction(SIGCHLD, nullptr, &action) != 0) return;
+  if (action.sa_handler == SIG_IGN) ::signal(SIGCHLD, SIG_DFL);
+}
+
 pid_t start(const std::vector<std::string>& words, const posix_spawn_file_actions_t& actions) {
   std::vector<std::string> copies = words;
   std::vector<char*> arguments;
   for (auto& word : copies) arguments.push_back(word.data());
   arguments.push_back(nullptr);
+  keep_status_of_children();
   const SignalsWait until_it_is_known;
   pid_t child = 0;
   const int failure = ::posix_spawn(&child, words.front().c_str(), &actions, nullptr, arguments.data(), environ);
@@ -66,7 +74,7 @@ int status_of(pid_t child) {
   while (::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
   }
   running = 0;
-  int status = 0;
+  int status = -1;  // no success, should it be lost
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   return status;

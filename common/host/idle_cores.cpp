@@ -82,7 +82,7 @@ CoreWatch::CoreWatch()
 
 CoreUse CoreWatch::look() const {
   std::this_thread::sleep_until(start_ + shortest_look);
-  const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double seconds = seconds_since(start_);
   const auto ticks = busy_ticks(text_of("/proc/stat"));
   CoreUse use;
   use.cores = static_cast<int>(cores_.size());

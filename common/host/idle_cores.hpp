@@ -1,8 +1,9 @@
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <vector>
+
+#include "base/stopwatch.hpp"
 
 namespace fsi {
 
@@ -34,8 +35,6 @@ class CoreWatch {
   CoreUse look() const;
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   std::vector<int> cores_;  ///< numbers of those this process may run on
   Clock::time_point start_;
   double own_seconds_;

@@ -1,16 +1,15 @@
 #include "host/stop_request.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <optional>
 #include <utility>
 
+#include "base/stopwatch.hpp"
+
 namespace fsi {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 volatile std::sig_atomic_t noted = 0;
 std::optional<Clock::time_point> last_look;
@@ -27,9 +26,8 @@ int requested_stop() noexcept {
 }
 
 int look_for_stop() noexcept {
-  const auto now = Clock::now();
-  if (last_look) longest = std::max(longest, std::chrono::duration<double>(now - *last_look).count());
-  last_look = now;
+  if (last_look) longest = std::max(longest, seconds_since(*last_look));
+  last_look = Clock::now();
   return noted;
 }
 

@@ -70,7 +70,10 @@ void synchronise_folder(const fs::path& folder) {
   if (synchronised != 0 || closed != 0) throw WriteError(named, synchronised != 0 ? synchronised : closed);
 }
 
-CheckedFile::CheckedFile(fs::path shown_as, int descriptor) : path_(std::move(shown_as)), descriptor_(descriptor) {
+// Delegates, so that a failure here finds an object whose destructor closes the descriptor.
+CheckedFile::CheckedFile(fs::path shown_as, int descriptor) : CheckedFile() {
+  path_ = std::move(shown_as);
+  descriptor_ = descriptor;
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0) fail(errno);
   if (!S_ISREG(status.st_mode)) refuse_irregular(path_);

@@ -42,6 +42,7 @@ class CheckedFile {
   void close();
 
  private:
+  CheckedFile() = default;
   CheckedFile(std::filesystem::path shown_as, int descriptor);
   [[noreturn]] void fail(int number) const;
 

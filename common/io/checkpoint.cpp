@@ -286,9 +286,8 @@ void require_same_run(const fs::path& file, const Checkpoint& checkpoint, const 
                      "belongs to another case (" +
                          (difference.empty() ? "hash " + checkpoint.case_hash + ", not " + case_hash : difference) +
                          ")",
-                     "restart with the case file of that run; only title, time.step, time.end, time.periods, "
-                     "time.predictor, "
-                     "static.load_steps, [newton], [linear], [monolithic], [partitioned] and [output] may differ");
+                     "restart with the case file of that run; only names, files, steps, the end, solvers and output "
+                     "may differ (docs/guide/running.md, Restart)");
   if (checkpoint.mesh_hash != mesh_hash)
     throw InputError(file.string(), "mesh",
                      "belongs to another mesh (hash " + checkpoint.mesh_hash + ", not " + mesh_hash + ")",

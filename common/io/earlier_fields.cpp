@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "io/fields_part.hpp"
 #include "io/hdf5_file.hpp"
 #include "time/time_rounding.hpp"
 
@@ -48,8 +49,8 @@ std::int64_t checked_field_entries(const fs::path& folder, const std::vector<Fie
   std::error_code error;
   std::int64_t entries = 0;
   double last = -1;
-  for (int part = 1;; ++part) {
-    const fs::path file = folder / (part == 1 ? "fields.h5" : fmt::format("fields-{:04}.h5", part));
+  for (std::int64_t part = 0;; ++part) {
+    const fs::path file = folder / FieldsPart::name(part);
     if (!fs::exists(file, error)) return entries;
     if (!fs::is_regular_file(file, error)) refuse(file, "", "is no file");
     const auto h5 = Hdf5File::open(file, false);
@@ -69,7 +70,7 @@ std::int64_t checked_field_entries(const fs::path& folder, const std::vector<Fie
       for (std::size_t i = 0; i < flags.size(); ++i) {
         if (flags[i] == 0) continue;
         written[i] = true;
-        const auto dataset = fmt::format("/{}/{}/{:08}", grid, name.substr(dot + 1), numbers[i]);
+        const auto dataset = field_dataset(grid, name.substr(dot + 1), numbers[i]);
         if (!h5.has(dataset)) refuse(file, dataset, "missing, though marked as written");
         const auto shape = h5.shape(dataset);
         if (shape.empty() || shape.size() > 2 || (shape[0] != nodes && shape[0] != cells) ||

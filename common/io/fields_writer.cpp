@@ -259,10 +259,6 @@ FieldsWriter::~FieldsWriter() = default;
 FieldsWriter::FieldsWriter(FieldsWriter&&) noexcept = default;
 FieldsWriter& FieldsWriter::operator=(FieldsWriter&&) noexcept = default;
 
-bool FieldsWriter::wants(std::int64_t step) const {
-  return self_->position(step) < self_->total();
-}
-
 std::optional<std::int64_t> FieldsWriter::entry_at(double time) const {
   const auto found = self_->position_at(time);
   if (found == self_->total()) return {};

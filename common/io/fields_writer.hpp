@@ -34,8 +34,6 @@ class FieldsWriter {
   FieldsWriter(FieldsWriter&&) noexcept;
   FieldsWriter& operator=(FieldsWriter&&) noexcept;
 
-  /// Whether an entry with this number is planned.
-  bool wants(std::int64_t step) const;
   /// The number of the entry planned for a time in ms, if there is one.
   std::optional<std::int64_t> entry_at(double time) const;
 

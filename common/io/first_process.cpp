@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "host/available_memory.hpp"
 #include "io/write_error.hpp"
 
 namespace fsi {
 
 namespace {
 
-enum class Kind { none, bad_input, not_written, not_converged, other };
+enum class Kind { none, bad_input, not_written, not_converged, out_of_memory, other };
 
 /// An error with the message of another process, which is not to be shortened again.
 template <class Error>
@@ -41,6 +42,8 @@ Failure failure_of(const std::exception_ptr& exception) {
     return {Kind::bad_input, {error.what()}};
   } catch (const ConvergenceError& error) {
     return {Kind::not_converged, {error.what()}};
+  } catch (const OutOfMemory& error) {
+    return {Kind::out_of_memory, {error.what()}};
   } catch (const std::exception& error) {
     return {Kind::other, {error.what()}};
   } catch (...) {
@@ -59,6 +62,8 @@ const std::string named_in_text;  // no file: the message has it
       throw SaidElsewhere<InputError>(InputError(named_in_text, "", said, ""), said);
     case Kind::not_converged:
       throw SaidElsewhere<ConvergenceError>(ConvergenceError(said, ""), said);
+    case Kind::out_of_memory:
+      throw SaidElsewhere<OutOfMemory>(OutOfMemory(""), said);
     default:
       throw std::runtime_error(said);
   }

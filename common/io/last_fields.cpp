@@ -1,13 +1,12 @@
 #include "io/last_fields.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <system_error>
 
 #include "base/error.hpp"
+#include "io/fields_part.hpp"
 #include "io/hdf5_file.hpp"
 
 namespace fsi {
@@ -16,19 +15,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The last of a run's files of fields.
-fs::path last_file(const fs::path& run) {
+/// The number of the last of a run's files of fields.
+std::int64_t last_part(const fs::path& run) {
   std::error_code error;
   if (!fs::is_directory(run, error))
     throw InputError(run.string(), "", "is no result folder", "give the folder that a run has made");
-  fs::path last = run / "fields.h5";
-  if (!fs::is_regular_file(last, error))
+  std::int64_t parts = 0;
+  while (fs::is_regular_file(run / FieldsPart::name(parts), error)) ++parts;
+  if (parts == 0)
     throw InputError(run.string(), "fields.h5", "is not there", "run the case with fields, output.every above 0");
-  for (int part = 2;; ++part) {
-    const fs::path next = run / fmt::format("fields-{:04}.h5", part);
-    if (!fs::is_regular_file(next, error)) return last;
-    last = next;
-  }
+  return parts - 1;
 }
 
 /// The dataset of a field's last written entry; empty: there is none.
@@ -38,7 +34,7 @@ std::optional<std::string> last_entry(const Hdf5File& h5, const std::string& gri
   const auto flags = h5.read<std::uint8_t>(written);
   const auto numbers = h5.read<std::int64_t>("/steps/number");
   for (std::size_t i = std::min(flags.size(), numbers.size()); i-- > 0;)
-    if (flags[i] != 0) return fmt::format("/{}/{}/{:08}", grid, field, numbers[i]);
+    if (flags[i] != 0) return field_dataset(grid, field, numbers[i]);
   return {};
 }
 
@@ -61,10 +57,7 @@ FieldGrid grid_of_file(const Hdf5File& h5, const fs::path& file, const std::stri
   return grid;
 }
 
-}  // namespace
-
-std::vector<LastFields> last_fields_of_cells(const fs::path& run, const std::vector<std::string>& names) {
-  const fs::path file = last_file(run);
+std::vector<LastFields> fields_of(const fs::path& file, const std::vector<std::string>& names) {
   const auto h5 = Hdf5File::open(file, false);
   std::vector<LastFields> found;
   for (const char* grid : {"fluid", "wall"}) {
@@ -81,6 +74,16 @@ std::vector<LastFields> last_fields_of_cells(const fs::path& run, const std::vec
     }
     if (!fields.values.empty()) found.push_back(std::move(fields));
   }
+  return found;
+}
+
+}  // namespace
+
+std::vector<LastFields> last_fields_of_cells(const fs::path& run, const std::vector<std::string>& names) {
+  std::int64_t part = last_part(run);
+  auto found = fields_of(run / FieldsPart::name(part), names);
+  // A run that was killed may have made its last file without writing to it.
+  while (found.empty() && part > 0) found = fields_of(run / FieldsPart::name(--part), names);
   return found;
 }
 

@@ -16,7 +16,7 @@ struct LastFields {
   std::map<std::string, std::vector<double>> values;  ///< by field: a number per cell
 };
 
-/// Reads fields of cells from the last file of a run's fields. Grids without any of them are left out.
+/// Reads fields of cells from the last of a run's files that has any of them. Grids without any of them are left out.
 /// \param run    result folder
 /// \param names  of the fields; those that the file does not have are left out
 /// \throws InputError where it is no folder, has no fields.h5, or a damaged one

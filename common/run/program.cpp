@@ -81,7 +81,8 @@ int run_program(const std::string& name, const std::function<int()>& body) {
   } catch (const ConvergenceError& error) {
     return failure(name, error.what(), exit_not_converged);
   } catch (const OutOfMemory& error) {
-    end_out_of_memory(name, error);
+    if (Communicator::world().is_alone()) end_out_of_memory(name, error);
+    return failure(name, error.what(), exit_bad_input);
   } catch (const std::bad_alloc&) {
     return out_of_memory(name);
   } catch (const std::exception& error) {

@@ -53,6 +53,18 @@ TEST(BadSupport, IsRefusedInOneLine) {
       "time");
 }
 
+TEST(BadSupport, JumpsNoMoreOftenThanStepsMayEnd) {
+  const std::string scene =
+      with(coupled_case, "end = 12.0", "end = 12000.0") + "[[support]]\nsurface = \"outer\"\nperiod = 0.001\n";
+  const auto said = [](const std::string& jumps) {
+    return "case.toml:38: support.outer.period: the table would jump " + jumps +
+           " times in 12000 ms, and end a step each time; give a longer period, or a table without jumps whose last "
+           "value is its first";
+  };
+  EXPECT_EQ(complaint(scene + "pressure = [[0, 1], [0.0005, 1], [0.0005, 0]]\n"), said("2.4e+07"));
+  EXPECT_EQ(complaint(scene + "traction = [[0, 0, 0, 0], [0.001, 0, 0, 1]]\n"), said("1.2e+07"));
+}
+
 TEST(BadSupport, NeedsAWall) {
   const std::string no_wall =
       "[mesh]\nfile = \"a.msh\"\n[fluid]\ndensity = 1\nviscosity = 1\n[inlet]\npressure = 1\n[time]\n"

@@ -68,6 +68,20 @@ TEST(AvailableMemory, MessageSaysWhatWasDoneAskedAndWouldHelp) {
   EXPECT_EQ(std::string(OutOfMemory("x").what()).rfind("out of memory (making the outer thing)", 0), 0u);
 }
 
+TEST(AvailableMemory, AdviceFitsTheBound) {
+  const auto advice = [](const char* program, const char* bound) {
+    char text[256];
+    write_memory_advice(program, bound, text, sizeof text);
+    return std::string(text);
+  };
+  EXPECT_EQ(advice("fsi-mesh", "this machine"), "take a coarser mesh or a machine with more memory");
+  EXPECT_EQ(advice("fsi-mesh", "ulimit -v"), "take a coarser mesh or a higher limit");
+  EXPECT_EQ(
+      advice("fsi-monolithic", "its control group"),
+      "take a coarser mesh, linear_solver = \"fast\", fewer threads (--threads) or a higher limit of the container "
+      "or job");
+}
+
 TEST(AvailableMemory, EndsWithOneMessageAndExitCodeOne) {
   EXPECT_EXIT(
       end_out_of_memory(std::size_t{3} << 30), testing::ExitedWithCode(1),

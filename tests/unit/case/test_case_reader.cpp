@@ -360,11 +360,33 @@ TEST_F(FolderTest, CaseReaderLooksForAnOverriddenMeshInTheWorkingDirectoryFirst)
   EXPECT_EQ(unchanged.mesh.file, "cases/tube.msh");
 }
 
+TEST_F(FolderTest, CaseReaderLooksForAnOverriddenPrestressThereToo) {
+  const auto back = fs::current_path();
+  write_text(folder_ / "prestress.h5", "");
+  fs::create_directories(folder_ / "cases");
+  write_text(folder_ / "cases" / "case.toml",
+             "mesh.file = \"a.msh\"\nstatic.load_steps = 1\nload.pressure = 1\nstructure = { density = 1, "
+             "bulk_modulus = 1e5, layers.w = { material = \"neo-hookean\", c10 = 3 } }\n[prestress]\npressure = 1\n"
+             "file = \"prestress.h5\"\n");
+  fs::current_path(folder_);
+  const auto here = read_case("cases/case.toml", {"prestress.file=prestress.h5"});
+  const auto unchanged = read_case("cases/case.toml");
+  fs::current_path(back);
+  EXPECT_EQ(here.prestress->file, "prestress.h5");
+  EXPECT_EQ(unchanged.prestress->file, "cases/prestress.h5");
+}
+
+TEST(CaseReader, FieldsOfAnyCaseCanBeSwitchedOff) {
+  const std::string scene = minimal_fluid + "[output]\ninterval = 0.5\n";
+  EXPECT_EQ(parse_case(scene, "case.toml", {"output.every=0"}).output.every, 0);
+}
+
 TEST(CaseReader, HelpNamesTheKeysOfEverySection) {
   const auto help = case_keys_help();
   for (const auto* key :
-       {"mesh.file", "fluid.viscosity", "structure.layers.NAME.c10", "inlet.until", "time.step", "static.load_steps",
-        "newton.mode", "partitioned.scheme", "output.every", "economy.constant_operators"})
+       {"mesh.file", "fluid.viscosity", "structure.layers.NAME.c10", "structure.layers.NAME.CONSTANT.unit",
+        "structure.layers.NAME.CONSTANT.length_unit", "inlet.until", "time.step", "static.load_steps", "newton.mode",
+        "partitioned.scheme", "output.every", "economy.constant_operators"})
     EXPECT_NE(help.find(key), std::string::npos) << key;
 }
 

@@ -61,6 +61,9 @@ TEST(StartPressure, OfOtherKindsIsNamedToo) {
       warnings({}, "[[opening]]\nsurface = \"side\"\npressure = [[0, 10], [4, 16], [8, 10]]\nperiod = 8\n");
   ASSERT_EQ(beat.size(), 1u);
   EXPECT_NE(beat[0].find("opening.side.pressure: begins with 10 kPa"), std::string::npos) << beat[0];
+  const auto jumping = warnings({}, "[[opening]]\nsurface = \"side\"\npressure = [[0, 10], [8, 0]]\nperiod = 8\n");
+  ASSERT_EQ(jumping.size(), 1u) << "not with the end of a period";
+  EXPECT_NE(jumping[0].find("opening.side.pressure: begins with 10 kPa"), std::string::npos) << jumping[0];
   EXPECT_TRUE(warnings({}, "[[opening]]\nsurface = \"side\"\npressure = 10\nuntil = 3\n").empty())
       << "a pulse is meant";
   // What was found by the openings alone is compared with the wall as well.

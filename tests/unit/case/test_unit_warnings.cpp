@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "case/case_reader.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fsi::test {
 
@@ -112,6 +113,33 @@ TEST(UnitWarnings, OfPressuresAskWhatTheWallBears) {
   // In a vessel of R / h = 5 the strain is five times p / E: 200 kPa are half of it at 2,000 kPa.
   EXPECT_EQ(warnings_with({"structure.layers.media.c10=600", "inlet.pressure=200"}), Lines{});
   EXPECT_EQ(warnings_with({"structure.layers.media.c10=60", "inlet.pressure=200"}).size(), 1u);
+}
+
+TEST(UnitWarnings, OfTractionsInTablesComeOnce) {
+  const Lines said = parse_case(R"(mesh.file = "block.msh"
+time = { step = 1, end = 4 }
+structure = { density = 1, bulk_modulus = 1e5, layers.w = { material = "neo-hookean", c10 = 3 } }
+support.pull.traction = [[0, 0, 0, 0], [2, 0, 200, 0], [4, 0, 200, 200]]
+)",
+                                "case.toml")
+                         .warnings;
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("support.pull.traction[1][2]: 200 looks like a value in mmHg; did you mean 26.7 kPa?"),
+            std::string::npos)
+      << said[0];
+}
+
+class PaintedConstants : public FolderTest {};
+
+/// More than a pascal could be, and no other unit's typical value.
+TEST_F(PaintedConstants, OfTensOfMillionsLookLikeDynes) {
+  write_text(folder_ / "stiffness.csv", "x,y,z,c10\n0,0,0,2e7\n1,0,0,2e7\n");
+  auto text = good_case;
+  const std::string constant = "c10 = 3.0";
+  text.replace(text.find(constant), constant.size(), R"(c10 = { file = "stiffness.csv", field = "c10" })");
+  const Lines said = parse_case(text, folder_ / "case.toml").warnings;
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("2e+07 looks like a value in dyn/cm^2; did you mean 2000 kPa?"), std::string::npos) << said[0];
 }
 
 TEST(UnitWarnings, OfLongStepsAskWhatAPeriodHas) {

@@ -77,6 +77,15 @@ TEST_F(CheckedFiles, AreRegularOrRefused) {
   EXPECT_NO_THROW(require_still_regular(folder_ / "absent"));
 }
 
+TEST_F(CheckedFiles, LeaveNothingOpenThatIsRefused) {
+  const auto open_files = [] {
+    return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+  };
+  const auto before = open_files();
+  EXPECT_THROW(CheckedFile::existing("/dev/null", "/dev/null"), WriteError);
+  EXPECT_EQ(open_files(), before);
+}
+
 TEST_F(CheckedFiles, MadeNewFollowNoLink) {
   write_text(folder_ / "precious", "dear");
   fs::create_symlink(folder_ / "precious", file_);

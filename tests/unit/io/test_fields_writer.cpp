@@ -48,8 +48,8 @@ TEST(PlannedFieldSteps, HaveFurtherOnesInTheirPlaces) {
 
 TEST_F(Fields, ListOnlyFinishedSteps) {
   FieldsWriter writer(folder_, grids_, planned_);
-  EXPECT_TRUE(writer.wants(8));
-  EXPECT_FALSE(writer.wants(7));
+  EXPECT_EQ(writer.entry_at(1.0), 8);
+  EXPECT_FALSE(writer.entry_at(0.875));
   EXPECT_FALSE(listed(0));
   write(writer, 0);
   EXPECT_TRUE(listed(0));
@@ -118,7 +118,7 @@ TEST_F(Fields, RestartForgetsStepsBehindTheCheckpoint) {
   FieldsWriter writer(folder_, grids_, planned_, folder_, 1.25);
   EXPECT_TRUE(listed(0) && listed(8));
   EXPECT_FALSE(listed(16));
-  EXPECT_TRUE(writer.wants(16));
+  EXPECT_EQ(writer.entry_at(2.0), 16);
   write(writer, 16);
   EXPECT_TRUE(listed(16));
 }

@@ -2,10 +2,13 @@
 #include <unistd.h>
 
 #include <string>
+#include <vector>
 
+#include "io/atomic_file.hpp"
 #include "io/fields_part.hpp"
 #include "io/fields_writer.hpp"
 #include "io/file_in_place.hpp"
+#include "io/last_fields.hpp"
 #include "io/write_error.hpp"
 #include "io/xdmf.hpp"
 #include "sample_fields.hpp"
@@ -114,6 +117,26 @@ TEST_F(LongFields, HaveAllEntriesInFilesThatAreMadeWhenTheyAreNeeded) {
   FieldsWriter writer(fresh, grids_, plan());
   EXPECT_FALSE(fs::exists(fresh / "fields-0002.h5"));
   EXPECT_EQ(fs::file_size(fresh / "fields.h5"), fs::file_size(run / "fields.h5"));
+}
+
+TEST_F(LongFields, EndInTheLastFileThatHasAny) {
+  auto grids = sample_grids();
+  grids.resize(1);
+  grids.front().fields = {{"pressure_error", 1, "kPa", true}};
+  const auto value_of = [&](const fs::path& run) {
+    return last_fields_of_cells(run, {"pressure_error"}).at(0).values.at("pressure_error");
+  };
+  const auto run = new_folder("run");
+  FieldsWriter writer(run, grids, plan());
+  for (std::int64_t step = 0; step < FieldsPart::capacity; ++step)
+    writer.write(step, {{{"fluid", "pressure_error"}, {static_cast<double>(step), 0.5}}});
+  // As a kill leaves it: the next file is there, and has nothing yet.
+  const auto next = run / FieldsPart::name(1);
+  FieldsPart::prepare(next, grids, {plan().at(FieldsPart::capacity)}, {});
+  replace_by_temporary(next);
+  EXPECT_EQ(value_of(run), (std::vector<double>{255, 0.5}));
+  writer.write(FieldsPart::capacity, {{{"fluid", "pressure_error"}, {7, 8}}});
+  EXPECT_EQ(value_of(run), (std::vector<double>{7, 8}));
 }
 
 TEST_F(LongFields, GoOnAfterAKillInPlaceAndElsewhere) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "host/available_memory.hpp"
 #include "io/checkpoint.hpp"
 #include "io/fields_writer.hpp"
 #include "io/first_process.hpp"
@@ -32,6 +33,8 @@ std::string said(Action action) {
     return error.what();
   } catch (const ConvergenceError& error) {
     return std::string("not converged: ") + error.what();
+  } catch (const OutOfMemory& error) {
+    return std::string("no memory: ") + error.what();
   }
   return "";
 }
@@ -50,6 +53,8 @@ TEST_F(FirstProcesses, FailuresOfOneAreThoseOfAll) {
   const std::string remedy(700, 'x');
   EXPECT_EQ(said(fail(InputError("f.toml", "key", "is wrong", remedy))), "f.toml: key: is wrong; " + remedy);
   EXPECT_EQ(said(fail(ConvergenceError("no solution", "less"))), "not converged: no solution; try less");
+  const OutOfMemory memory("7 GiB asked");
+  EXPECT_EQ(said(fail(memory)), std::string("no memory: ") + memory.what());
   const WriteError full("run/flow.csv", ENOSPC, "part");
   EXPECT_EQ(said(fail(full)), std::string("write error: ") + full.what());
   EXPECT_EQ(said([&] {
