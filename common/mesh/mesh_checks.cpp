@@ -194,7 +194,7 @@ class Checks {
 
   /// A piece of the wall that nothing holds can drift away.
   void wall_held() const {
-    if (checked_.layers.empty() || (Dim == 2 && checked_.needs.geometry == TriangleGeometry::axisymmetric)) return;
+    if (checked_.layers.empty() || checked_.held_by_inertia()) return;
     const auto roots = pieces([&](int cell) { return checked_.is_wall(cell); });
     std::vector<char> held(checked_.mesh.cells.size(), 0);
     checked_.for_groups_and_planes(checked_.needs.holding, [&](const auto& facets) {

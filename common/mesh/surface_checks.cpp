@@ -32,7 +32,9 @@ class SurfaceChecks {
         disjoint(checked_.needs.openings[j].c_str(), checked_.needs.openings[i].c_str());
     }
     if (!checked_.layers.empty()) {
-      surface(group::wall_ends, checked_.layers, wall, checked_.held_by_wall_ends_alone() && !supported_by_symmetry());
+      const bool ends_needed =
+          checked_.held_by_wall_ends_alone() && checked_.planes.empty() && !checked_.held_by_inertia();
+      surface(group::wall_ends, checked_.layers, wall, ends_needed);
       surface(group::outer, checked_.layers, wall, false);
       if (checked_.needs.inner_surface) surface(group::inner, checked_.layers, wall, true);
       for (const auto& name : checked_.needs.supports) surface(name, checked_.layers, wall, true);
@@ -99,12 +101,6 @@ class SurfaceChecks {
             second,
             fmt::format("the {} at {} is in {}, too", Words::facet, checked_.text(checked_.centroid(facet)), first),
             fmt::format("put every {} into one of the two groups only", Dim == 3 ? "face" : "side"));
-  }
-
-  /// Whether an axis or planes of symmetry may hold a wall whose ends are clamped nowhere.
-  bool supported_by_symmetry() const {
-    if (Dim == 2 && checked_.needs.geometry == TriangleGeometry::axisymmetric) return true;
-    return !checked_.planes.empty();
   }
 
   void symmetry() const {

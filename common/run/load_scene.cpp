@@ -155,6 +155,7 @@ MeshOf<Element> load_mesh(const Case& setup, std::vector<std::string>& remarks, 
     for (const auto& opening : openings_of(setup))
       (opening.surface == group::inlet ? needs.inlet : needs.outlet) = true;
   needs.geometry = triangle_geometry<Element>;
+  needs.at_rest = setup.static_load || (setup.prestress && setup.prestress->file.empty());
   if (setup.structure)
     for (const auto& [name, data] : setup.structure->layers)
       if (data.part_of.empty()) needs.layers.push_back(name);

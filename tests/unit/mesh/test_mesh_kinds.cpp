@@ -182,6 +182,14 @@ TEST(MeshChecksInTwoDimensions, OutletIsOptionalAndTheWallIsHeldByItsAxis) {
   group_of(mesh, "wall_ends").clear();
   group_of(mesh, "symmetry_z").clear();
   EXPECT_EQ(verdict(mesh, needs), "accepted");
+  needs.at_rest = true;  // along the axis only inertia holds it
+  EXPECT_EQ(verdict(mesh, needs).substr(0, 57), "mesh: wall_ends: the physical curve is missing or empty; ");
+  needs.holding = {"outer"};
+  EXPECT_EQ(verdict(mesh, needs), "accepted");
+  needs.holding = {};
+  EXPECT_EQ(verdict(mesh, needs),
+            "mesh: wall_ends: a piece of media with 24 triangles has no face that is held; connect it to the rest of "
+            "the wall by shared facets, or clamp it");
 }
 
 TEST(MeshChecksInTwoDimensions, RimHasToBeHeld) {
