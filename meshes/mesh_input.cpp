@@ -84,9 +84,16 @@ ReadMesh read_mesh_file(const std::string& file) {
 }
 
 void warn_of_left_out(const std::string& file, const ReadMesh& mesh) {
-  if (mesh.left_out == 0) return;
-  warn(mesh_program,
-       fmt::format("{}: {} cells in no physical group with a name are left out", printable(file), mesh.left_out));
+  if (mesh.left_out > 0)
+    warn(mesh_program,
+         fmt::format("{}: {} cells in no physical group with a name are left out", printable(file), mesh.left_out));
+  std::visit(
+      [&](const auto& read) {
+        for (const auto& group : read.facet_groups)
+          if (!group.astray.empty())
+            warn(mesh_program, fmt::format("{}: {}: {} and left out", printable(file), group.name, group.astray));
+      },
+      mesh.mesh);
 }
 
 }  // namespace fsi

@@ -17,7 +17,8 @@ namespace fsi {
 ///
 /// `regions` of the result are `regions_wanted`, in that order. Other groups are left out, and with them the nodes that
 /// only they use. `facet_groups` are the named physical surfaces (for Dim = 2 curves) as far as their elements are
-/// facets of what was read (facets of left-out cells are dropped, and groups that have none left). Facets are oriented
+/// facets of what was read (facets of left-out cells are dropped, and groups that have none left); what else is dropped
+/// is said of the group. Facets are oriented
 /// out of the cell they bound; one between two cells that were both read, out of the one in `fluid` if only one is,
 /// else out of the first. Nodes keep the order of the file (mid-edge nodes made here come behind them); cells that of
 /// the file, too.
@@ -30,8 +31,8 @@ namespace fsi {
 /// for: no physical names; a wanted group that is missing or empty; a mesh of another dimension; elements in a wanted
 /// group that are no tetrahedra (triangles) of first or second order, or of both orders, are in two wanted groups,
 /// inverted (tetrahedra), degenerate, or curved so much that their Jacobian is not positive everywhere; unknown or
-/// repeated node tags; nodes that no element uses; cells or facets of a surface that are there twice; elements of the
-/// surfaces named in group_names.hpp that are no facet of any cell; triangles out of the plane, or with a negative
+/// repeated node tags; nodes that no element uses; cells or facets of a surface that are there twice; elements of
+/// surfaces with a meaning (group_names.hpp) that are no facet of any cell; triangles out of the plane, or with a negative
 /// radius.
 /// \param geometry  of triangle meshes
 /// \param faults  where it is given, unused nodes and inverted, degenerate, folded and repeated cells are no error:
