@@ -416,8 +416,8 @@ void examine_surface(const CheckOptions& options, Findings& findings) {
                                 opening.capped ? "a flat cap" : "a hole", opening.area, opening.diameter() / 2,
                                 place_of(opening.centre)));
     }
-    if (const auto what = not_a_lumen(lumen); !what.empty())
-      findings.stop(lumen_program, "surface: " + what, lumen_remedy);
+    if (const auto fault = not_a_lumen(lumen))
+      findings.stop(lumen_program, "surface: " + fault.problem, fault.remedy);
   } catch (const InputError& error) {
     findings.stop_by(lumen_program, error.what(), "");
   }
@@ -426,15 +426,17 @@ void examine_surface(const CheckOptions& options, Findings& findings) {
 void check(const CheckOptions& options) {
   set_threads(options.threads);
   Findings findings(options.input.file);
-  if (is_surface(options.input.file))
+  const bool surface = is_surface(options.input.file);
+  if (surface)
     examine_surface(options, findings);
   else
     examine_mesh(options, findings);
   print(findings.text());
   if (findings.stops() > 0)
     throw InputError(options.input.file, "",
-                     findings.stops() == 1 ? std::string("one of the lines above would stop a driver")
-                                           : fmt::format("{} of the lines above would stop a driver", findings.stops()),
+                     fmt::format("{} of the lines above would stop {}",
+                                 findings.stops() == 1 ? "one" : std::to_string(findings.stops()),
+                                 surface ? lumen_program : "a driver"),
                      "mend them and check again");
 }
 
@@ -447,7 +449,7 @@ MeshCommand check_command(CLI::App& app) {
   command
       ->add_option("file", options->input.file,
                    "A mesh that import or the drivers read, or a surface: .stl, .ply, .obj, .vtp. Ends with 0 where "
-                   "nothing would stop a driver, else with 1")
+                   "nothing would stop a driver, or fsi-mesh lumen, else with 1")
       ->required();
   command->add_option("--scale", options->scale, "Of a mesh: from the file's unit of length to mm")
       ->capture_default_str();
