@@ -392,15 +392,9 @@ const std::string lumen_program = "fsi-mesh lumen";
 
 void examine_surface(const CheckOptions& options, Findings& findings) {
   const auto surface = triangles_of_file(options.input);  // a file that cannot be read ends here
-  Point low = surface.nodes.front(), high = low;
-  for (const auto& x : surface.nodes)
-    for (int d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], x[d]);
-      high[d] = std::max(high[d], x[d]);
-    }
+  const Point extent = BoundingBox(surface.nodes).extent();
   const auto extents = [&](double factor) {
-    return fmt::format("{:.3g} x {:.3g} x {:.3g} mm", factor * (high[0] - low[0]), factor * (high[1] - low[1]),
-                       factor * (high[2] - low[2]));
+    return fmt::format("{:.3g} x {:.3g} x {:.3g} mm", factor * extent[0], factor * extent[1], factor * extent[2]);
   };
   findings.note(fmt::format("surface of {} points and {} triangles: {}", surface.nodes.size(), surface.triangles.size(),
                             options.input.unit.empty()
@@ -416,8 +410,7 @@ void examine_surface(const CheckOptions& options, Findings& findings) {
                                 opening.capped ? "a flat cap" : "a hole", opening.area, opening.diameter() / 2,
                                 place_of(opening.centre)));
     }
-    if (const auto fault = not_a_lumen(lumen))
-      findings.stop(lumen_program, "surface: " + fault.problem, fault.remedy);
+    if (const auto fault = not_a_lumen(lumen)) findings.stop(lumen_program, "surface: " + fault.problem, fault.remedy);
   } catch (const InputError& error) {
     findings.stop_by(lumen_program, error.what(), "");
   }

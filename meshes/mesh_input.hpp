@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesh/simplex_mesh.hpp"
-#include "mesher/geo_script.hpp"
+#include "mesh_io/gmsh_reader.hpp"
 
 namespace fsi {
 

@@ -76,15 +76,7 @@ struct CheckedMesh {
   }
 
   /// Diagonal of the box around the mesh, mm.
-  double size() const {
-    Point low = mesh.nodes.front(), high = low;
-    for (const Point& x : mesh.nodes)
-      for (int d = 0; d < 3; ++d) {
-        low[d] = std::min(low[d], x[d]);
-        high[d] = std::max(high[d], x[d]);
-      }
-    return distance(low, high);
-  }
+  double size() const { return BoundingBox(mesh.nodes).size(); }
 
   /// Calls visit(facets) for the facets of the named groups and of the planes of symmetry.
   template <class Visit>

@@ -19,7 +19,7 @@ struct SceneMeshNeeds {
   std::vector<std::string> supports;    ///< surfaces on the outside of the wall that something holds or loads
   std::vector<std::string> holding = {"wall_ends"};   ///< of all surfaces, those that hold the wall
   std::vector<std::string> clamping = {"wall_ends"};  ///< those where it cannot move at all
-  bool at_rest = false;                 ///< whether the wall is sought at rest, without inertia
+  bool at_rest = false;                               ///< whether the wall is sought at rest, without inertia
   std::vector<std::string> left_out{};  ///< volumes of the file that the scene does not have, for remedies
   /// Of triangle meshes, whose volumes are physical surfaces and whose surfaces are physical curves.
   TriangleGeometry geometry = TriangleGeometry::axisymmetric;

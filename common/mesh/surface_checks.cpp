@@ -15,8 +15,8 @@ class SurfaceChecks {
   using FacetSet = typename CheckedMesh<Dim, Order>::FacetSet;
   using Words = CellWords<Dim>;
   using Plane = SymmetryPlane<Dim, Order>;
-  static constexpr const char* one_mesh_remedy = Dim == 3 ? "save surfaces and volumes of one conforming mesh"
-                                                          : "save curves and surfaces of one conforming mesh";
+  static constexpr const char* one_mesh_remedy =
+      Dim == 3 ? "save surfaces and volumes of one conforming mesh" : "save curves and surfaces of one conforming mesh";
 
  public:
   explicit SurfaceChecks(const CheckedMesh<Dim, Order>& checked) : checked_(checked) {}

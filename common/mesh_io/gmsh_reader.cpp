@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "base/sort_unique.hpp"
 #include "mesh/cell_words.hpp"
 #include "mesh/curved_cells.hpp"
 #include "mesh/facets.hpp"
@@ -166,8 +167,7 @@ class Reader {
       for (const int tag : block.physical_tags)
         if (const auto found = region_of_tag_.find(tag); found != region_of_tag_.end())
           regions.push_back(found->second);
-      std::sort(regions.begin(), regions.end());
-      regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+      sort_unique(regions);
       if (regions.empty()) {
         for (const auto node : block.nodes) in_other_volume_[node] = 1;
         continue;
@@ -343,7 +343,8 @@ class Reader {
             }
           }
           if (in_other_volume(block, i, type->nodes)) continue;
-          const auto problem = fmt::format("element {} ({}) is no facet of a {}", block.tags[i], type->name, Words::cell);
+          const auto problem =
+              fmt::format("element {} ({}) is no facet of a {}", block.tags[i], type->name, Words::cell);
           if (group::has_meaning(name))
             fail(name, problem,
                  Dim == 3 ? "save surfaces and volumes of one conforming mesh of triangles and tetrahedra"
@@ -437,6 +438,14 @@ SimplexMesh<Dim, Order> read_gmsh(const std::filesystem::path& path, const std::
       return with_mid_edge_nodes(
           Reader<Dim, 1>(path.string(), std::move(gmsh), regions_wanted, geometry, faults).read());
   return Reader<Dim, Order>(path.string(), std::move(gmsh), regions_wanted, geometry, faults).read();
+}
+
+AnyMesh read_gmsh(const std::filesystem::path& path, const std::vector<std::string>& regions_wanted, int dimension,
+                  int order, TriangleGeometry geometry) {
+  if (dimension == 3 && order == 1) return read_gmsh<3, 1>(path, regions_wanted, geometry);
+  if (dimension == 3) return read_gmsh<3, 2>(path, regions_wanted, geometry);
+  if (order == 1) return read_gmsh<2, 1>(path, regions_wanted, geometry);
+  return read_gmsh<2, 2>(path, regions_wanted, geometry);
 }
 
 std::vector<std::string> gmsh_regions(const std::filesystem::path& path, int dimension) {

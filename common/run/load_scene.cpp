@@ -247,14 +247,8 @@ template <class Element>
 VesselSize size_of_mesh(const Case& setup, const MeshOf<Element>& mesh) {
   VesselSize size;
   size.opening = widest_opening<Element>(setup, mesh);
-  for (std::size_t k = 0; k < 3; ++k) {
-    double low = 0, high = 0;
-    for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-      low = i == 0 ? mesh.nodes[i][k] : std::min(low, mesh.nodes[i][k]);
-      high = i == 0 ? mesh.nodes[i][k] : std::max(high, mesh.nodes[i][k]);
-    }
-    size.extent = std::max(size.extent, high - low);
-  }
+  const Point extent = BoundingBox(mesh.nodes).extent();
+  size.extent = *std::max_element(extent.begin(), extent.end());
   return size;
 }
 

@@ -52,7 +52,8 @@ void close_holes(OpenedLumen& lumen, const LumenRequest& request, std::vector<st
     closed.insert(number);
   }
   if (!closed.empty() && closed.size() == lumen.openings.size())
-    throw InputError(program, "--closed", "leaves the surface no opening", "leave out those where blood enters and leaves");
+    throw InputError(program, "--closed", "leaves the surface no opening",
+                     "leave out those where blood enters and leaves");
   std::vector<LumenOpening> left;
   for (std::size_t i = 0; i < lumen.openings.size(); ++i) {
     auto& opening = lumen.openings[i];

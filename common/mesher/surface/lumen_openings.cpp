@@ -23,12 +23,6 @@ LumenOpening opening_at(const TriangleSurface& surface, const std::vector<int>& 
   return {"", false, plane.centre, -1.0 * plane.normal, plane.area};
 }
 
-std::string coordinates_of(const Point& x) {
-  std::string text;
-  for (const double c : x) text += fmt::format("{}{:.3g}", text.empty() ? "" : ", ", std::abs(c) < 5e-4 ? 0.0 : c);
-  return "(" + text + ")";
-}
-
 constexpr const char* inner_face =
     "give the inner face alone, its ends open or cut flat; fsi-mesh import takes meshes of volumes";
 
@@ -40,11 +34,12 @@ LumenFault slit_of(const TriangleSurface& surface) {
     double length = 0;
     for (std::size_t i = 0; i < rim.size(); ++i)
       length += distance(surface.nodes[rim[i]], surface.nodes[rim[(i + 1) % rim.size()]]);
-    const auto [centre, normal, area, off_plane] = plane_of(surface.nodes, rim);
-    if (length * length <= longest * 4 * pi * area) continue;
-    return {fmt::format("has a slit near {}, as points that are there twice leave",
-                        place_of(surface.nodes[rim.front()])),
-            fmt::format("join them, or give --closed {:.6g},{:.6g},{:.6g}", centre[0], centre[1], centre[2])};
+    const LoopPlane plane = plane_of(surface.nodes, rim);
+    if (length * length <= longest * 4 * pi * plane.area) continue;
+    return {
+        fmt::format("has a slit near {}, as points that are there twice leave", place_of(surface.nodes[rim.front()])),
+        fmt::format("join them, or give --closed {:.6g},{:.6g},{:.6g}", plane.centre[0], plane.centre[1],
+                    plane.centre[2])};
   }
   return {};
 }
@@ -89,7 +84,7 @@ std::string to_text(const std::vector<LumenOpening>& openings) {
     const auto& opening = openings[i];
     text +=
         fmt::format("{:>6} {:>9.4g} {:>13.4g}  {:<34} {:<26} {}\n", i + 1, opening.area, opening.diameter(),
-                    place_of(opening.centre), coordinates_of(opening.normal), opening.capped ? "flat part" : "hole");
+                    place_of(opening.centre), text_of_normal(opening.normal), opening.capped ? "flat part" : "hole");
   }
   return text;
 }
@@ -102,11 +97,11 @@ LumenFault not_a_lumen(const OpenedLumen& lumen) {
       const double width = std::min(openings[i].diameter(), openings[j].diameter());
       if (distance(openings[i].centre, openings[j].centre) < width / 4 &&
           std::abs(dot(openings[i].normal, openings[j].normal)) > 0.9)
-        return {fmt::format(
-                    "openings {} and {} lie around each other at {}, as those of the inner and the outer face of a "
-                    "wall do",
-                    j + 1, i + 1, place_of(openings[j].centre)),
-                inner_face};
+        return {
+            fmt::format("openings {} and {} lie around each other at {}, as those of the inner and the outer face of a "
+                        "wall do",
+                        j + 1, i + 1, place_of(openings[j].centre)),
+            inner_face};
     }
   if (!openings.empty()) return {};
   std::set<SurfaceEdge> edges;

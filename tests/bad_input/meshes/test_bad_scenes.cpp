@@ -122,10 +122,11 @@ TEST(BadScene, TriangleOfAnOpeningOrSupportIsNoFacet) {
     EXPECT_EQ(verdict(changed.text_41(), needs), "accepted");
     needs.openings.emplace_back("lca");
     needs.supports = {"tissue"};
-    EXPECT_EQ(verdict(changed.text_22(), needs),
-              fmt::format("tube.msh: {}: element {} (triangles) is no facet of a tetrahedron; save surfaces and volumes "
-                          "of one conforming mesh",
-                          tag == inlet_tag ? "lca" : "tissue", changed.elements.size()));
+    EXPECT_EQ(
+        verdict(changed.text_22(), needs),
+        fmt::format("tube.msh: {}: element {} (triangles) is no facet of a tetrahedron; save surfaces and volumes "
+                    "of one conforming mesh",
+                    tag == inlet_tag ? "lca" : "tissue", changed.elements.size()));
   }
 }
 

@@ -417,7 +417,10 @@ class ErrorsOfTheReader(FolderTest):
         (self.base / "a.vtu").touch()
         for said, shown in (
             (("fsi-compare: warning: odd", "fsi-compare: error: a.vtu: is broken"), "a.vtu: is broken"),
-            (("Traceback (most recent call last):", "  somewhere", "ValueError: 3 is no 4"), "a.vtu: ValueError: 3 is no 4"),
+            (
+                ("Traceback (most recent call last):", "  somewhere", "ValueError: 3 is no 4"),
+                "a.vtu: ValueError: 3 is no 4",
+            ),
             ((), "a.vtu: fsi-compare ended without a message"),
         ):
             lines = "".join(f"echo '{line}' >&2\n" for line in said)

@@ -291,7 +291,8 @@ TEST(WallThickness, WarnsOfThinAndOfThickWalls) {
     return thickness_slip(surface, std::vector<double>(surface.nodes.size(), thickness));
   };
   EXPECT_EQ(said_of(0.3), "");
-  EXPECT_EQ(said_of(0.015).rfind("half of the wall is thinner than 0.01 of the lumen's radius, as no vessel's is", 0), 0u)
+  EXPECT_EQ(said_of(0.015).rfind("half of the wall is thinner than 0.01 of the lumen's radius, as no vessel's is", 0),
+            0u)
       << said_of(0.015);
   EXPECT_EQ(said_of(7.5).rfind("half of the wall is thicker than 5 of the lumen's radius, as no vessel's is", 0), 0u)
       << said_of(7.5);
