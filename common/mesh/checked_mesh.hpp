@@ -69,7 +69,7 @@ struct CheckedMesh {
   bool held_by_wall_ends_alone() const {
     return needs.holding.size() == 1 && needs.holding.front() == group::wall_ends;
   }
-  /// A wall of revolution can only drift along its axis, which takes an equation without inertia.
+  /// A wall of revolution can drift along its axis alone. Inertia bounds that, but where it is sought at rest.
   bool held_by_inertia() const { return Dim == 2 && axisymmetric() && !needs.at_rest; }
   bool is_wall(int cell) const {
     return std::find(layers.begin(), layers.end(), mesh.cell_region[cell]) != layers.end();
