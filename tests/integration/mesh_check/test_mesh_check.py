@@ -417,7 +417,7 @@ class NoLumen(Surfaces):
         self.assertEqual((process.returncode, process.stderr), (0, ""))
         self.assertIn(" is closed.", process.stdout)
         process = self.lumen("slit.stl", "--closed", "1", "--closed", "2", "--closed", "3")
-        self.assertIn("error: fsi-mesh: --closed: leaves the surface no opening;", process.stderr)
+        self.assertIn("fsi-mesh: error: --closed: leaves the surface no opening;", process.stderr)
 
     def test_a_surface_without_ends(self):
         points, triangles = self.closed(2.0)
