@@ -84,7 +84,7 @@ const RecommendedMesh* recommendation(const ArteryRequest& request) {
                            {"fsi-mesh", "--for", "--error"});
 }
 
-ArteryMesh make_artery(const ArteryRequest& request) {
+AnyMesh make_artery(const ArteryRequest& request) {
   check_combination(request);
   const int order = request.order.value_or(request.for_element == "p2p1" ? 2 : 1);
   if (order != 1 && order != 2) refuse("--order", fmt::format("there are no meshes of order {}", order), "give 1 or 2");

@@ -2,9 +2,8 @@
 
 #include <optional>
 #include <string>
-#include <variant>
 
-#include "mesh/simplex_mesh.hpp"
+#include "mesh_io/gmsh_reader.hpp"
 #include "mesher/artery/options.hpp"
 #include "mesher/artery/recommended_meshes.hpp"
 
@@ -28,8 +27,6 @@ struct ArteryRequest {
   std::string waves = wave_kinds().name_of(Waves::damped);  ///< for which error holds
 };
 
-using ArteryMesh = std::variant<SimplexMesh<2, 1>, SimplexMesh<2, 2>, SimplexMesh<3, 1>, SimplexMesh<3, 2>>;
-
 /// The mesh recommended for the request's element, nullptr when it asks for none.
 /// Throws InputError with the option at fault.
 const RecommendedMesh* recommendation(const ArteryRequest& request);
@@ -37,6 +34,6 @@ const RecommendedMesh* recommendation(const ArteryRequest& request);
 /// Makes the mesh. Sizes alone, of the whole tube, give the meshes of the levels; numbers of cells, sectors and
 /// axisymmetric meshes are divided regularly, so that they can be graded and mirrored.
 /// Throws InputError with the option at fault.
-ArteryMesh make_artery(const ArteryRequest& request);
+AnyMesh make_artery(const ArteryRequest& request);
 
 }  // namespace fsi

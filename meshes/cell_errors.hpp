@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/geo_script.hpp"
+#include "mesh_io/gmsh_reader.hpp"
 
 namespace fsi {
 

@@ -392,15 +392,9 @@ const std::string lumen_program = "fsi-mesh lumen";
 
 void examine_surface(const CheckOptions& options, Findings& findings) {
   const auto surface = triangles_of_file(options.input);  // a file that cannot be read ends here
-  Point low = surface.nodes.front(), high = low;
-  for (const auto& x : surface.nodes)
-    for (int d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], x[d]);
-      high[d] = std::max(high[d], x[d]);
-    }
+  const Point extent = BoundingBox(surface.nodes).extent();
   const auto extents = [&](double factor) {
-    return fmt::format("{:.3g} x {:.3g} x {:.3g} mm", factor * (high[0] - low[0]), factor * (high[1] - low[1]),
-                       factor * (high[2] - low[2]));
+    return fmt::format("{:.3g} x {:.3g} x {:.3g} mm", factor * extent[0], factor * extent[1], factor * extent[2]);
   };
   findings.note(fmt::format("surface of {} points and {} triangles: {}", surface.nodes.size(), surface.triangles.size(),
                             options.input.unit.empty()
@@ -416,8 +410,7 @@ void examine_surface(const CheckOptions& options, Findings& findings) {
                                 opening.capped ? "a flat cap" : "a hole", opening.area, opening.diameter() / 2,
                                 place_of(opening.centre)));
     }
-    if (const auto what = not_a_lumen(lumen); !what.empty())
-      findings.stop(lumen_program, "surface: " + what, lumen_remedy);
+    if (const auto fault = not_a_lumen(lumen)) findings.stop(lumen_program, "surface: " + fault.problem, fault.remedy);
   } catch (const InputError& error) {
     findings.stop_by(lumen_program, error.what(), "");
   }
@@ -426,15 +419,17 @@ void examine_surface(const CheckOptions& options, Findings& findings) {
 void check(const CheckOptions& options) {
   set_threads(options.threads);
   Findings findings(options.input.file);
-  if (is_surface(options.input.file))
+  const bool surface = is_surface(options.input.file);
+  if (surface)
     examine_surface(options, findings);
   else
     examine_mesh(options, findings);
   print(findings.text());
   if (findings.stops() > 0)
     throw InputError(options.input.file, "",
-                     findings.stops() == 1 ? std::string("one of the lines above would stop a driver")
-                                           : fmt::format("{} of the lines above would stop a driver", findings.stops()),
+                     fmt::format("{} of the lines above would stop {}",
+                                 findings.stops() == 1 ? "one" : std::to_string(findings.stops()),
+                                 surface ? lumen_program : "a driver"),
                      "mend them and check again");
 }
 
@@ -447,7 +442,7 @@ MeshCommand check_command(CLI::App& app) {
   command
       ->add_option("file", options->input.file,
                    "A mesh that import or the drivers read, or a surface: .stl, .ply, .obj, .vtp. Ends with 0 where "
-                   "nothing would stop a driver, else with 1")
+                   "nothing would stop a driver, or fsi-mesh lumen, else with 1")
       ->required();
   command->add_option("--scale", options->scale, "Of a mesh: from the file's unit of length to mm")
       ->capture_default_str();

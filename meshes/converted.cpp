@@ -24,6 +24,18 @@ void repeat_warnings(const std::string& errors) {
     if (line.rfind(mark, 0) == 0) warn(mesh_program, line.substr(mark.size()));
 }
 
+/// The error of fsi-compare, warnings before it left out; without one the last line, as of a traceback.
+std::string error_of(const std::string& errors) {
+  const std::string mark = "fsi-compare: error: ";
+  std::string last = "fsi-compare ended without a message";
+  std::istringstream lines(errors);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind(mark, 0) == 0) return line.substr(mark.size());
+    if (!line.empty()) last = line;
+  }
+  return last;
+}
+
 }  // namespace
 
 std::string converted(const std::string& file, const std::vector<std::string>& words, bool quiet) {
@@ -38,9 +50,7 @@ std::string converted(const std::string& file, const std::vector<std::string>& w
     if (!quiet) repeat_warnings(end.errors);
     return end.output;
   }
-  std::string said = end.errors.substr(0, end.errors.find('\n'));
-  if (const std::string mark = "fsi-compare: error: "; said.rfind(mark, 0) == 0) said.erase(0, mark.size());
-  refuse_file(file, file, said.empty() ? "fsi-compare ended without a message" : said);
+  refuse_file(file, file, error_of(end.errors));
 }
 
 }  // namespace fsi

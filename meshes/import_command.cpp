@@ -58,11 +58,6 @@ std::string convert(const ImportRequest& request, const std::vector<std::string>
   return converted(one ? request.files.front() : "", words, request.output.quiet);
 }
 
-template <int Dim, int Order>
-AnyMesh read_mesh(const std::filesystem::path& file) {
-  return read_gmsh<Dim, Order>(file, gmsh_regions(file, Dim), TriangleGeometry::plane);
-}
-
 /// The converted mesh, named as the options ask. \param said  sentences on what was named are added to it
 AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file, std::string& said) {
   const auto openings = flat_parts_of(request.openings);
@@ -77,10 +72,7 @@ AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file
   const int order = request.order > 0 ? request.order : gmsh_order(parse_gmsh(file), dimension);
   AnyMesh mesh;
   try {
-    if (dimension == 3)
-      mesh = order == 1 ? read_mesh<3, 1>(file) : read_mesh<3, 2>(file);
-    else
-      mesh = order == 1 ? read_mesh<2, 1>(file) : read_mesh<2, 2>(file);
+    mesh = read_gmsh(file, gmsh_regions(file, dimension), dimension, order, TriangleGeometry::plane);
   } catch (const InputError& error) {
     refuse_file(named(request), file.string(), error.what());
   }

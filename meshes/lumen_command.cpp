@@ -55,11 +55,11 @@ void make(LumenOptions& options) {
   auto& request = options.request;
   if (options.list) {
     const auto lumen = read_lumen_surface(options.input, done);
-    if (const auto what = not_a_lumen(lumen); !what.empty())
-      throw InputError(options.input.file, "surface", what, lumen_remedy);
+    const auto fault = not_a_lumen(lumen);
     std::string text;
     for (const auto& sentence : done) text += sentence + "\n";
-    print(text + to_text(lumen.openings));
+    if (!lumen.openings.empty()) print(text + to_text(lumen.openings));
+    if (fault) throw InputError(options.input.file, "surface", fault.problem, fault.remedy);
     return;
   }
   if (options.output.file.empty())

@@ -50,13 +50,6 @@ std::size_t cells_in(const GmshFile& file, int dimension) {
   return cells;
 }
 
-AnyMesh read_whole(const std::string& file, const std::vector<std::string>& regions, int dimension, int order,
-                   TriangleGeometry plane) {
-  if (dimension == 3)
-    return order == 1 ? AnyMesh(read_gmsh<3, 1>(file, regions)) : AnyMesh(read_gmsh<3, 2>(file, regions));
-  return order == 1 ? AnyMesh(read_gmsh<2, 1>(file, regions, plane)) : AnyMesh(read_gmsh<2, 2>(file, regions, plane));
-}
-
 }  // namespace
 
 MeshLayout mesh_layout(const std::string& file) {
@@ -78,15 +71,22 @@ MeshLayout mesh_layout(const std::string& file) {
 ReadMesh read_mesh_file(const std::string& file) {
   MeshLayout layout = mesh_layout(file);
   ReadMesh result{{}, layout.plane, std::move(layout.tags)};
-  result.mesh = read_whole(file, layout.regions, layout.dimension, layout.order, layout.plane);
+  result.mesh = read_gmsh(file, layout.regions, layout.dimension, layout.order, layout.plane);
   result.left_out = layout.cells - std::visit([](const auto& mesh) { return mesh.cells.size(); }, result.mesh);
   return result;
 }
 
 void warn_of_left_out(const std::string& file, const ReadMesh& mesh) {
-  if (mesh.left_out == 0) return;
-  warn(mesh_program,
-       fmt::format("{}: {} cells in no physical group with a name are left out", printable(file), mesh.left_out));
+  if (mesh.left_out > 0)
+    warn(mesh_program,
+         fmt::format("{}: {} cells in no physical group with a name are left out", printable(file), mesh.left_out));
+  std::visit(
+      [&](const auto& read) {
+        for (const auto& group : read.facet_groups)
+          if (!group.astray.empty())
+            warn(mesh_program, fmt::format("{}: {}: {} and left out", printable(file), group.name, group.astray));
+      },
+      mesh.mesh);
 }
 
 }  // namespace fsi

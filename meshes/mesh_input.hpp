@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesh/simplex_mesh.hpp"
-#include "mesher/geo_script.hpp"
+#include "mesh_io/gmsh_reader.hpp"
 
 namespace fsi {
 
@@ -35,7 +35,7 @@ MeshLayout mesh_layout(const std::string& file);
 /// \throws InputError for a script, and for what read_gmsh() refuses
 ReadMesh read_mesh_file(const std::string& file);
 
-/// Warns of cells that the mesh leaves out.
+/// Warns of cells and elements of surfaces that the mesh leaves out.
 void warn_of_left_out(const std::string& file, const ReadMesh& mesh);
 
 }  // namespace fsi

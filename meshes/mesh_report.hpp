@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "mesh_io/gmsh_reader.hpp"
 #include "mesh_io/gmsh_writer.hpp"
-#include "mesher/geo_script.hpp"
 
 namespace fsi {
 

@@ -12,10 +12,6 @@ namespace fsi {
 /// Units of length of a surface's file, in mm.
 extern const std::map<std::string, double> surface_units;
 
-/// The remedy for what not_a_lumen() finds.
-inline constexpr const char* lumen_remedy =
-    "give the inner face alone, its ends open or cut flat; fsi-mesh import takes meshes of volumes";
-
 /// A segmented surface in a file, and how it is to be read.
 struct SurfaceInput {
   std::string file;            ///< .stl, .ply, .obj or .vtp

@@ -85,6 +85,10 @@ std::map<int, double> total_thickness(const TetrahedralMesh& lumen, const WallGr
   std::vector<double> thickness;
   if (options.ratio > 0) {
     thickness = local_radius(surface, options.smoothing);
+    if (!std::isfinite(thickness.front()))
+      throw InputError(mesh_program, "--thickness-ratio",
+                       "is not for this surface: no two places of it face each other, so it has no radius",
+                       "give thicknesses: --layer NAME=MM, or --thickness-from");
     for (double& t : thickness) t *= options.ratio;
   } else {
     auto table = read_table(options);

@@ -16,7 +16,7 @@ inline double von_mises_stress(const Mat3<double>& s) {
   return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3 * shear);
 }
 
-/// The eigenvalues of a symmetric tensor, the largest first, by Jacobi's rotations [GolubVanLoan2013, section 8.5].
+/// The eigenvalues of a symmetric tensor, the largest first, by Jacobi's rotations [Golub2013, section 8.5].
 inline std::array<double, 3> principal_stresses(Mat3<double> s) {
   constexpr int most_sweeps = 30;
   const double size = std::sqrt(contract(s, s));

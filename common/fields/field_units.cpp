@@ -16,23 +16,11 @@ constexpr double nearly_all = 0.95;
 constexpr std::array<std::pair<const char*, double>, 5> lengths{
     {{"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}, {"in", 25.4}}};
 
-struct Box {
-  Point low, high;
-
-  explicit Box(const std::vector<Point>& points) : low(points.front()), high(low) {
-    for (const Point& x : points)
-      for (int d = 0; d < 3; ++d) {
-        low[d] = std::min(low[d], x[d]);
-        high[d] = std::max(high[d], x[d]);
-      }
-  }
-  double size() const { return distance(low, high); }
-  bool holds(const Point& x, double margin) const {
-    for (int d = 0; d < 3; ++d)
-      if (!(x[d] >= low[d] - margin && x[d] <= high[d] + margin)) return false;
-    return true;
-  }
-};
+bool holds(const BoundingBox& box, const Point& x, double margin) {
+  for (int d = 0; d < 3; ++d)
+    if (!(x[d] >= box.low[d] - margin && x[d] <= box.high[d] + margin)) return false;
+  return true;
+}
 
 }  // namespace
 
@@ -51,12 +39,12 @@ std::string known_length_units() {
 std::optional<LengthSlip> length_slip(const std::vector<Point>& points, const std::vector<Point>& places) {
   constexpr double margin = 0.1, spread = 0.3;
   if (points.empty() || places.empty()) return std::nullopt;
-  const Box box(places);
-  const double size = Box(points).size(), whole = box.size();
+  const BoundingBox box(places);
+  const double size = BoundingBox(points).size(), whole = box.size();
   const auto fits = [&](double factor) {
     if (!(factor * size >= spread * whole)) return false;
     const auto inside = std::count_if(points.begin(), points.end(),
-                                      [&](const Point& x) { return box.holds(factor * x, margin * whole); });
+                                      [&](const Point& x) { return holds(box, factor * x, margin * whole); });
     return static_cast<double>(inside) >= nearly_all * static_cast<double>(points.size());
   };
   if (fits(1)) return std::nullopt;

@@ -1,6 +1,7 @@
 #include "mesh/cells_across.hpp"
 
 #include <unordered_set>
+#include <vector>
 
 #include "mesh/boundary.hpp"
 #include "mesh/facets.hpp"
@@ -23,7 +24,12 @@ std::optional<CellsAcross> cells_across(const SimplexMesh<3, Order>& mesh) {
   }
   std::unordered_set<FacetKey<3>, FacetKeyHash> named;
   for (const auto& surface : mesh.facet_groups)
-    for (const auto& facet : surface.facets) named.insert(facet_key<3>(facet));
+    if (!group::is_no_opening(surface.name))
+      for (const auto& facet : surface.facets) named.insert(facet_key<3>(facet));
+  std::vector<int> walls;
+  for (int region = 0; region < static_cast<int>(mesh.regions.size()); ++region)
+    if (region != fluid) walls.push_back(region);
+  for (const auto& facet : interface_facets(mesh, fluid, walls)) named.erase(facet_key<3>(facet));
   double area = 0;
   for (const auto& facet : boundary_facets(mesh, {fluid}))
     if (named.count(facet_key<3>(facet.nodes)) == 0)

@@ -13,7 +13,8 @@ struct CellsAcross {
   double cells() const { return width / edge; }
 };
 
-/// Of the volume `fluid`; A is its boundary without the facets of named surfaces. Empty if the volume or A is missing.
+/// Of the volume `fluid`; A is its boundary without the facets of named surfaces, but with its interface and surfaces
+/// that are no openings by name (mesh/group_names.hpp). Empty if the volume or A is missing.
 template <int Order>
 std::optional<CellsAcross> cells_across(const SimplexMesh<3, Order>& mesh);
 

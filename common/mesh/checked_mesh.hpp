@@ -69,20 +69,14 @@ struct CheckedMesh {
   bool held_by_wall_ends_alone() const {
     return needs.holding.size() == 1 && needs.holding.front() == group::wall_ends;
   }
+  /// A wall of revolution can drift along its axis alone. Inertia bounds that, but where it is sought at rest.
+  bool held_by_inertia() const { return Dim == 2 && axisymmetric() && !needs.at_rest; }
   bool is_wall(int cell) const {
     return std::find(layers.begin(), layers.end(), mesh.cell_region[cell]) != layers.end();
   }
 
   /// Diagonal of the box around the mesh, mm.
-  double size() const {
-    Point low = mesh.nodes.front(), high = low;
-    for (const Point& x : mesh.nodes)
-      for (int d = 0; d < 3; ++d) {
-        low[d] = std::min(low[d], x[d]);
-        high[d] = std::max(high[d], x[d]);
-      }
-    return distance(low, high);
-  }
+  double size() const { return BoundingBox(mesh.nodes).size(); }
 
   /// Calls visit(facets) for the facets of the named groups and of the planes of symmetry.
   template <class Visit>

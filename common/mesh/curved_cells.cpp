@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "mesh/cell_map.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
 
@@ -121,17 +122,6 @@ std::array<int, 2> longest_edge(const Part<Dim>& part) {
   return longest;
 }
 
-template <int Dim>
-Point place(const std::array<Point, nodes_of_simplex(Dim, 2)>& x, const std::array<double, vertices<Dim>>& l) {
-  Point sum{0, 0, 0};
-  for (int i = 0; i < vertices<Dim>; ++i) sum = sum + (l[i] * (2 * l[i] - 1)) * x[i];
-  for (std::size_t e = 0; e < SimplexEdges<Dim>::vertices.size(); ++e) {
-    const auto& [a, b] = SimplexEdges<Dim>::vertices[e];
-    sum = sum + (4 * l[a] * l[b]) * x[vertices<Dim> + e];
-  }
-  return sum;
-}
-
 /// Mean over the cell: the Bernstein polynomials all have the same integral.
 template <int Dim>
 double mean(const Part<Dim>& part) {
@@ -191,7 +181,7 @@ CellJacobian cell_jacobian(const std::array<Point, nodes_of_simplex(Dim, 2)>& x)
     }
   }
   if (!(result.least > 0)) result.positive = false;
-  result.where = place<Dim>(x, where);
+  result.where = CellMap<Dim, 2>{x}.at(where);
   return result;
 }
 

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/sort_unique.hpp"
+
 namespace fsi {
 
 FarNodes::FarNodes(const PartRestriction& here, const std::vector<int>& wanted)
     : nodes_(static_cast<int>(here.whole_nodes().size())) {
   for (const int node : wanted)
     if (here.local(node) < 0) far_.push_back(node);
-  std::sort(far_.begin(), far_.end());
-  far_.erase(std::unique(far_.begin(), far_.end()), far_.end());
+  sort_unique(far_);
   const Communicator& processes = *here.share().processes;
   std::vector<std::vector<double>> asked(processes.size());  // whole numbers, far below 2^53
   std::vector<Exchange::Neighbour> neighbours(processes.size());

@@ -52,18 +52,12 @@ struct FlatParts {
   }
 };
 
-std::string coordinates(const Point& x) {
-  std::string text;
-  for (const double c : x) text += fmt::format("{}{:.3g}", text.empty() ? "" : ", ", std::abs(c) < 5e-4 ? 0.0 : c);
-  return "(" + text + ")";
-}
-
 std::string listed(const std::vector<const FlatRegion*>& parts) {
   constexpr std::size_t most = 6;
   std::string text;
   for (std::size_t i = 0; i < std::min(parts.size(), most); ++i)
     text += fmt::format("{}{} with normal {} and {:.3g} mm^2", i == 0 ? "" : ", ", place_of(parts[i]->centre),
-                        coordinates(parts[i]->normal), parts[i]->area);
+                        text_of_normal(parts[i]->normal), parts[i]->area);
   return parts.size() > most ? text + fmt::format(", and {} more", parts.size() - most) : text;
 }
 
@@ -127,6 +121,12 @@ std::size_t part_at(const SimplexMesh<3, Order>& mesh, const FlatParts<Order>& f
 std::string place_of(const Point& at) {
   const Point x = without_rounding(at);
   return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", x[0], x[1], x[2]);
+}
+
+std::string text_of_normal(const Point& normal) {
+  std::string text;
+  for (const double c : normal) text += fmt::format("{}{:.3g}", text.empty() ? "" : ", ", std::abs(c) < 5e-4 ? 0.0 : c);
+  return "(" + text + ")";
 }
 
 template <int Order>

@@ -11,6 +11,9 @@ namespace fsi {
 /// A point for messages, "(0, 0, 5) mm"; what is zero to rounding is shown as zero.
 std::string place_of(const Point& at);
 
+/// A unit normal for messages, "(0, 0, 1)", likewise.
+std::string text_of_normal(const Point& normal);
+
 /// A flat part of a lumen's surface that is to have a name.
 struct FlatPart {
   std::string name;

@@ -9,7 +9,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/sort_unique.hpp"
 #include "math/pi.hpp"
+#include "mesh/disjoint_sets.hpp"
 #include "mesh/point_math.hpp"
 
 namespace fsi {
@@ -206,19 +208,6 @@ class FlatRegions {
            4 * pi * area >= roundness * length * length;
   }
 
-  static bool is_one_line(const std::vector<std::pair<int, int>>& rim) {
-    std::map<int, int> next;
-    for (const auto& [a, b] : rim)
-      if (!next.try_emplace(a, b).second) return false;
-    std::size_t steps = 1;
-    for (int at = rim.front().second; at != rim.front().first && steps <= rim.size(); ++steps) {
-      const auto found = next.find(at);
-      if (found == next.end()) return false;
-      at = found->second;
-    }
-    return steps == rim.size();
-  }
-
   /// By how much the surface turns away to the inner side of the plane at an edge of the rim, radians; 0 when it does
   /// not. Normals are the means of the triangles inside and outside that meet the edge: a strip of a tube's side is
   /// bent itself, and does not end in a crease.
@@ -259,6 +248,23 @@ class FlatRegions {
 };
 
 }  // namespace
+
+bool is_one_line(const std::vector<std::pair<int, int>>& edges) {
+  std::vector<int> nodes;
+  for (const auto& [a, b] : edges) nodes.insert(nodes.end(), {a, b});
+  std::sort(nodes.begin(), nodes.end());
+  for (std::size_t i = 0; i < nodes.size(); i += 2)
+    if (nodes[i] != nodes[i + 1] || (i > 0 && nodes[i] == nodes[i - 1])) return false;
+  sort_unique(nodes);
+  const auto number = [&](int node) {
+    return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+  };
+  DisjointSets sets(nodes.size());
+  for (const auto& [a, b] : edges) sets.join(number(a), number(b));
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    if (sets.root(static_cast<int>(i)) != sets.root(0)) return false;
+  return true;
+}
 
 std::vector<FlatRegion> flat_regions(const std::vector<Point>& nodes, const std::vector<SurfaceTriangle>& triangles) {
   return FlatRegions(nodes, triangles).find();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "mesh/simplex_mesh.hpp"
@@ -27,5 +28,9 @@ struct FlatRegion {
 ///   of the plane. A strip of a coarse tube's side turns by less. Where two branches meet (the carina), the surface
 ///   rises out of any plane in one direction, however flat it is.
 std::vector<FlatRegion> flat_regions(const std::vector<Point>& nodes, const std::vector<SurfaceTriangle>& triangles);
+
+/// Whether edges make one closed line: every node has two of them, and one walk takes all.
+/// \param edges  their ends, in either direction
+bool is_one_line(const std::vector<std::pair<int, int>>& edges);
 
 }  // namespace fsi

@@ -28,7 +28,11 @@ constexpr bool is_symmetry_plane(std::string_view name) {
   return name == "symmetry" || name.substr(0, 9) == "symmetry_";
 }
 inline constexpr const char* oblique_symmetry = "symmetry_1";  ///< that of a sector which is normal to no axis
-inline constexpr std::array<const char*, 5> surfaces{inlet, outlet, wall_ends, outer, inner};  ///< not symmetry planes
+/// Surfaces that a case need not name.
+constexpr bool has_meaning(std::string_view name) {
+  return name == inlet || name == outlet || name == wall_ends || name == outer || name == inner ||
+         is_symmetry_plane(name);
+}
 }  // namespace group
 
 }  // namespace fsi

@@ -15,8 +15,6 @@ template <int Dim, int Order>
 class InterfaceChecks {
   using Facet = typename SimplexMesh<Dim, Order>::Facet;
   using FacetSet = typename CheckedMesh<Dim, Order>::FacetSet;
-  using Words = CellWords<Dim>;
-  using Plane = SymmetryPlane<Dim, Order>;
 
  public:
   explicit InterfaceChecks(const CheckedMesh<Dim, Order>& checked) : checked_(checked) {}

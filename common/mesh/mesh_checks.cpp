@@ -96,15 +96,10 @@ class Checks {
   /// Nodes in the same place are a crack in the mesh. Sorted into boxes of a grid much wider than the tolerance; a node
   /// near a box's side is looked for in the next one, too.
   void same_place() const {
-    Point low = checked_.mesh.nodes.front(), high = low;
-    for (const Point& x : checked_.mesh.nodes)
-      for (int d = 0; d < 3; ++d) {
-        low[d] = std::min(low[d], x[d]);
-        high[d] = std::max(high[d], x[d]);
-      }
-    const double size = distance(low, high), tolerance = 1e-9 * size, box = 1e-6 * size;
+    const BoundingBox around(checked_.mesh.nodes);
+    const double size = around.size(), tolerance = 1e-9 * size, box = 1e-6 * size;
     const auto number = [&](int d, double value) {
-      return static_cast<std::int64_t>(std::floor((value - low[d]) / box));
+      return static_cast<std::int64_t>(std::floor((value - around.low[d]) / box));
     };
     const auto hash = [](std::int64_t i, std::int64_t j, std::int64_t k) {
       return (static_cast<std::uint64_t>(i) << 42) ^ (static_cast<std::uint64_t>(j) << 21) ^
@@ -194,7 +189,7 @@ class Checks {
 
   /// A piece of the wall that nothing holds can drift away.
   void wall_held() const {
-    if (checked_.layers.empty() || (Dim == 2 && checked_.needs.geometry == TriangleGeometry::axisymmetric)) return;
+    if (checked_.layers.empty() || checked_.held_by_inertia()) return;
     const auto roots = pieces([&](int cell) { return checked_.is_wall(cell); });
     std::vector<char> held(checked_.mesh.cells.size(), 0);
     checked_.for_groups_and_planes(checked_.needs.holding, [&](const auto& facets) {

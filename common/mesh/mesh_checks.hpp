@@ -19,6 +19,7 @@ struct SceneMeshNeeds {
   std::vector<std::string> supports;    ///< surfaces on the outside of the wall that something holds or loads
   std::vector<std::string> holding = {"wall_ends"};   ///< of all surfaces, those that hold the wall
   std::vector<std::string> clamping = {"wall_ends"};  ///< those where it cannot move at all
+  bool at_rest = false;                               ///< whether the wall is sought at rest, without inertia
   std::vector<std::string> left_out{};  ///< volumes of the file that the scene does not have, for remedies
   /// Of triangle meshes, whose volumes are physical surfaces and whose surfaces are physical curves.
   TriangleGeometry geometry = TriangleGeometry::axisymmetric;
@@ -29,11 +30,11 @@ struct SceneMeshNeeds {
 /// with more than two cells, or with both on one side (folded mesh); surface facets that are no facets of the volumes
 /// they belong to, that lie between two cells, or that are in two openings or in an opening and a symmetry plane; a
 /// surface `symmetry_x` (y, z) that is not normal to x (y, z) everywhere, another symmetry plane that is not flat; an
-/// axis whose quadratic sides are not straight; fluid in several pieces; pieces of a wall, unless it is axisymmetric,
-/// without a face in a symmetry plane or a surface that holds the wall; with fluid and wall: no shared facet, faces
-/// that meet without sharing nodes, or a node of the interface's rim that is neither in a surface that clamps it, nor
-/// in a symmetry plane, nor on the axis of an axisymmetric mesh, nor in a surface of `supports` where an opening
-/// begins.
+/// axis whose quadratic sides are not straight; fluid in several pieces; pieces of a wall, unless it is axisymmetric
+/// and not sought at rest, without a face in a symmetry plane or a surface that holds the wall; with fluid and wall: no
+/// shared facet, faces that meet without sharing nodes, or a node of the interface's rim that is neither in a surface
+/// that clamps it, nor in a symmetry plane, nor on the axis of an axisymmetric mesh, nor in a surface of `supports`
+/// where an opening begins.
 template <int Dim, int Order>
 void check_scene_mesh(const SimplexMesh<Dim, Order>& mesh, const SceneMeshNeeds& needs, const std::string& file);
 

@@ -7,7 +7,6 @@
 
 #include "base/hash.hpp"
 #include "mesh/for_each_mesh.hpp"
-#include "mesh/group_names.hpp"
 
 namespace fsi {
 
@@ -27,11 +26,6 @@ void add(Fnv1a& hash, const std::string& name) {
   hash.add(name);
 }
 
-bool has_meaning(const std::string& surface) {
-  return group::is_symmetry_plane(surface) ||
-         std::find(group::surfaces.begin(), group::surfaces.end(), surface) != group::surfaces.end();
-}
-
 }  // namespace
 
 template <int Dim, int Order>
@@ -48,7 +42,7 @@ std::string hash_of_mesh(const SimplexMesh<Dim, Order>& mesh) {
   }
   std::map<std::string, std::vector<typename SimplexMesh<Dim, Order>::Facet>> surfaces;
   for (const auto& group : mesh.facet_groups)
-    if (has_meaning(group.name) && !group.facets.empty()) surfaces[group.name] = group.facets;
+    if (!group.facets.empty()) surfaces[group.name] = group.facets;
   for (auto& [name, facets] : surfaces) {
     std::sort(facets.begin(), facets.end());
     add(hash, name);

@@ -7,8 +7,7 @@
 namespace fsi {
 
 /// Hash of a mesh (FNV-1a 64, 16 hexadecimal digits): nodes to the last bit, cells, each cell's volume by its name, and
-/// the facets of each surface with a meaning of its own (mesh/group_names.hpp) by its name. Surfaces of other names,
-/// which a case may name as openings or supports, and the order of the groups do not count.
+/// the facets of each surface by its name. Empty surfaces, and the order of groups and facets, do not count.
 template <int Dim, int Order>
 std::string hash_of_mesh(const SimplexMesh<Dim, Order>& mesh);
 

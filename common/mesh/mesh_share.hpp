@@ -24,11 +24,6 @@ struct MeshShare {
   std::vector<Exchange::Neighbour> neighbours;
 
   bool owns(int node) const { return owner[node] == processes->rank(); }
-  /// Sums over cells or facets count each at one process, the owner of its node of least number.
-  template <class Nodes>
-  bool counts(const Nodes& nodes) const {
-    return owns(*std::min_element(nodes.begin(), nodes.end()));
-  }
   template <class Nodes>
   bool touches(const Nodes& nodes) const {
     return std::any_of(nodes.begin(), nodes.end(), [this](int node) { return owns(node); });
@@ -83,7 +78,8 @@ class PartRestriction {
   std::vector<Facet> counted_facets(const std::vector<Facet>& whole) const {
     return those<Facet>(whole, [this](const Facet& facet) { return counts(facet); });
   }
-  /// Whether sums count a cell or facet here. \param nodes  in numbers of the whole part
+  /// Whether sums count a cell or facet here: at one process, the owner of its node of least number.
+  /// \param nodes  in numbers of the whole part
   template <class Nodes>
   bool counts(const Nodes& nodes) const {
     return owns_whole(*std::min_element(nodes.begin(), nodes.end()));

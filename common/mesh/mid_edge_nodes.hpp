@@ -56,7 +56,7 @@ SimplexMesh<Dim, 2> with_mid_edge_nodes(const SimplexMesh<Dim, 1>& mesh) {
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     extend(mesh.cells[c], SimplexEdges<Dim>::vertices, quadratic.cells[c]);
   for (const auto& group : mesh.facet_groups) {
-    quadratic.facet_groups.push_back({group.name, {}});
+    quadratic.facet_groups.push_back({group.name, {}, group.astray});
     auto& facets = quadratic.facet_groups.back().facets;
     facets.resize(group.facets.size());
     for (std::size_t f = 0; f < group.facets.size(); ++f)

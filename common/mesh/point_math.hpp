@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "mesh/simplex_mesh.hpp"
 
@@ -28,6 +30,22 @@ inline double norm(const Point& a) {
 inline double distance(const Point& a, const Point& b) {
   return norm(a - b);
 }
+
+/// The box around points, along the axes.
+struct BoundingBox {
+  Point low, high;
+
+  /// \param points  at least one
+  explicit BoundingBox(const std::vector<Point>& points) : low(points.front()), high(low) {
+    for (const Point& x : points)
+      for (int d = 0; d < 3; ++d) {
+        low[d] = std::min(low[d], x[d]);
+        high[d] = std::max(high[d], x[d]);
+      }
+  }
+  Point extent() const { return high - low; }
+  double size() const { return distance(low, high); }  ///< its diagonal
+};
 
 /// For messages: coordinates that are zero to rounding are zero, mm.
 inline Point without_rounding(Point x) {

@@ -191,6 +191,7 @@ MeshQuality measure_quality(const SimplexMesh<Dim, Order>& mesh) {
       worst[mesh.cell_region[c]] = std::min(eta, curving);
       region.worst = static_cast<int>(c);
       region.worst_at = centre(corners);
+      region.worst_eta = eta;
     }
     const double angle = least_angle(corners);
     region.min_angle = std::min(region.min_angle, angle);
@@ -222,7 +223,7 @@ std::vector<std::string> warnings_of(const MeshQuality& quality) {
         region.name, region.poor, region.cells, poor_eta, solid ? "a dihedral angle" : "an angle", poor_angle,
         quality.order == 1 ? "" : fmt::format(", or det J below {:g} of its mean", poor_jacobian),
         solid ? CellWords<3>::cell : CellWords<2>::cell, region.worst + 1, region.worst_at[0], region.worst_at[1],
-        region.worst_at[2], region.min_eta, region.min_angle, curving));
+        region.worst_at[2], region.worst_eta, region.min_angle, curving));
   }
   return warnings;
 }

@@ -35,6 +35,7 @@ struct MeshQuality {
     std::size_t poor = 0;     ///< elements below poor_eta, poor_angle or poor_jacobian
     int worst = -1;           ///< number in the mesh, from 0, of the element with the smallest eta or least/mean det J
     Point worst_at{};         ///< its centre, mm
+    double worst_eta = 0;     ///< its mean ratio
   };
   int dimension = 3, order = 1;
   std::size_t nodes = 0;

@@ -26,6 +26,7 @@ struct SimplexMesh {
   struct FacetGroup {
     std::string name;
     std::vector<Facet> facets;
+    std::string astray{};  ///< in words, the first element of the surface in its file that is no facet; empty: none
   };
 
   std::vector<Point> nodes;  ///< mm

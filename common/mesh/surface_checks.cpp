@@ -15,6 +15,8 @@ class SurfaceChecks {
   using FacetSet = typename CheckedMesh<Dim, Order>::FacetSet;
   using Words = CellWords<Dim>;
   using Plane = SymmetryPlane<Dim, Order>;
+  static constexpr const char* one_mesh_remedy =
+      Dim == 3 ? "save surfaces and volumes of one conforming mesh" : "save curves and surfaces of one conforming mesh";
 
  public:
   explicit SurfaceChecks(const CheckedMesh<Dim, Order>& checked) : checked_(checked) {}
@@ -26,13 +28,17 @@ class SurfaceChecks {
       surface(group::outlet, {checked_.fluid}, "the fluid", checked_.needs.outlet);
       disjoint(group::inlet, group::outlet);
     }
+    without_astray_elements(checked_.needs.openings);
     for (std::size_t i = 0; i < checked_.needs.openings.size(); ++i) {
       surface(checked_.needs.openings[i], {checked_.fluid}, "the fluid", true);
       for (std::size_t j = 0; j < i; ++j)
         disjoint(checked_.needs.openings[j].c_str(), checked_.needs.openings[i].c_str());
     }
     if (!checked_.layers.empty()) {
-      surface(group::wall_ends, checked_.layers, wall, checked_.held_by_wall_ends_alone() && !supported_by_symmetry());
+      without_astray_elements(checked_.needs.supports);
+      const bool ends_needed =
+          checked_.held_by_wall_ends_alone() && checked_.planes.empty() && !checked_.held_by_inertia();
+      surface(group::wall_ends, checked_.layers, wall, ends_needed);
       surface(group::outer, checked_.layers, wall, false);
       if (checked_.needs.inner_surface) surface(group::inner, checked_.layers, wall, true);
       for (const auto& name : checked_.needs.supports) surface(name, checked_.layers, wall, true);
@@ -42,6 +48,13 @@ class SurfaceChecks {
   }
 
  private:
+  /// Without its elements that are facets of no cell a surface would be smaller than in the file.
+  void without_astray_elements(const std::vector<std::string>& names) const {
+    for (const auto& group : checked_.mesh.facet_groups)
+      if (!group.astray.empty() && std::find(names.begin(), names.end(), group.name) != names.end())
+        checked_.fail(group.name, group.astray, one_mesh_remedy);
+  }
+
   /// A surface group that the scene needs, or that is there: each facet must bound a cell of `regions`, with nothing
   /// behind it.
   void surface(const std::string& name, const std::vector<int>& regions, const std::string& owner,
@@ -66,8 +79,7 @@ class SurfaceChecks {
         checked_.fail(name,
                       fmt::format("the {} at {} is no facet of a {}", Words::facet,
                                   checked_.text(checked_.centroid(facet)), Words::cell),
-                      Dim == 3 ? "save surfaces and volumes of one conforming mesh"
-                               : "save curves and surfaces of one conforming mesh");
+                      one_mesh_remedy);
       const int a = cells->first, b = cells->second;
       const bool bad_owner = !is_in(a) && !is_in(b), bad_side = !bad_owner && b >= 0;
       foreign += bad_owner;
@@ -99,12 +111,6 @@ class SurfaceChecks {
             second,
             fmt::format("the {} at {} is in {}, too", Words::facet, checked_.text(checked_.centroid(facet)), first),
             fmt::format("put every {} into one of the two groups only", Dim == 3 ? "face" : "side"));
-  }
-
-  /// Whether an axis or planes of symmetry may hold a wall whose ends are clamped nowhere.
-  bool supported_by_symmetry() const {
-    if (Dim == 2 && checked_.needs.geometry == TriangleGeometry::axisymmetric) return true;
-    return !checked_.planes.empty();
   }
 
   void symmetry() const {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/sort_unique.hpp"
 #include "mesh_io/gmsh_scanner.hpp"
 
 namespace fsi {
@@ -120,8 +121,7 @@ EntityGroups read_entities(GmshScanner& in) {
       auto& physical = groups[{dimension, tag}];
       for (auto left = in.count("number of physical tags", 4); left > 0; --left)
         physical.push_back(unsigned_tag(in, in.integer("physical tag")));
-      std::sort(physical.begin(), physical.end());
-      physical.erase(std::unique(physical.begin(), physical.end()), physical.end());
+      sort_unique(physical);
       if (dimension > 0)
         for (auto left = in.count("number of bounding entities", 4); left > 0; --left) in.integer("bounding entity");
     }

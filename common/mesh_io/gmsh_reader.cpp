@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "base/sort_unique.hpp"
 #include "mesh/cell_words.hpp"
 #include "mesh/curved_cells.hpp"
 #include "mesh/facets.hpp"
@@ -166,8 +167,7 @@ class Reader {
       for (const int tag : block.physical_tags)
         if (const auto found = region_of_tag_.find(tag); found != region_of_tag_.end())
           regions.push_back(found->second);
-      std::sort(regions.begin(), regions.end());
-      regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+      sort_unique(regions);
       if (regions.empty()) {
         for (const auto node : block.nodes) in_other_volume_[node] = 1;
         continue;
@@ -323,7 +323,7 @@ class Reader {
       }
 
     for (const auto& [tag, name] : names) {
-      typename Mesh::FacetGroup group{name, {}};
+      typename Mesh::FacetGroup facets{name, {}};
       std::map<Key, std::int64_t> seen;
       for (const auto& block : gmsh_.blocks) {
         const auto* type = gmsh_type(block.type);
@@ -338,29 +338,30 @@ class Reader {
               if (const auto [entry, is_new] = seen.emplace(key, block.tags[i]); !is_new)
                 fail(name, fmt::format("{} {} and {} have the same nodes", Words::facets, entry->second, block.tags[i]),
                      "remove one of them");
-              group.facets.push_back(facet);
+              facets.facets.push_back(facet);
               continue;
             }
           }
-          if (has_meaning(name) && !in_other_volume(block, i, type->nodes))
-            fail(name, fmt::format("element {} ({}) is no facet of a {}", block.tags[i], type->name, Words::cell),
+          if (in_other_volume(block, i, type->nodes)) continue;
+          const auto problem =
+              fmt::format("element {} ({}) is no facet of a {}", block.tags[i], type->name, Words::cell);
+          if (group::has_meaning(name))
+            fail(name, problem,
                  Dim == 3 ? "save surfaces and volumes of one conforming mesh of triangles and tetrahedra"
                           : "save curves and surfaces of one conforming mesh of triangles");
+          if (facets.astray.empty()) facets.astray = problem;
         }
       }
-      if (group.facets.empty()) continue;
+      if (facets.facets.empty()) continue;
       const auto same = std::find_if(mesh_.facet_groups.begin(), mesh_.facet_groups.end(),
                                      [&, &wanted = name](const auto& other) { return other.name == wanted; });
-      if (same == mesh_.facet_groups.end())
-        mesh_.facet_groups.push_back(std::move(group));
-      else
-        same->facets.insert(same->facets.end(), group.facets.begin(), group.facets.end());
+      if (same == mesh_.facet_groups.end()) {
+        mesh_.facet_groups.push_back(std::move(facets));
+      } else {
+        same->facets.insert(same->facets.end(), facets.facets.begin(), facets.facets.end());
+        if (same->astray.empty()) same->astray = facets.astray;
+      }
     }
-  }
-
-  static bool has_meaning(const std::string& name) {
-    return group::is_symmetry_plane(name) ||
-           std::find(group::surfaces.begin(), group::surfaces.end(), name) != group::surfaces.end();
   }
 
   /// Whether an element of a surface can belong to a volume that was left out.
@@ -437,6 +438,14 @@ SimplexMesh<Dim, Order> read_gmsh(const std::filesystem::path& path, const std::
       return with_mid_edge_nodes(
           Reader<Dim, 1>(path.string(), std::move(gmsh), regions_wanted, geometry, faults).read());
   return Reader<Dim, Order>(path.string(), std::move(gmsh), regions_wanted, geometry, faults).read();
+}
+
+AnyMesh read_gmsh(const std::filesystem::path& path, const std::vector<std::string>& regions_wanted, int dimension,
+                  int order, TriangleGeometry geometry) {
+  if (dimension == 3 && order == 1) return read_gmsh<3, 1>(path, regions_wanted, geometry);
+  if (dimension == 3) return read_gmsh<3, 2>(path, regions_wanted, geometry);
+  if (order == 1) return read_gmsh<2, 1>(path, regions_wanted, geometry);
+  return read_gmsh<2, 2>(path, regions_wanted, geometry);
 }
 
 std::vector<std::string> gmsh_regions(const std::filesystem::path& path, int dimension) {

@@ -24,8 +24,10 @@ TemporaryMesh::~TemporaryMesh() {
 
 void TemporaryMesh::move_into_place() const {
   const int descriptor = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0 || ::fsync(descriptor) != 0 || ::close(descriptor) != 0)
-    throw InputError(final_name_.string(), "", std::string("cannot be written (") + std::strerror(errno) + ")",
+  int error = descriptor < 0 || ::fsync(descriptor) != 0 ? errno : 0;
+  if (descriptor >= 0 && ::close(descriptor) != 0 && error == 0) error = errno;
+  if (error != 0)
+    throw InputError(final_name_.string(), "", std::string("cannot be written (") + std::strerror(error) + ")",
                      "check the space on the disk");
   std::error_code failure;
   std::filesystem::rename(path_, final_name_, failure);

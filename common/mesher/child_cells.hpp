@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "mesh/cell_map.hpp"
 #include "mesh/cell_words.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
@@ -50,13 +51,7 @@ std::array<double, nodes_of_simplex(Dim, 2)> weights_between(int p, int q) {
     }
     for (const int vertex : SimplexEdges<Dim>::vertices[place - Dim - 1]) lambda[vertex] += 0.25;
   }
-  std::array<double, nodes_of_simplex(Dim, 2)> weights;
-  for (int i = 0; i <= Dim; ++i) weights[i] = lambda[i] * (2 * lambda[i] - 1);
-  for (std::size_t e = 0; e < SimplexEdges<Dim>::vertices.size(); ++e) {
-    const auto& [a, b] = SimplexEdges<Dim>::vertices[e];
-    weights[Dim + 1 + e] = 4 * lambda[a] * lambda[b];
-  }
-  return weights;
+  return CellMap<Dim, 2>::shape(lambda);
 }
 
 /// The point half way between the nodes p and q of a quadratic cell, in barycentric coordinates; mm.

@@ -7,11 +7,11 @@
 #include <unordered_set>
 
 #include "mesh/boundary.hpp"
+#include "mesh/cell_grid.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/mid_edge_nodes.hpp"
-#include "mesh/point_math.hpp"
 #include "mesher/child_cells.hpp"
 
 namespace fsi {
@@ -38,28 +38,14 @@ std::unordered_set<std::uint64_t> edges_on_boundary(const SimplexMesh<Dim, Order
   return edges;
 }
 
-/// x at barycentric coordinates of a cell.
-template <int Dim, int Order>
-Point place_in(const SimplexMesh<Dim, Order>& mesh, const typename SimplexMesh<Dim, Order>::Cell& cell,
-               const std::array<double, Dim + 1>& lambda) {
-  Point x{0, 0, 0};
-  for (int a = 0; a <= Dim; ++a)
-    x = x + (Order == 1 ? lambda[a] : lambda[a] * (2 * lambda[a] - 1)) * mesh.nodes[cell[a]];
-  if constexpr (Order == 2)
-    for (std::size_t e = 0; e < SimplexEdges<Dim>::vertices.size(); ++e) {
-      const auto& [a, b] = SimplexEdges<Dim>::vertices[e];
-      x = x + 4 * lambda[a] * lambda[b] * mesh.nodes[cell[Dim + 1 + e]];
-    }
-  return x;
-}
-
 template <int Dim, int Order>
 void divide(SimplexMesh<Dim, Order>& mesh, int cell) {
   const auto whole = mesh.cells[cell];
+  const auto map = map_of(mesh, cell);
   std::array<double, Dim + 1> lambda;
   lambda.fill(1.0 / (Dim + 1));
   const auto add = [&] {
-    mesh.nodes.push_back(place_in<Dim, Order>(mesh, whole, lambda));
+    mesh.nodes.push_back(map.at(lambda));
     return static_cast<int>(mesh.nodes.size()) - 1;
   };
   const int centre = add();

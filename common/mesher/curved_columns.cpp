@@ -8,20 +8,8 @@
 
 namespace fsi {
 
-namespace {
-
-/// The columns' lowest nodes by the nodes of all levels.
-std::map<int, int> bottoms(const Levels& levels) {
-  std::map<int, int> bottom;
-  for (const auto& level : levels.nodes)
-    for (const auto& [below, node] : level) bottom[node] = below;
-  return bottom;
-}
-
-}  // namespace
-
 EdgeCurves with_columns(const TetrahedralMesh& mesh, const Levels& levels, const EdgeCurves& surface) {
-  const auto bottom = bottoms(levels);
+  const auto bottom = levels.bottoms();
   const std::size_t top = levels.nodes.size() - 1;
   EdgeCurves curves = surface;
   for (const auto& [edge, middle] : surface) {
@@ -45,7 +33,7 @@ EdgeCurves with_columns(const TetrahedralMesh& mesh, const Levels& levels, const
 }
 
 std::vector<Point> straighten_folded_columns(const TetrahedralMesh& mesh, const Levels& levels, EdgeCurves& surface) {
-  const auto bottom = bottoms(levels);
+  const auto bottom = levels.bottoms();
   const auto& ends = levels.nodes.back();
   std::vector<Point> straightened;
   for (bool changed = true; changed;) {

@@ -9,7 +9,6 @@
 
 #include "base/error.hpp"
 #include "base/input_file.hpp"
-#include "mesh_io/gmsh_reader.hpp"
 #include "mesh_io/gmsh_session.hpp"
 #include "mesh_io/temporary_mesh.hpp"
 
@@ -64,14 +63,6 @@ void set_sizes(const SizeField& sizes) {
   gmsh::option::setNumber("Mesh.MeshSizeFactor", 1);  // the sizes are those of the mesh that it has been in
 }
 
-template <int Dim>
-AnyMesh read_any(const std::filesystem::path& file, int order) {
-  const auto regions = gmsh_regions(file, Dim);
-  // Drawn in the plane of x and y. Which kind of scene it is for is the case's to say.
-  if (order == 1) return read_gmsh<Dim, 1>(file, regions, TriangleGeometry::plane);
-  return read_gmsh<Dim, 2>(file, regions, TriangleGeometry::plane);
-}
-
 }  // namespace
 
 AnyMesh mesh_of_geo_script(const std::filesystem::path& script, const std::map<std::string, double>& numbers, int order,
@@ -112,7 +103,9 @@ AnyMesh mesh_of_geo_script(const std::filesystem::path& script, const std::map<s
     throw InputError(script.string(), "", "names no physical volume and no physical surface",
                      "add, for one, Physical Volume(\"fluid\") = {...};");
   try {
-    return dimension == 3 ? read_any<3>(temporary.path(), order) : read_any<2>(temporary.path(), order);
+    // Drawn in the plane of x and y. Which kind of scene it is for is the case's to say.
+    return read_gmsh(temporary.path(), gmsh_regions(temporary.path(), dimension), dimension, order,
+                     TriangleGeometry::plane);
   } catch (const InputError& error) {
     refuse_mesh(script, temporary.path(), error.what());
   }

@@ -3,15 +3,11 @@
 #include <filesystem>
 #include <map>
 #include <string>
-#include <variant>
 
-#include "mesh/simplex_mesh.hpp"
+#include "mesh_io/gmsh_reader.hpp"
 #include "mesher/size_field.hpp"
 
 namespace fsi {
-
-/// A mesh of any dimension and order that the programs know.
-using AnyMesh = std::variant<SimplexMesh<2, 1>, SimplexMesh<2, 2>, SimplexMesh<3, 1>, SimplexMesh<3, 2>>;
 
 /// The mesh of a shape that a gmsh script describes (.geo, https://gmsh.info/doc/texinfo/gmsh.html), made by the gmsh
 /// library: cells of its physical volumes, or surfaces where it has no volume, with the groups of their boundary. The

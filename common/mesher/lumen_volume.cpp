@@ -161,8 +161,8 @@ TetrahedralMesh fill_surface(const std::vector<Point>& nodes, const std::vector<
   gmsh::model::add("lumen");
   std::vector<double> coordinates;
   for (const Point& x : nodes) coordinates.insert(coordinates.end(), x.begin(), x.end());
-  for (const auto& [name, triangles] : surfaces) {
-    add_surface(name, triangles, coordinates);
+  for (const auto& surface : surfaces) {
+    add_surface(surface.name, surface.facets, coordinates);
     coordinates.clear();
   }
   generate_volume(file);

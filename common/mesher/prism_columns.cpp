@@ -4,12 +4,20 @@
 #include <array>
 #include <set>
 
+#include "base/sort_unique.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/point_math.hpp"
 
 namespace fsi {
 
 using Facet = TetrahedralMesh::Facet;
+
+std::map<int, int> Levels::bottoms() const {
+  std::map<int, int> bottom;
+  for (const auto& level : nodes)
+    for (const auto& [below, node] : level) bottom[node] = below;
+  return bottom;
+}
 
 std::array<TetrahedralMesh::Cell, 3> prism_cells(std::array<int, 3> below, std::array<int, 3> above) {
   // Turned so that the least comes first; the orientation stays.
@@ -68,8 +76,7 @@ std::vector<Facet> sides_of_columns(const TetrahedralMesh& mesh, const std::vect
     for (const auto& [bottom, node] : nodes)
       if (rim_columns.count(bottom) > 0) column[node] = bottom;
   std::vector<int> regions = levels.region;
-  std::sort(regions.begin(), regions.end());
-  regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+  sort_unique(regions);
   std::set<RimEdge> rim_edges;
   for (const auto& [a, b] : rim) rim_edges.insert(std::minmax(a, b));
   std::vector<Facet> ends;

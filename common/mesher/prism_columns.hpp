@@ -13,6 +13,7 @@ namespace fsi {
 struct Levels {
   std::vector<std::map<int, int>> nodes;  ///< of each level, by the node of the facets below
   std::vector<int> region;                ///< of the cells between a level and the next
+  std::map<int, int> bottoms() const;     ///< the columns' lowest nodes, by the nodes of all levels
 };
 
 /// A level to be made.

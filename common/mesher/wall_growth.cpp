@@ -304,9 +304,7 @@ void curve_wall(const Raised& wall, const Ground& ground, const CurvedGround& cu
 
 /// Edges of the lumen that cells stand on, or have themselves.
 std::set<Edge> edges_below(const std::vector<int>& cells, const Raised& wall, const CurvedGround& curved) {
-  std::map<int, int> bottom;
-  for (const auto& level : wall.levels.nodes)
-    for (const auto& [below, node] : level) bottom[node] = below;
+  const auto bottom = wall.levels.bottoms();
   std::set<Edge> edges;
   for (const int cell : cells)
     for (const int one : wall.mesh.cells[cell])

@@ -155,6 +155,7 @@ MeshOf<Element> load_mesh(const Case& setup, std::vector<std::string>& remarks, 
     for (const auto& opening : openings_of(setup))
       (opening.surface == group::inlet ? needs.inlet : needs.outlet) = true;
   needs.geometry = triangle_geometry<Element>;
+  needs.at_rest = setup.static_load || (setup.prestress && setup.prestress->file.empty());
   if (setup.structure)
     for (const auto& [name, data] : setup.structure->layers)
       if (data.part_of.empty()) needs.layers.push_back(name);
@@ -246,14 +247,8 @@ template <class Element>
 VesselSize size_of_mesh(const Case& setup, const MeshOf<Element>& mesh) {
   VesselSize size;
   size.opening = widest_opening<Element>(setup, mesh);
-  for (std::size_t k = 0; k < 3; ++k) {
-    double low = 0, high = 0;
-    for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-      low = i == 0 ? mesh.nodes[i][k] : std::min(low, mesh.nodes[i][k]);
-      high = i == 0 ? mesh.nodes[i][k] : std::max(high, mesh.nodes[i][k]);
-    }
-    size.extent = std::max(size.extent, high - low);
-  }
+  const Point extent = BoundingBox(mesh.nodes).extent();
+  size.extent = *std::max_element(extent.begin(), extent.end());
   return size;
 }
 

@@ -31,13 +31,7 @@ PointSample sample_of(const Mesh<Dim, Order>& mesh, int cell, const std::array<d
 template <int Dim, int Order, template <int, int> class Mesh>
 std::vector<int> cells_near(const Mesh<Dim, Order>& mesh, const std::vector<int>& cells, std::vector<Point> points) {
   constexpr double margin = 1e-2;  // of a box: larger than the distance at which points count as in a cell
-  Point low = points.front(), high = low;
-  for (const Point& x : points)
-    for (int d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], x[d]);
-      high[d] = std::max(high[d], x[d]);
-    }
-  const Point spread = high - low;
+  const Point spread = BoundingBox(points).extent();
   const auto along = std::max_element(spread.begin(), spread.end()) - spread.begin();
   std::sort(points.begin(), points.end(), [&](const Point& a, const Point& b) { return a[along] < b[along]; });
   std::vector<int> near;

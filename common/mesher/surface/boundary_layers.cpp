@@ -41,9 +41,7 @@ std::vector<NewLevel> levels_of(const BoundaryLayers& layers, int region) {
 
 /// Sides of the layers at a rim go to the opening whose surface has nodes of that rim.
 void add_to_openings(TetrahedralMesh& mesh, const std::vector<TetrahedralMesh::Facet>& sides, const Levels& levels) {
-  std::map<int, int> bottom;
-  for (const auto& level : levels.nodes)
-    for (const auto& [below, node] : level) bottom[node] = below;
+  const auto bottom = levels.bottoms();
   for (auto& group : mesh.facet_groups) {
     std::set<int> nodes;
     for (const auto& facet : group.facets) nodes.insert(facet.begin(), facet.end());

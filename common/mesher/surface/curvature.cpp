@@ -61,11 +61,7 @@ double curvature_at(const Point& x, const Point& normal, const std::vector<int>&
 }  // namespace
 
 std::vector<double> largest_curvature(const TriangleSurface& surface, int passes) {
-  std::vector<Point> normals(surface.nodes.size(), Point{0, 0, 0});
-  for (const auto& t : surface.triangles)
-    for (const int node : t)
-      normals[node] =
-          normals[node] + triangle_area_vector(surface.nodes[t[0]], surface.nodes[t[1]], surface.nodes[t[2]]);
+  const auto normals = area_vectors_at_nodes(surface);
   const auto rings = two_rings(surface);
   std::vector<double> curvature;
   for (std::size_t node = 0; node < surface.nodes.size(); ++node) {

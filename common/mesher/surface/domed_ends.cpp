@@ -64,24 +64,6 @@ std::vector<Joint> joints_of(const TriangleSurface& surface, const std::vector<P
   return joints;
 }
 
-/// Every node of the rim has two of its edges, and one walk takes all of them.
-bool is_one_line(const std::vector<std::pair<int, int>>& edges) {
-  std::vector<int> nodes;
-  for (const auto& [a, b] : edges) nodes.insert(nodes.end(), {a, b});
-  std::sort(nodes.begin(), nodes.end());
-  for (std::size_t i = 0; i < nodes.size(); i += 2)
-    if (nodes[i] != nodes[i + 1] || (i > 0 && nodes[i] == nodes[i - 1])) return false;
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  const auto number = [&](int node) {
-    return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
-  };
-  DisjointSets sets(nodes.size());
-  for (const auto& [a, b] : edges) sets.join(number(a), number(b));
-  for (std::size_t i = 1; i < nodes.size(); ++i)
-    if (sets.root(static_cast<int>(i)) != sets.root(0)) return false;
-  return true;
-}
-
 bool is_end(const Part& part, const std::vector<Point>& area) {
   if (!part.free || part.edges < fewest_edges || !(norm(part.area) > one_way * part.size)) return false;
   if (part.angles < crease_on_average * part.rim) return false;

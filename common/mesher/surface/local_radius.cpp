@@ -11,11 +11,7 @@ namespace fsi {
 namespace {
 
 std::vector<Point> unit_normals(const TriangleSurface& surface) {
-  std::vector<Point> normals(surface.nodes.size(), Point{0, 0, 0});
-  for (const auto& t : surface.triangles)
-    for (const int node : t)
-      normals[node] =
-          normals[node] + triangle_area_vector(surface.nodes[t[0]], surface.nodes[t[1]], surface.nodes[t[2]]);
+  auto normals = area_vectors_at_nodes(surface);
   for (Point& normal : normals) normal = (1 / std::max(norm(normal), 1e-300)) * normal;
   return normals;
 }
@@ -39,6 +35,7 @@ std::vector<double> local_radius(const TriangleSurface& surface, int passes) {
     }
     if (radius[p] < std::numeric_limits<double>::infinity()) largest = std::max(largest, radius[p]);
   }
+  if (largest == 0) return radius;
   for (double& r : radius) r = std::min(r, largest);  // where nothing lies opposite
   average_with_neighbours(surface, radius, passes);
   return radius;

@@ -9,7 +9,7 @@ namespace fsi {
 /// Local radius of a lumen at each node p of its surface, mm: that of the largest ball inside that touches the surface
 /// there, the least |p - q|^2 / (2 (p - q) n) of nodes q within 60 degrees of the inward normal -n at p [Ma2012], some
 /// 20,000 of them at most. Outside of this cone roughness would make the balls small. Where no node lies in it, the
-/// largest of all radii. On a round tube it is the radius.
+/// largest of all radii; infinite if that holds everywhere, as on a plane. On a round tube it is the radius.
 /// \param passes  the field is averaged with its neighbours' so many times
 std::vector<double> local_radius(const TriangleSurface& surface, int passes);
 

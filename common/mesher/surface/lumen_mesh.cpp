@@ -51,6 +51,9 @@ void close_holes(OpenedLumen& lumen, const LumenRequest& request, std::vector<st
                        "leave out one of the two");
     closed.insert(number);
   }
+  if (!closed.empty() && closed.size() == lumen.openings.size())
+    throw InputError(program, "--closed", "leaves the surface no opening",
+                     "leave out those where blood enters and leaves");
   std::vector<LumenOpening> left;
   for (std::size_t i = 0; i < lumen.openings.size(); ++i) {
     auto& opening = lumen.openings[i];
@@ -64,7 +67,7 @@ void close_holes(OpenedLumen& lumen, const LumenRequest& request, std::vector<st
   lumen.openings = std::move(left);
 }
 
-void require_names(const std::vector<LumenOpening>& openings, const std::string& file) {
+void require_names(const std::vector<LumenOpening>& openings) {
   std::string places;
   for (std::size_t i = 0; i < openings.size(); ++i)
     if (openings[i].name.empty())
@@ -73,9 +76,6 @@ void require_names(const std::vector<LumenOpening>& openings, const std::string&
   if (!places.empty())
     throw InputError(program, "--opening", "is not given for " + places,
                      "name each, --opening NAME=NUMBER, or say --closed NUMBER; --list-openings shows them");
-  if (openings.empty())
-    throw InputError(file, "surface", "has no opening: no hole, and no flat part with a sharp rim",
-                     "cut it open where blood enters and leaves");
 }
 
 LumenOpening& named(std::vector<LumenOpening>& openings, const std::string& name, const std::string& option) {
@@ -167,7 +167,8 @@ LumenMesh mesh_lumen(OpenedLumen lumen, const LumenRequest& request) {
   LumenMesh made;
   name_openings(lumen.openings, request.openings);
   close_holes(lumen, request, made.done);
-  require_names(lumen.openings, request.file);
+  if (const auto fault = not_a_lumen(lumen)) throw InputError(request.file, "surface", fault.problem, fault.remedy);
+  require_names(lumen.openings);
   auto& surface = lumen.surface;
   if (request.smoothing > 0) smooth(surface, request, made.done);
   for (const auto& [name, distance] : request.cuts) {

@@ -23,26 +23,25 @@ LumenOpening opening_at(const TriangleSurface& surface, const std::vector<int>& 
   return {"", false, plane.centre, -1.0 * plane.normal, plane.area};
 }
 
-std::string coordinates_of(const Point& x) {
-  std::string text;
-  for (const double c : x) text += fmt::format("{}{:.3g}", text.empty() ? "" : ", ", std::abs(c) < 5e-4 ? 0.0 : c);
-  return "(" + text + ")";
-}
+constexpr const char* inner_face =
+    "give the inner face alone, its ends open or cut flat; fsi-mesh import takes meshes of volumes";
 
 /// A rim that encloses far less area than its length could, as points that are there twice leave; empty without one.
-std::string slit_of(const TriangleSurface& surface) {
+LumenFault slit_of(const TriangleSurface& surface) {
   // Length squared over 4 pi times the area: 1 of a circle, 50 of a rectangle 157 times as long as wide.
   constexpr double longest = 50;
   for (const auto& rim : rims_of(surface)) {
     double length = 0;
     for (std::size_t i = 0; i < rim.size(); ++i)
       length += distance(surface.nodes[rim[i]], surface.nodes[rim[(i + 1) % rim.size()]]);
-    const double area = plane_of(surface.nodes, rim).area;
-    if (length * length <= longest * 4 * pi * area) continue;
-    return fmt::format("has a slit near {}, as points that are there twice leave",
-                       place_of(surface.nodes[rim.front()]));
+    const LoopPlane plane = plane_of(surface.nodes, rim);
+    if (length * length <= longest * 4 * pi * plane.area) continue;
+    return {
+        fmt::format("has a slit near {}, as points that are there twice leave", place_of(surface.nodes[rim.front()])),
+        fmt::format("join them, or give --closed {:.6g},{:.6g},{:.6g}", plane.centre[0], plane.centre[1],
+                    plane.centre[2])};
   }
-  return "";
+  return {};
 }
 
 }  // namespace
@@ -52,7 +51,6 @@ double LumenOpening::diameter() const {
 }
 
 OpenedLumen opened(const TriangleSurface& surface) {
-  const auto holes = rims_of(surface);
   std::vector<char> keep(surface.triangles.size(), 1);
   std::vector<Point> caps;
   for (const auto& part : flat_regions(surface.nodes, surface.triangles)) {
@@ -86,24 +84,26 @@ std::string to_text(const std::vector<LumenOpening>& openings) {
     const auto& opening = openings[i];
     text +=
         fmt::format("{:>6} {:>9.4g} {:>13.4g}  {:<34} {:<26} {}\n", i + 1, opening.area, opening.diameter(),
-                    place_of(opening.centre), coordinates_of(opening.normal), opening.capped ? "flat part" : "hole");
+                    place_of(opening.centre), text_of_normal(opening.normal), opening.capped ? "flat part" : "hole");
   }
   return text;
 }
 
-std::string not_a_lumen(const OpenedLumen& lumen) {
+LumenFault not_a_lumen(const OpenedLumen& lumen) {
   const auto& openings = lumen.openings;
-  if (auto slit = slit_of(lumen.surface); !slit.empty()) return slit;
+  if (auto slit = slit_of(lumen.surface)) return slit;
   for (std::size_t i = 0; i < openings.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const double width = std::min(openings[i].diameter(), openings[j].diameter());
       if (distance(openings[i].centre, openings[j].centre) < width / 4 &&
           std::abs(dot(openings[i].normal, openings[j].normal)) > 0.9)
-        return fmt::format(
-            "openings {} and {} lie around each other at {}, as those of the inner and the outer face of a wall do",
-            j + 1, i + 1, place_of(openings[j].centre));
+        return {
+            fmt::format("openings {} and {} lie around each other at {}, as those of the inner and the outer face of a "
+                        "wall do",
+                        j + 1, i + 1, place_of(openings[j].centre)),
+            inner_face};
     }
-  if (!openings.empty()) return "";
+  if (!openings.empty()) return {};
   std::set<SurfaceEdge> edges;
   std::set<int> nodes;
   for (const auto& t : lumen.surface.triangles)
@@ -113,8 +113,9 @@ std::string not_a_lumen(const OpenedLumen& lumen) {
     }
   const auto euler = static_cast<long>(nodes.size() + lumen.surface.triangles.size()) - static_cast<long>(edges.size());
   if (euler != 2)
-    return "is closed and runs through itself like a ring, as the inner and the outer face of a wall with its ends do";
-  return "is closed, and no part of it is an end: flat or slightly domed, with a sharp rim";
+    return {"is closed and runs through itself like a ring, as the inner and the outer face of a wall with its ends do",
+            inner_face};
+  return {"is closed, and no part of it is an end: flat or slightly domed, with a sharp rim", inner_face};
 }
 
 std::size_t chosen(const std::vector<LumenOpening>& openings, const OpeningChoice& choice, const std::string& option) {

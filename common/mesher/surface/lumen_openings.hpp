@@ -28,9 +28,13 @@ struct OpenedLumen {
 /// \param surface  sound (mesher/surface/sound_surface.hpp)
 OpenedLumen opened(const TriangleSurface& surface);
 
-/// Why a surface bounds no lumen with openings: a slit, two openings around each other, or none. A part of a sentence;
-/// empty where there is no reason.
-std::string not_a_lumen(const OpenedLumen& lumen);
+/// Why a surface bounds no lumen with openings, in words.
+struct LumenFault {
+  std::string problem{}, remedy{};
+  explicit operator bool() const { return !problem.empty(); }
+};
+/// A slit, two openings around each other, or none; empty where there is no reason.
+LumenFault not_a_lumen(const OpenedLumen& lumen);
 
 /// A table of them for the console, numbered from 1.
 std::string to_text(const std::vector<LumenOpening>& openings);

@@ -120,6 +120,7 @@ TriangleSurface read_triangles(const std::filesystem::path& file) {
   if (kind != ".stl" && kind != ".ply" && kind != ".obj")
     throw InputError(name, "", kind.empty() ? "has no extension" : "the extension " + kind + " is unknown", kinds);
   std::ifstream in(file, std::ios::binary);
+  if (!in) throw InputError(name, "", "cannot be read", "check its permissions");
   return read_from(in, kind, name);
 }
 

@@ -57,6 +57,14 @@ std::vector<std::vector<int>> neighbours_of(const TriangleSurface& surface) {
   return neighbours;
 }
 
+std::vector<Point> area_vectors_at_nodes(const TriangleSurface& surface) {
+  std::vector<Point> vectors(surface.nodes.size(), Point{0, 0, 0});
+  for (const auto& [a, b, c] : surface.triangles)
+    for (const int node : {a, b, c})
+      vectors[node] = vectors[node] + triangle_area_vector(surface.nodes[a], surface.nodes[b], surface.nodes[c]);
+  return vectors;
+}
+
 double enclosed_volume(const TriangleSurface& surface) {
   const auto& x = surface.nodes;
   const Point origin = x.empty() ? Point{0, 0, 0} : x.front();

@@ -25,6 +25,9 @@ std::vector<std::vector<int>> rims_of(const TriangleSurface& surface);
 /// Neighbours of each node by edges, ascending; on a rim those on the rim alone.
 std::vector<std::vector<int>> neighbours_of(const TriangleSurface& surface);
 
+/// The sum of the area vectors of each node's triangles, mm^2: along the normal there.
+std::vector<Point> area_vectors_at_nodes(const TriangleSurface& surface);
+
 /// Volume within the surface, each rim closed by triangles to its centre (plane_of()), mm^3; positive when normals
 /// point outwards.
 double enclosed_volume(const TriangleSurface& surface);

@@ -50,11 +50,11 @@ std::vector<double> reach_of(const TriangleSurface& surface, const ThicknessTabl
     to_another.push_back(std::sqrt(nearest(table.places[i], table.places, 2).back().first));
   }
   const double edge = mean_edge(surface);
-  if (median(to_surface) < edge)
-    return std::vector<double>(surface.nodes.size(), std::max(3 * median(to_another), 2 * edge));
+  const std::vector<double> between_points(surface.nodes.size(), std::max(3 * median(to_another), 2 * edge));
+  if (median(to_surface) < edge) return between_points;
   auto reach = local_radius(surface, 5);
   for (double& r : reach) r *= 1.5;
-  return reach;
+  return std::isfinite(reach.front()) ? reach : between_points;
 }
 
 /// The beginning of a remedy for a hole that another unit of length would explain; else empty.
@@ -80,15 +80,17 @@ ThicknessTable thickness_table(const std::string& text, const std::string& colum
 }
 
 void bring_to_mm(ThicknessTable& table, const ThicknessUnits& units) {
-  const auto factor = [&](const std::string& unit, const std::string& of_file) {
+  const auto factor = [&](const char* option, const std::string& unit, const std::string& of_file) {
     if (unit.empty() || unit == of_file) return 1.0;
     if (!of_file.empty())
-      throw InputError(table.file, "--thickness-unit", unit + " is not what the header of the file says, " + of_file,
+      throw InputError(table.file, option, unit + " is not what the header of the file says, " + of_file,
                        "leave it out, or correct the header");
     return length_unit(unit).value_or(1.0);
   };
-  const double of_places = factor(units.places.empty() ? units.values : units.places, table.length_unit);
-  const double of_values = factor(units.values, table.unit);
+  const double of_values = factor("--thickness-unit", units.values, table.unit);
+  const double of_places = units.places.empty() && table.length_unit.empty()
+                               ? length_unit(units.values).value_or(1.0)
+                               : factor("--thickness-points-unit", units.places, table.length_unit);
   for (Point& x : table.places) x = of_places * x;
   for (double& value : table.values) value *= of_values;
 }
@@ -97,6 +99,7 @@ std::string thickness_slip(const TriangleSurface& surface, const std::vector<dou
   constexpr double thinnest = 0.015, thickest = 3;  // of the radius: aneurysms, arterioles
   constexpr double usual_least = 0.02, usual_most = 1;
   auto shares = local_radius(surface, 5);
+  if (!std::isfinite(shares.front())) return "";
   for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = thickness[i] / shares[i];
   const double share = median(shares);
   if (share >= thinnest && share <= thickest) return "";
@@ -107,8 +110,8 @@ std::string thickness_slip(const TriangleSurface& surface, const std::vector<dou
           ": did you mean {}? --thickness-unit {} would make it {:.3g}, with --thickness-points-unit mm "
           "for points in mm",
           unit, unit, other);
-  return fmt::format("half of the wall is thinner than {:.3g} of the lumen's radius, as no vessel's is{}", share,
-                     fitting);
+  return fmt::format("half of the wall is {} than {:.3g} of the lumen's radius, as no vessel's is{}",
+                     share < thinnest ? "thinner" : "thicker", share, fitting);
 }
 
 std::vector<double> thickness_at(const TriangleSurface& surface, const ThicknessTable& table, int passes) {

@@ -1,8 +1,12 @@
 // Readable meshes on which a scene cannot be computed.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "tiny_tube.hpp"
 
@@ -101,6 +105,29 @@ TEST(BadScene, SurfaceTriangleIsNoFacet) {
   EXPECT_EQ(verdict(file.text_41()), "tube.msh: inlet: element " + std::to_string(file.elements.size()) +
                                          " (triangles) is no facet of a tetrahedron; save surfaces and volumes of one "
                                          "conforming mesh of triangles and tetrahedra");
+}
+
+/// Of a surface of any name, where the case uses it.
+TEST(BadScene, TriangleOfAnOpeningOrSupportIsNoFacet) {
+  auto file = tiny_tube();
+  file.names[0].name = "lca";
+  file.names[3].name = "tissue";
+  const std::vector<std::int64_t> nodes{tube_node(1, 1, 0), tube_node(2, 1, 0), tube_node(1, 2, 2)};
+  for (const int tag : {inlet_tag, outer_tag}) {
+    auto changed = file;
+    changed.elements.push_back({2, {tag}, nodes});
+    auto needs = tube_needs();
+    needs.inlet = false;
+    needs.openings = {"outlet"};
+    EXPECT_EQ(verdict(changed.text_41(), needs), "accepted");
+    needs.openings.emplace_back("lca");
+    needs.supports = {"tissue"};
+    EXPECT_EQ(
+        verdict(changed.text_22(), needs),
+        fmt::format("tube.msh: {}: element {} (triangles) is no facet of a tetrahedron; save surfaces and volumes "
+                    "of one conforming mesh",
+                    tag == inlet_tag ? "lca" : "tissue", changed.elements.size()));
+  }
 }
 
 TEST(BadScene, SurfaceTriangleTwice) {

@@ -327,6 +327,9 @@ class NoLumen(Surfaces):
     def listed(self, name):
         return execute(MESH, "lumen", name, "--list-openings", cwd=self.base)
 
+    def lumen(self, name, *options):
+        return execute(MESH, "lumen", name, "-o", "lumen.msh", *options, cwd=self.base)
+
     def test_ends_may_be_slightly_domed(self):
         for dome in (0.0, 0.05, 0.1, 0.2):  # of the radius
             with self.subTest(dome=dome):
@@ -373,7 +376,8 @@ class NoLumen(Surfaces):
             faces.append(ring[:, ::end])
             self.write_stl("wall.stl", both, np.vstack(faces))
             process = self.listed("wall.stl")
-            self.assertEqual((process.returncode, process.stdout), (1, ""))
+            self.assertEqual(process.returncode, 1)
+            self.assertEqual(len(process.stdout.splitlines()), 3 if end == 1 else 0, process.stdout)  # of openings
             what = (
                 "openings 1 and 2 lie around each other"
                 if end == 1
@@ -381,6 +385,39 @@ class NoLumen(Surfaces):
             )
             self.assertRegex(process.stderr, rf"\Afsi-mesh: error: wall\.stl: surface: {what}.*\n\Z")
             self.assertRegex(self.check("wall.stl").stdout, f"(?m)^stops fsi-mesh lumen: surface: {what}")
+            named = ("--opening", "a=1", "--opening", "b=2") if end == 1 else ()
+            process = self.lumen("wall.stl", *named)
+            self.assertEqual((process.returncode, process.stdout), (1, ""))
+            self.assertRegex(process.stderr, rf"\Afsi-mesh: error: wall\.stl: surface: {what}.*\n\Z")
+
+    def test_a_slit_is_closed_or_refused(self):
+        """The list, check and the mesh say the same of it, and how it is closed."""
+        points, triangles = self.tube(12, 24)
+        row = 12 * np.arange(9, 16)  # a line of nodes along the tube, split between its ends
+        doubled = row[1:-1]
+        new = np.arange(len(points))
+        new[doubled] = len(points) + np.arange(len(doubled))
+        beside = points[triangles].mean(axis=1)[:, 1] < 0
+        rows = np.where(beside[:, None], new[triangles], triangles)
+        both = np.vstack([points, points[doubled] - [0, 0.01, 0]])
+        self.write_stl("slit.stl", both, rows)
+        said = r"surface: has a slit near \(.*\) mm, as points that are there twice leave; join them, or give --closed (\S+)"
+        process = self.listed("slit.stl")
+        self.assertEqual((process.returncode, len(process.stdout.splitlines())), (1, 4), process.stderr)
+        self.assertRegex(process.stderr, rf"\Afsi-mesh: error: slit\.stl: {said}\n\Z")
+        place = re.search(said, process.stderr).group(1)
+        process = self.check("slit.stl")
+        self.assertRegex(process.stdout, rf"(?m)^stops fsi-mesh lumen: {said}$")
+        self.assertIn("slit.stl: one of the lines above would stop fsi-mesh lumen;", process.stderr)
+        named = ("--opening", "a=0,0,0", "--opening", "b=0,0,12")
+        for options in (named, (*named, "--opening", f"c={place}")):
+            process = self.lumen("slit.stl", *options)
+            self.assertRegex(process.stderr, rf"\Afsi-mesh: error: slit\.stl: {said}\n\Z")
+        process = self.lumen("slit.stl", *named, "--closed", place, "--smoothing", "0")
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.assertIn(" is closed.", process.stdout)
+        process = self.lumen("slit.stl", "--closed", "1", "--closed", "2", "--closed", "3")
+        self.assertIn("fsi-mesh: error: --closed: leaves the surface no opening;", process.stderr)
 
     def test_a_surface_without_ends(self):
         points, triangles = self.closed(2.0)

@@ -66,6 +66,14 @@ class MeshGeo(FolderTest):
         for name in ('2 1 "inlet"', '2 2 "outlet"', '"fluid"'):
             self.assertIn(name, text)
 
+    def test_cells_across_are_reported_whether_the_wall_has_a_name(self):
+        said = [
+            re.search(r"^The lumen, .* cells across", self.make(script).stdout, re.MULTILINE)
+            for script in (TUBE, TUBE + 'Physical Surface("wall") = {1};')
+        ]
+        self.assertTrue(all(said))
+        self.assertEqual(said[0].group(), said[1].group())
+
     def test_cells_in_corners_are_divided(self):
         """Their pressure would have no equation with Taylor-Hood; each is cut in four, and the volume stays."""
         for order, nodes in ((1, 3 * 3 * 4 + 1), (2, 5 * 5 * 7 + 5)):

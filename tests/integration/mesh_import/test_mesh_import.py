@@ -4,6 +4,7 @@ import functools
 import math
 import re
 import shlex
+import shutil
 import unittest
 
 import meshio
@@ -405,6 +406,29 @@ c10 = 60
 pressure = 1.0
 [static]
 """
+
+
+class ErrorsOfTheReader(FolderTest):
+    """What fsi-mesh repeats of fsi-compare, which it starts from its own folder."""
+
+    def test_the_error_is_shown_whatever_comes_before_it(self):
+        program, reader = self.base / "fsi-mesh", self.base / "fsi-compare"
+        shutil.copy(MESH, program)
+        (self.base / "a.vtu").touch()
+        for said, shown in (
+            (("fsi-compare: warning: odd", "fsi-compare: error: a.vtu: is broken"), "a.vtu: is broken"),
+            (
+                ("Traceback (most recent call last):", "  somewhere", "ValueError: 3 is no 4"),
+                "a.vtu: ValueError: 3 is no 4",
+            ),
+            ((), "a.vtu: fsi-compare ended without a message"),
+        ):
+            lines = "".join(f"echo '{line}' >&2\n" for line in said)
+            reader.write_text(f"#!/bin/sh\n{lines}exit 1\n")
+            reader.chmod(0o755)
+            process = execute(program, "import", "a.vtu", "-o", "out.msh", cwd=self.base)
+            self.assertEqual((process.returncode, process.stdout), (1, ""))
+            self.assertEqual(process.stderr, f"fsi-mesh: error: {shown}\n")
 
 
 class WallAlone(FolderTest):

@@ -1,6 +1,8 @@
 """fsi-mesh lumen: from a segmented surface to the mesh of a lumen, and on to a run."""
 
+import contextlib
 import math
+import os
 import re
 import sys
 import unittest
@@ -15,6 +17,7 @@ from vtp_files import write_vtp
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "gallery" / "carotid-from-stl"))
 import surface as carotid  # noqa: E402
 
+NOBODY = 65534
 NAMES = tuple(f"--opening={name}={','.join(map(str, at))}" for name, at in carotid.OPENINGS.items())
 CASE = """
 element = "p1"
@@ -303,6 +306,13 @@ class MeshLumen(FolderTest):
         (self.base / "lumen.stl").write_bytes((self.base / "lumen.stl").read_bytes()[:5000])
         self.expect(self.lumen(*named), "lumen.stl", "cannot be read as .stl")
         self.expect(self.lumen(*named, name="none.stl"), "no such file")
+        self.base.chmod(0o755)
+        (self.base / "lumen.stl").chmod(0)
+        with contextlib.suppress(PermissionError):  # the programs may lie where only root may look
+            options = {"user": NOBODY} if os.geteuid() == 0 else {}
+            process = execute(MESH, "lumen", self.base / "lumen.stl", "--list-openings", **options)
+            self.expect(process, "lumen.stl: cannot be read; check its permissions")
+        (self.base / "lumen.stl").chmod(0o644)
         (self.base / "empty.stl").touch()
         self.expect(self.lumen(*named, name="empty.stl"), "empty.stl: holds no triangles")
         (self.base / "lumen.vtp").write_text("<VTKFile")

@@ -41,6 +41,30 @@ $Elements
 1 5 2 1 1 1 2 3 4 5 6 7 8
 $EndElements
 """
+# Of the mark one line is a side of a triangle; the other one crosses both triangles.
+CROSSED = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+1 1 "mark"
+2 2 "fluid"
+$EndPhysicalNames
+$Nodes
+4
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+$EndNodes
+$Elements
+4
+1 1 2 1 1 1 2
+2 1 2 1 1 2 4
+3 2 2 2 1 1 2 3
+4 2 2 2 1 1 3 4
+$EndElements
+"""
 
 
 class MeshRefine(FolderTest):
@@ -52,6 +76,15 @@ class MeshRefine(FolderTest):
         self.assertEqual(process.returncode, 0, process.stderr)
         found = re.findall(r"^(\w+) +(\d+) +([\d.]+) ", process.stdout, re.MULTILINE)
         return {name: (int(cells), float(measure)) for name, cells, measure in found}
+
+    def test_elements_of_surfaces_that_are_left_out_are_named(self):
+        (self.base / "crossed.msh").write_text(CROSSED)
+        process = self.refine(self.base / "crossed.msh")
+        self.assertEqual(self.report(process)["fluid"][0], 8)
+        self.assertRegex(
+            process.stderr,
+            r"\Afsi-mesh: warning: .*: mark: element 2 \(lines\) is no facet of a triangle and left out\n\Z",
+        )
 
     def square(self, *options):
         script, mesh = self.base / "square.geo", self.base / "square.msh"

@@ -473,6 +473,8 @@ class MeshThicken(FolderTest):
         ):
             with self.subTest(options=options):
                 self.expect(self.thicken(*options), *words)
+        flat = ("--layer", "a=100%", "--on", "inlet", "--thickness-ratio", 0.2)
+        self.expect(self.thicken(*flat), "--thickness-ratio: is not for this surface: no two places", "--layer NAME=MM")
         self.expect(self.thicken("--layer", "a=.1", lumen="none.stl"), "no such file")
 
 

@@ -160,10 +160,11 @@ TEST(VtkFile, IsReadAsTextAndInBase64) {
 }
 
 TEST(VtkFile, TakesNumbersTooSmallOrTooLargeForADoubleAsTheNearestOnes) {
-  std::string text = text_of_vtk;
-  text.replace(text.find("1 2 3 4<"), 8, "1e-400 2 3 1e400<");
-  const VtkMesh mesh = read_vtk(text, "a.vtu");
-  EXPECT_EQ(mesh.arrays[0].values, (std::vector<double>{0, 2, 3, std::numeric_limits<double>::infinity()}));
+  for (const auto& [word, value] : {std::pair("1e-400", 0.0), {"1e400", std::numeric_limits<double>::infinity()}}) {
+    std::string text = text_of_vtk;
+    text.replace(text.find(">5<") + 1, 1, word);
+    EXPECT_EQ(read_vtk(text, "a.vtu").arrays[1].values, std::vector<double>{value}) << word;
+  }
 }
 
 TEST(VtkFile, IsRefusedWhereItIsDamaged) {

@@ -161,6 +161,16 @@ TEST(MeshKinds, QualityOfCurvedCellsWarns) {
   const auto warnings = warnings_of(quality);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("least det J 0.120 of its mean"), std::string::npos) << warnings[0];
+  // Beside a flat one that is not as bad the curved one is the worst, with an eta of its own: 4 sqrt(3) / 2 / 4.
+  mesh.nodes.insert(mesh.nodes.end(),
+                    {{2, 0, 0}, {3, 0, 0}, {2.5, 0.07, 0}, {2.5, 0, 0}, {2.75, 0.035, 0}, {2.25, 0.035, 0}});
+  mesh.cells.push_back({6, 7, 8, 9, 10, 11});
+  mesh.cell_region.push_back(0);
+  const auto both = measure_quality(mesh);
+  EXPECT_LT(both.min_eta, poor_eta);
+  const std::string said = warnings_of(both).front();
+  EXPECT_NE(said.find("fluid: 2 of 2 elements"), std::string::npos) << said;
+  EXPECT_NE(said.find("the worst is triangle 1 near (0.33, 0.33, 0.00) mm, eta 0.866"), std::string::npos) << said;
 }
 
 TEST(MeshChecksInTwoDimensions, AcceptATubeOfBothOrders) {
@@ -182,6 +192,14 @@ TEST(MeshChecksInTwoDimensions, OutletIsOptionalAndTheWallIsHeldByItsAxis) {
   group_of(mesh, "wall_ends").clear();
   group_of(mesh, "symmetry_z").clear();
   EXPECT_EQ(verdict(mesh, needs), "accepted");
+  needs.at_rest = true;  // along the axis only inertia holds it
+  EXPECT_EQ(verdict(mesh, needs).substr(0, 57), "mesh: wall_ends: the physical curve is missing or empty; ");
+  needs.holding = {"outer"};
+  EXPECT_EQ(verdict(mesh, needs), "accepted");
+  needs.holding = {};
+  EXPECT_EQ(verdict(mesh, needs),
+            "mesh: wall_ends: a piece of media with 24 triangles has no face that is held; connect it to the rest of "
+            "the wall by shared facets, or clamp it");
 }
 
 TEST(MeshChecksInTwoDimensions, RimHasToBeHeld) {

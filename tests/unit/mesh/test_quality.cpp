@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
+#include "mesh/boundary.hpp"
 #include "mesh/cells_across.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/quality.hpp"
@@ -60,6 +63,27 @@ TEST(CellsAcross, AreTheDiameterOverTheMeanEdge) {
         for (int b = 0; b < a; ++b, ++count)
           length += distance(mesh.nodes[mesh.cells[c][a]], mesh.nodes[mesh.cells[c][b]]);
   EXPECT_NEAR(across->cells(), across->width * count / length, 1e-12 * across->cells());
+}
+
+TEST(CellsAcross, CountTheWallsOfTheLumenWhateverTheirNames) {
+  const auto mesh = test::short_artery();
+  const auto expected = cells_across(mesh);
+  const auto interface = interface_facets(mesh, 0, {1, 2});
+  ASSERT_TRUE(expected);
+  auto alone = mesh;
+  for (std::size_t c = alone.cells.size(); c-- > 0;)
+    if (alone.cell_region[c] != 0) {
+      alone.cells.erase(alone.cells.begin() + static_cast<std::ptrdiff_t>(c));
+      alone.cell_region.erase(alone.cell_region.begin() + static_cast<std::ptrdiff_t>(c));
+    }
+  for (auto [changed, name] : {std::pair(mesh, "lumen"), std::pair(mesh, "inner"), std::pair(alone, "wall")}) {
+    changed.facet_groups.push_back({name, interface});
+    const auto across = cells_across(changed);
+    ASSERT_TRUE(across) << name;
+    EXPECT_DOUBLE_EQ(across->width, expected->width) << name;
+  }
+  alone.facet_groups.push_back({"lumen", interface});
+  EXPECT_FALSE(cells_across(alone)) << "all of it may be openings";
 }
 
 TEST(CellsAcross, NeedAFluid) {

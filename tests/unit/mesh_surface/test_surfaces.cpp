@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -255,6 +257,68 @@ TEST(SmoothEdges, StayStraightInFoldsAndOnFlatSides) {
 
 TEST(LocalRadius, OfATubeIsItsRadius) {
   for (const double r : local_radius(tube(1.5, 9, 24, 40), 0)) EXPECT_NEAR(r, 1.5, 0.05);
+}
+
+/// A square of 10 mm at z = 0, looking upwards.
+TriangleSurface plate() {
+  constexpr int n = 6;
+  TriangleSurface surface;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) surface.nodes.push_back({10.0 * i / (n - 1), 10.0 * j / (n - 1), 0});
+  for (int j = 0; j + 1 < n; ++j)
+    for (int i = 0; i + 1 < n; ++i) {
+      const int a = j * n + i;
+      surface.triangles.push_back({a, a + 1, a + n + 1});
+      surface.triangles.push_back({a, a + n + 1, a + n});
+    }
+  return surface;
+}
+
+TEST(LocalRadius, OfAPlaneIsInfinite) {
+  const auto flat = plate();
+  for (const double r : local_radius(flat, 3)) EXPECT_EQ(r, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(thickness_slip(flat, std::vector<double>(flat.nodes.size(), 0.3)), "");
+  // Points above it: as far away as points on it may be.
+  ThicknessTable table{"wall.csv", {{2, 2, 5}, {8, 8, 5}}, {0.3, 0.3}};
+  for (const double t : thickness_at(flat, table, 0)) EXPECT_NEAR(t, 0.3, 1e-14);
+  for (Point& x : table.places) x[2] = 500;
+  EXPECT_THROW(thickness_at(flat, table, 0), InputError);
+}
+
+TEST(WallThickness, WarnsOfThinAndOfThickWalls) {
+  const auto surface = tube(1.5, 9);
+  const auto said_of = [&](double thickness) {
+    return thickness_slip(surface, std::vector<double>(surface.nodes.size(), thickness));
+  };
+  EXPECT_EQ(said_of(0.3), "");
+  EXPECT_EQ(said_of(0.015).rfind("half of the wall is thinner than 0.01 of the lumen's radius, as no vessel's is", 0),
+            0u)
+      << said_of(0.015);
+  EXPECT_EQ(said_of(7.5).rfind("half of the wall is thicker than 5 of the lumen's radius, as no vessel's is", 0), 0u)
+      << said_of(7.5);
+}
+
+TEST(WallThickness, UnitsThatContradictTheHeaderAreRefusedByTheirOption) {
+  const ThicknessTable known{"wall.csv", {{1, 0, 0}}, {0.3}, "cm", "mm"};
+  const auto refused = [&](const ThicknessUnits& units) {
+    auto table = known;
+    try {
+      bring_to_mm(table, units);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const std::string remedy = "; leave it out, or correct the header";
+  EXPECT_EQ(refused({"mm", "m"}),
+            "wall.csv: --thickness-points-unit: m is not what the header of the file says, cm" + remedy);
+  EXPECT_EQ(refused({"um", ""}), "wall.csv: --thickness-unit: um is not what the header of the file says, mm" + remedy);
+  EXPECT_EQ(refused({"mm", ""}), "accepted") << "the header says the unit of the places";
+  EXPECT_EQ(refused({"mm", "cm"}), "accepted");
+  ThicknessTable bare{"wall.csv", {{1, 0, 0}}, {0.3}};
+  bring_to_mm(bare, {"cm", ""});
+  EXPECT_DOUBLE_EQ(bare.places[0][0], 10);
+  EXPECT_DOUBLE_EQ(bare.values[0], 3);
 }
 
 TEST(TriangleSurface, KnowsItsRimsAndVolume) {
