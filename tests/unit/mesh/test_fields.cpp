@@ -160,7 +160,9 @@ TEST(VtkFile, IsReadAsTextAndInBase64) {
 }
 
 TEST(VtkFile, TakesNumbersTooSmallOrTooLargeForADoubleAsTheNearestOnes) {
-  for (const auto& [word, value] : {std::pair("1e-400", 0.0), {"1e400", std::numeric_limits<double>::infinity()}}) {
+  const std::vector<std::pair<std::string, double>> numbers{{"1e-400", 0},
+                                                            {"1e400", std::numeric_limits<double>::infinity()}};
+  for (const auto& [word, value] : numbers) {
     std::string text = text_of_vtk;
     text.replace(text.find(">5<") + 1, 1, word);
     EXPECT_EQ(read_vtk(text, "a.vtu").arrays[1].values, std::vector<double>{value}) << word;
