@@ -8,7 +8,7 @@ As a library (docs/guide/reports.md#python):
     run.time, run.centre_line["pressure"], run.openings["outlet"].flow, run.fields["wall"].at(3.0, "displacement")
 """
 
-from typing import TYPE_CHECKING, Any, List
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .base.errors import InputError as InputError
@@ -52,5 +52,5 @@ def __getattr__(name: str) -> Any:
     return getattr(library, name)
 
 
-def __dir__() -> List[str]:
+def __dir__() -> list[str]:
     return sorted([*globals(), *__all__])

@@ -4,7 +4,7 @@ import os
 import sys
 import traceback
 from pathlib import Path
-from typing import Callable, NoReturn, Optional, Sequence, TypeAlias
+from typing import Callable, NoReturn, Sequence, TypeAlias
 
 from .base import interruption
 from .base.errors import PROBLEM_LIMIT, PROGRAM, InputError, say_error, shortened
@@ -21,10 +21,7 @@ def program(version: str = "unknown") -> NoReturn:
 
 
 def main(
-    arguments: Sequence[str],
-    version: str = "unknown",
-    to_the_end: bool = False,
-    load: Optional[Callable[[], Run]] = None,
+    arguments: Sequence[str], version: str = "unknown", to_the_end: bool = False, load: Callable[[], Run] | None = None
 ) -> int:
     """Exit code: 0 done, 1 wrong use or bad input, 2 done but something did not converge; 128 + n ended by signal n.
     `load`: imports the command line, which takes a while; None: that of cli.py."""

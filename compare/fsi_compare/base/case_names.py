@@ -1,6 +1,6 @@
 """Keys of case files that earlier versions named otherwise, as common/case/renamed_keys.cpp has them."""
 
-from typing import Any, Dict, Mapping
+from typing import Any, Mapping
 
 _NEWTON = ("mode", "error_tolerance", "residual_tolerance", "max_iterations")
 RENAMED = {
@@ -20,7 +20,7 @@ def short_name(key: str) -> str:
     return f"{section}_{name}" if section in ("newton", "linear") else name
 
 
-def with_present_names(entries: Mapping[str, Any]) -> Dict[str, Any]:
+def with_present_names(entries: Mapping[str, Any]) -> dict[str, Any]:
     """The entries of a case with their present names. Where both are given the drivers refuse the case."""
     found = dict(entries)
     for former, present in RENAMED.items():

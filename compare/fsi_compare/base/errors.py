@@ -2,7 +2,6 @@
 
 import sys
 from pathlib import Path
-from typing import Union
 
 PROGRAM = "fsi-compare"
 # Characters that each part may take, as in the C++ programs (common/base/error.cpp). The user's input is in the
@@ -17,7 +16,7 @@ class InputError(Exception):
     The message reads `FILE: KEY: PROBLEM; REMEDY`; empty parts are left out, long ones shortened.
     """
 
-    def __init__(self, file: Union[str, Path], key: str, problem: str, remedy: str = "") -> None:
+    def __init__(self, file: str | Path, key: str, problem: str, remedy: str = "") -> None:
         parts = (
             shortened_path(str(file), FILE_LIMIT),
             shortened(key, KEY_LIMIT),
@@ -30,7 +29,7 @@ class InputError(Exception):
 class ProgramError(InputError):
     """Carries the message of a program, which has parts of its own, in the place of the problem."""
 
-    def __init__(self, file: Union[str, Path], key: str, message: str, remedy: str = "") -> None:
+    def __init__(self, file: str | Path, key: str, message: str, remedy: str = "") -> None:
         parts = (
             shortened_path(str(file), FILE_LIMIT),
             shortened(key, KEY_LIMIT),

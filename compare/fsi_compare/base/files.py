@@ -9,7 +9,7 @@ import tempfile
 import tomllib
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any, Dict, Iterator, List
+from typing import Any, Iterator
 
 from .errors import InputError
 
@@ -88,7 +88,7 @@ def read_json(path: Path, missing: str, broken: str) -> Any:
     return value
 
 
-def read_object(path: Path, missing: str, broken: str) -> Dict[str, Any]:
+def read_object(path: Path, missing: str, broken: str) -> dict[str, Any]:
     """Reads a JSON file that holds an object. Raises InputError."""
     value = read_json(path, missing, broken)
     if not isinstance(value, dict):
@@ -96,7 +96,7 @@ def read_object(path: Path, missing: str, broken: str) -> Dict[str, Any]:
     return value
 
 
-def read_toml(path: Path, missing: str, broken: str) -> Dict[str, Any]:
+def read_toml(path: Path, missing: str, broken: str) -> dict[str, Any]:
     """Reads a TOML file. Raises InputError."""
     text = read_text(path, missing, broken, LARGEST)
     try:
@@ -124,10 +124,10 @@ def _require_plain(path: Path, value: Any, broken: str) -> None:
             raise InputError(path, "", f"holds a text with half a character: {entry}", broken)
 
 
-def make_folder(folder: Path) -> List[Path]:
+def make_folder(folder: Path) -> list[Path]:
     """Creates the output folder and its parents; returns new ones, the outermost first. Raises InputError on
     failure."""
-    made: List[Path] = []
+    made: list[Path] = []
     try:
         place = folder
         while not exists(place) and place != place.parent:
@@ -142,7 +142,7 @@ def make_folder(folder: Path) -> List[Path]:
         raise InputError(folder, "--output", f"cannot be made: {error.strerror}", "name another folder") from None
 
 
-def remove_empty(folders: List[Path]) -> None:
+def remove_empty(folders: list[Path]) -> None:
     """Removes those of `folders`, the innermost last, that hold nothing."""
     with suppress(OSError):
         for folder in reversed(folders):
@@ -214,7 +214,7 @@ def _synchronise(path: str) -> None:
         os.close(handle)
 
 
-def listed(folder: Path) -> List[str]:
+def listed(folder: Path) -> list[str]:
     """Names in a folder; none where it cannot be read."""
     try:
         return sorted(os.listdir(folder))

@@ -2,7 +2,7 @@
 
 import argparse
 from pathlib import Path
-from typing import Any, Callable, Optional, TypeAlias
+from typing import Any, Callable, TypeAlias
 
 from .errors import PROGRAM, InputError
 from .files import folder
@@ -29,7 +29,7 @@ def add_command(
     run: Callable[[argparse.Namespace], int],
     help: str,
     description: str,
-    examples: Optional[str] = None,
+    examples: str | None = None,
 ) -> argparse.ArgumentParser:
     """`run` returns the exit code. Description and examples are printed as they stand."""
     made: argparse.ArgumentParser = commands.add_parser(

@@ -20,7 +20,7 @@ import shlex
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Dict, List, Mapping, Sequence, Tuple
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
 from ..base.files import exists, is_file, is_folder, listed, read_text
@@ -71,7 +71,7 @@ class SceneRun:
 
     folder: Path
     program: str
-    summary: Dict[str, Any]
+    summary: dict[str, Any]
     seconds: float
 
     @property
@@ -109,9 +109,9 @@ class Scene:
     folder: Path
     name: str
     title: str
-    paragraphs: Tuple[str, ...]
+    paragraphs: tuple[str, ...]
     mesh: str
-    drivers: Tuple[str, ...]
+    drivers: tuple[str, ...]
     module: ModuleType = field(repr=False)
     quick_mesh: str = ""
     long: bool = False
@@ -127,10 +127,10 @@ class Scene:
         above = f"{PEERS}/" if self.folder.parent.name == PEERS else ""
         return f"gallery/{above}{self.name}"
 
-    def mesh_words(self, quick: bool) -> List[str]:
+    def mesh_words(self, quick: bool) -> list[str]:
         return shlex.split((quick and self.quick_mesh) or self.mesh)
 
-    def numbers(self, runs: SceneRuns) -> List[Number]:
+    def numbers(self, runs: SceneRuns) -> list[Number]:
         return list(self.module.numbers(runs))
 
     def known_curve(self, name: str, times: Any) -> Any:
@@ -139,16 +139,16 @@ class Scene:
         return None if known is None else known(name, times)
 
 
-def scene_names(folder: Path = READY) -> List[str]:
+def scene_names(folder: Path = READY) -> list[str]:
     return [name for name in listed(folder) if is_file(folder / name / "scene.py")]
 
 
-def ready_scenes() -> List[str]:
+def ready_scenes() -> list[str]:
     """Names of all scenes that come with the program, from its gallery's folder on: `womersley`, `peers/mok-flap`."""
     return [*scene_names(), *(f"{PEERS}/{name}" for name in scene_names(READY / PEERS))]
 
 
-def find_scenes(wanted: Sequence[str], folder: Path = READY) -> List[Scene]:
+def find_scenes(wanted: Sequence[str], folder: Path = READY) -> list[Scene]:
     """The scenes named, all when none is. Raises InputError for a name that is no scene's."""
     names = scene_names(folder)
     if not names:

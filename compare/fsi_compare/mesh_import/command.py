@@ -3,7 +3,7 @@ mesh."""
 
 import argparse
 from pathlib import Path
-from typing import List, Sequence, Tuple
+from typing import Sequence
 
 import numpy as np
 
@@ -65,7 +65,7 @@ def convert_mesh(options: argparse.Namespace) -> int:
     return 0
 
 
-def _convert(file: str, mesh: FoundMesh, sources: Sequence[Source], options: argparse.Namespace) -> List[str]:
+def _convert(file: str, mesh: FoundMesh, sources: Sequence[Source], options: argparse.Namespace) -> list[str]:
     """Writes the mesh; returns what was done to it."""
     wanted = [(source.name, source.name) for source in sources if source.name]
     groups = choose_groups(file, mesh, wanted + [_pair(text) for text in options.group])
@@ -83,7 +83,7 @@ def _convert(file: str, mesh: FoundMesh, sources: Sequence[Source], options: arg
     return said + ([f"Left out, since no --group names them: {shown_names(others)}"] if others else [])
 
 
-def _all_parts(mesh: FoundMesh) -> List[Tuple[str, str]]:
+def _all_parts(mesh: FoundMesh) -> list[tuple[str, str]]:
     """All volumes, and the surfaces that are named or flat: (guessed name, the file's name)."""
     wanted = guessed_groups(mesh, separate_volumes(mesh))
     known = {part for _, part in wanted}
@@ -91,8 +91,8 @@ def _all_parts(mesh: FoundMesh) -> List[Tuple[str, str]]:
 
 
 def _convert_all(
-    file: str, mesh: FoundMesh, wanted: Sequence[Tuple[str, str]], options: argparse.Namespace
-) -> List[str]:
+    file: str, mesh: FoundMesh, wanted: Sequence[tuple[str, str]], options: argparse.Namespace
+) -> list[str]:
     """Writes them; returns what was done."""
     groups = choose_groups(file, mesh, wanted)
     turned = turn(mesh, groups)
@@ -106,7 +106,7 @@ def _is_surface(mesh: FoundMesh, name: str) -> bool:
     return dimensions_of(mesh, mesh.cells[name]) == [mesh.dimension - 1]
 
 
-def _pair(text: str) -> Tuple[str, str]:
+def _pair(text: str) -> tuple[str, str]:
     name, equals, part = text.partition("=")
     if not (name and equals and part) or '"' in name:
         raise InputError("", "--group", f"'{text}' is no NAME=PART", "write, for one, --group fluid=region:1")

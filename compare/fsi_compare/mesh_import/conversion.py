@@ -1,6 +1,6 @@
 """Groups of a mesh as a gmsh file, and checks of the mesh."""
 
-from typing import Dict, List, Sequence, TextIO, Tuple
+from typing import Sequence, TextIO
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from .sources import Source
 from .touching import contacts, doubled_words, gap_words
 
 
-def require_sides(file: str, mesh: FoundMesh, groups: List[Group], sources: Sequence[Source]) -> None:
+def require_sides(file: str, mesh: FoundMesh, groups: list[Group], sources: Sequence[Source]) -> None:
     """Facets of another file than the cells' are to be sides of cells."""
     missing = as_sides(mesh, groups)
     if not missing or len(sources) == 1:
@@ -32,9 +32,9 @@ def require_sides(file: str, mesh: FoundMesh, groups: List[Group], sources: Sequ
     raise InputError(at, group.name, problem, f"give --join {1.1 * farthest:.2g}, if that is a small part of an edge")
 
 
-def warn_of_gaps(mesh: FoundMesh, groups: List[Group]) -> None:
+def warn_of_gaps(mesh: FoundMesh, groups: list[Group]) -> None:
     """A volume that shares no side with another one is alone: no interface."""
-    volumes: Dict[str, List[Block]] = {}
+    volumes: dict[str, list[Block]] = {}
     for group in groups:
         if group.dimension == mesh.dimension:
             volumes.setdefault(group.name, []).extend(group.parts)
@@ -50,7 +50,7 @@ def warn_of_gaps(mesh: FoundMesh, groups: List[Group]) -> None:
         say_warning(doubled)
 
 
-def turn(mesh: FoundMesh, groups: List[Group]) -> int:
+def turn(mesh: FoundMesh, groups: list[Group]) -> int:
     """Turns linear and quadratic tetrahedra of negative volume; how many there were."""
     swap = {"tetra": (0, 2, 1, 3), "tetra10": (0, 2, 1, 3, 6, 5, 4, 7, 9, 8)}
     count = 0
@@ -65,7 +65,7 @@ def turn(mesh: FoundMesh, groups: List[Group]) -> int:
     return count
 
 
-def write_gmsh(out: TextIO, mesh: FoundMesh, groups: List[Group]) -> None:
+def write_gmsh(out: TextIO, mesh: FoundMesh, groups: list[Group]) -> None:
     """Writes gmsh's format. meshio's own writer takes a name once only, and volumes and surfaces may share one."""
     used = np.unique(np.concatenate([block.nodes.ravel() for group in groups for block in group.parts]))
     number = np.zeros(len(mesh.points), dtype=np.int64)
@@ -80,7 +80,7 @@ def write_gmsh(out: TextIO, mesh: FoundMesh, groups: List[Group]) -> None:
     out.write(f"$EndPhysicalNames\n$Nodes\n{len(used)}\n")
     for i, (x, y, z) in enumerate(mesh.points[used].tolist(), 1):
         out.write(f"{i} {x!r} {y!r} {z!r}\n")
-    blocks: List[Tuple[int, Block]] = [(names[g.dimension, g.name], block) for g in groups for block in g.parts]
+    blocks: list[tuple[int, Block]] = [(names[g.dimension, g.name], block) for g in groups for block in g.parts]
     out.write(f"$EndNodes\n$Elements\n{sum(len(block.nodes) for _, block in blocks)}\n")
     at = 0
     for tag, block in blocks:

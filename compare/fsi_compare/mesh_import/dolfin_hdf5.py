@@ -3,7 +3,7 @@ cells and facets beside it (`domains`, `boundaries`), each with points and eleme
 takes .h5 for another format, and does not read these."""
 
 from pathlib import Path
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 import h5py
 import numpy as np
@@ -27,8 +27,8 @@ def _read(path: Path, file: Any) -> RawMesh:
     if not isinstance(file.get("mesh"), h5py.Group) or "topology" not in file["mesh"]:
         raise InputError(path, "mesh", "is no mesh of dolfin", "give a mesh that dolfin's HDF5File wrote, or a .vtu")
     points, cells = _mesh(path, "mesh", file["mesh"])
-    blocks: List[Tuple[str, np.ndarray]] = [(KINDS[cells.shape[1]], cells)]
-    values: Dict[str, List[np.ndarray]] = {}
+    blocks: list[tuple[str, np.ndarray]] = [(KINDS[cells.shape[1]], cells)]
+    values: dict[str, list[np.ndarray]] = {}
     passed_over = []
     for name, group in file.items():
         if name == "mesh" or not isinstance(group, h5py.Group):
@@ -59,7 +59,7 @@ def _read(path: Path, file: Any) -> RawMesh:
     return RawMesh(points, [blocks[i] for i in kept], data, passed_over=passed_over)
 
 
-def _mesh(path: Path, name: str, group: Any) -> Tuple[np.ndarray, np.ndarray]:
+def _mesh(path: Path, name: str, group: Any) -> tuple[np.ndarray, np.ndarray]:
     points, nodes = np.asarray(group["coordinates"], dtype=float), np.asarray(group["topology"])
     if points.ndim != 2 or nodes.ndim != 2 or nodes.shape[1] not in KINDS or nodes.dtype.kind not in "iu":
         raise InputError(path, name, "has no points and simplices", "write the file anew")

@@ -6,7 +6,7 @@ meshio 5.0.0 reads every NAME_*.xml as a function of the cells of another form t
 
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 import numpy as np
 
@@ -29,7 +29,7 @@ def read_dolfin_xml(path: Path) -> RawMesh:
         raise InputError(path, "", problem, f"give the mesh, NAME.xml, with NAME_{COMPANIONS[0]}.xml beside it")
     try:
         points, kind, cells = _points_and_cells(mesh)
-        blocks: List[Tuple[str, np.ndarray]] = [(kind, cells)]
+        blocks: list[tuple[str, np.ndarray]] = [(kind, cells)]
         found = RawMesh(points, blocks)
         for function in mesh.findall("domains/mesh_value_collection"):
             _add(path, found, f"domains_{function.get('dim')}", function)
@@ -59,12 +59,12 @@ def _root(path: Path) -> Any:
     return root
 
 
-def _functions(root: Any) -> List[Any]:
+def _functions(root: Any) -> list[Any]:
     """Collections of values stand within a function, or alone."""
     return root.findall(".//mesh_value_collection") or root.findall("mesh_function")
 
 
-def _points_and_cells(mesh: Any) -> Tuple[np.ndarray, str, np.ndarray]:
+def _points_and_cells(mesh: Any) -> tuple[np.ndarray, str, np.ndarray]:
     cell = mesh.get("celltype")
     if cell not in KINDS:
         raise ValueError(f"has cells of the type {cell}, no tetrahedra or triangles")
@@ -74,7 +74,7 @@ def _points_and_cells(mesh: Any) -> Tuple[np.ndarray, str, np.ndarray]:
     return points, KINDS[cell], _rows(rows, mesh.iter(cell), count).astype(np.int64)
 
 
-def _rows(rows: List[List[Any]], elements: Any, width: int) -> np.ndarray:
+def _rows(rows: list[list[Any]], elements: Any, width: int) -> np.ndarray:
     """Rows sorted by the index that each element states."""
     places = np.array([int(element.get("index")) for element in elements], dtype=np.int64)
     if not np.array_equal(np.sort(places), np.arange(len(rows))):
@@ -89,7 +89,7 @@ def _add(path: Path, mesh: RawMesh, name: str, function: Any) -> None:
     kind, cells = mesh.blocks[0]
     top = cells.shape[1] - 1
     dimension = int(function.get("dim"))
-    entries: Dict[str, str] = {"mesh_function": "entity", "mesh_value_collection": "value"}
+    entries: dict[str, str] = {"mesh_function": "entity", "mesh_value_collection": "value"}
     rows = list(function.iter(entries[function.tag]))
     values = np.array([float(row.get("value")) for row in rows])
     if dimension == top:
@@ -112,7 +112,7 @@ def _add(path: Path, mesh: RawMesh, name: str, function: Any) -> None:
         mesh.passed_over.append(f"{path.name} (values of {what})")
 
 
-def _places(path: Path, name: str, texts: List[Any], count: int) -> np.ndarray:
+def _places(path: Path, name: str, texts: list[Any], count: int) -> np.ndarray:
     places = np.array([int(text) for text in texts], dtype=np.int64)
     if np.any((places < 0) | (places >= count)):
         raise InputError(path, name, "names a cell or side that is not there", "give the function of this very mesh")

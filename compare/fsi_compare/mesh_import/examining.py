@@ -2,7 +2,7 @@
 doubled points. All else is asked of the mesh by `fsi-mesh` itself."""
 
 import shlex
-from typing import Dict, List, Sequence, Tuple
+from typing import Sequence
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from .raw_mesh import Block
 from .touching import Contact, contacts, doubled_words, gap_words, lonely
 
 
-def examined(file: str, mesh: FoundMesh, scale: float, groups: Sequence[Tuple[str, str]]) -> List[str]:
+def examined(file: str, mesh: FoundMesh, scale: float, groups: Sequence[tuple[str, str]]) -> list[str]:
     """Lines; those of what may be wrong begin with "warning: ", and one with "options: " where an import needs any to
     name the parts as they are taken here. The mesh is scaled already."""
     options = "".join(f" --group {shlex.quote(f'{name}={part}')}" for name, part in groups)
@@ -43,8 +43,8 @@ def _size(mesh: FoundMesh, scale: float) -> str:
 
 
 def _contact_lines(
-    command: str, mesh: FoundMesh, volumes: Dict[str, List[Block]], found: List[Contact], few: bool
-) -> List[str]:
+    command: str, mesh: FoundMesh, volumes: dict[str, list[Block]], found: list[Contact], few: bool
+) -> list[str]:
     """Lines about volumes that share sides with another one, and about those that are alone."""
     sides = "triangles" if mesh.dimension == 3 else "edges"
     lines = [

@@ -8,7 +8,7 @@ Yarberry, EXODUS II: A Finite Element Data Model, SAND92-2137."""
 import re
 import warnings
 from pathlib import Path
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 import numpy as np
 
@@ -33,7 +33,7 @@ OTHERS = {"SHELL": "quad", "QUAD": "quad", "HEX": "hexahedron", "WEDGE": "wedge"
 POINTS = ("SPHERE", "CIRCLE", "NODE")
 # Nodes of sides 1, 2, ...: corners, then middles of edges. Shells of triangles, which all triangles in space are to the
 # Exodus library, whatever their type says, have two faces before them.
-SIDES: Dict[str, Tuple[str, Tuple[Tuple[int, ...], ...]]] = {
+SIDES: dict[str, tuple[str, tuple[tuple[int, ...], ...]]] = {
     "tetra": ("triangle", ((0, 1, 3), (1, 2, 3), (0, 3, 2), (0, 2, 1))),
     "tetra10": ("triangle6", ((0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6), (0, 2, 1, 6, 5, 4))),
     "triangle": ("line", ((0, 1), (1, 2), (2, 0))),
@@ -66,7 +66,7 @@ def _read(path: Path, file: Any) -> RawMesh:
     space = mesh.points.shape[1]
     nothing = np.zeros(0, dtype=np.int64)
     names = _names(file, "eb", "block", "num_el_blk")
-    shells: List[bool] = []  # whether elements have two faces, by block
+    shells: list[bool] = []  # whether elements have two faces, by block
     starts = [0]  # elements are numbered through all blocks
     for number, name in enumerate(names, 1):
         connectivity = file.variables.get(f"connect{number}")
@@ -109,14 +109,14 @@ def _points(file: Any) -> np.ndarray:
     return np.stack(axes, axis=1).astype(float)
 
 
-def _texts(file: Any, variable: str) -> List[str]:
+def _texts(file: Any, variable: str) -> list[str]:
     if variable not in file.variables:
         return []
     rows = np.asarray(file.variables[variable][:])
     return [b"".join(row.tolist()).split(b"\0")[0].decode("utf-8", "replace").strip() for row in rows]
 
 
-def _names(file: Any, short: str, word: str, dimension: str) -> List[str]:
+def _names(file: Any, short: str, word: str, dimension: str) -> list[str]:
     count = len(file.dimensions[dimension]) if dimension in file.dimensions else 0
     texts = _texts(file, f"{short}_names")
     numbers = (
@@ -137,7 +137,7 @@ def _kind(path: Path, block: str, said: str, count: int) -> str:
     raise InputError(path, block, problem, "mesh it by tetrahedra of 4 or 10 nodes, or by triangles of 3 or 6")
 
 
-def _join(mesh: RawMesh, name: str, places: List[np.ndarray]) -> None:
+def _join(mesh: RawMesh, name: str, places: list[np.ndarray]) -> None:
     """Blocks and sets of one name are one part."""
     known = mesh.cell_sets.get(name, [])
     known += [np.zeros(0, dtype=np.int64)] * (len(places) - len(known))
@@ -145,7 +145,7 @@ def _join(mesh: RawMesh, name: str, places: List[np.ndarray]) -> None:
 
 
 def _add_sides(
-    path: Path, mesh: RawMesh, name: str, elements: np.ndarray, sides: np.ndarray, starts: List[int], shells: List[bool]
+    path: Path, mesh: RawMesh, name: str, elements: np.ndarray, sides: np.ndarray, starts: list[int], shells: list[bool]
 ) -> None:
     """A block of facets for each kind, and the set that holds them."""
     count = len(shells)
@@ -165,7 +165,7 @@ def _add_sides(
 
 def _facets(
     path: Path, name: str, kind: str, shell: bool, nodes: np.ndarray, sides: np.ndarray
-) -> List[Tuple[str, np.ndarray]]:
+) -> list[tuple[str, np.ndarray]]:
     """Sides of elements of one kind, `nodes` and `sides` one a row; of shells faces and edges apart."""
     if kind not in SIDES:
         raise InputError(path, name, f"holds sides of a {kind}", "mesh it by tetrahedra or triangles")

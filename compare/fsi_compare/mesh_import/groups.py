@@ -1,7 +1,7 @@
 """Which elements of a mesh bear which name: of cells, and of facets of their boundary, by the parts of a file."""
 
 from dataclasses import dataclass
-from typing import Dict, List, Sequence, Tuple
+from typing import Sequence
 
 import numpy as np
 
@@ -15,10 +15,10 @@ from .raw_mesh import CORNERS, Block
 class Group:
     name: str
     dimension: int
-    parts: List[Block]
+    parts: list[Block]
 
 
-def choose_groups(file: str, mesh: FoundMesh, wanted: Sequence[Tuple[str, str]]) -> List[Group]:
+def choose_groups(file: str, mesh: FoundMesh, wanted: Sequence[tuple[str, str]]) -> list[Group]:
     """Groups by the names that are wanted, (name, what the file calls it); all parts with a name of their own when none
     is. Raises InputError."""
     if not wanted:
@@ -26,8 +26,8 @@ def choose_groups(file: str, mesh: FoundMesh, wanted: Sequence[Tuple[str, str]])
         if not wanted:
             problem = "is not given, and the file names no parts"
             raise InputError(file, "--group", problem, f"give NAME=PART; {known_parts(mesh)}")
-    groups: List[Group] = []
-    taken: Dict[str, Tuple[str, List[np.ndarray]]] = {}  # group -> its last part, whether it has an element, by block
+    groups: list[Group] = []
+    taken: dict[str, tuple[str, list[np.ndarray]]] = {}  # group -> its last part, whether it has an element, by block
     for name, part in wanted:
         if part in mesh.cells:
             groups += _of_cells(file, mesh, name, part, taken)
@@ -50,26 +50,26 @@ def choose_groups(file: str, mesh: FoundMesh, wanted: Sequence[Tuple[str, str]])
     return groups
 
 
-def named_parts(mesh: FoundMesh) -> List[str]:
+def named_parts(mesh: FoundMesh) -> list[str]:
     """Parts of cells or facets with a name of their own."""
     return [name for name in mesh.cells if name not in mesh.numbered and _dimensions(mesh, name)]
 
 
-def left_out(mesh: FoundMesh) -> List[str]:
+def left_out(mesh: FoundMesh) -> list[str]:
     """Named parts that become groups where --group asks for them, or never: for the log."""
     sets = [name for name in mesh.cells if name not in mesh.numbered and not _dimensions(mesh, name)]
     points = [name for name in mesh.points_of if name not in mesh.numbered]
     return [f"{name} (no cells or sides)" for name in sets] + [f"{name} (points)" for name in points]
 
 
-def _dimensions(mesh: FoundMesh, part: str) -> List[int]:
+def _dimensions(mesh: FoundMesh, part: str) -> list[int]:
     """Dimensions of the part's cells and facets."""
     return [d for d in dimensions_of(mesh, mesh.cells[part]) if d >= mesh.dimension - 1]
 
 
 def _of_cells(
-    file: str, mesh: FoundMesh, name: str, part: str, taken: Dict[str, Tuple[str, List[np.ndarray]]]
-) -> List[Group]:
+    file: str, mesh: FoundMesh, name: str, part: str, taken: dict[str, tuple[str, list[np.ndarray]]]
+) -> list[Group]:
     """Groups of the part's elements that the name does not have yet. A cell is of one medium: sets of a file may
     overlap, groups of volumes may not."""
     places = mesh.cells[part]
@@ -102,7 +102,7 @@ def _of_cells(
 
 
 # Vertices of a cell's sides, and the nodes in the middles of their edges behind them, in meshio's (VTK's) numbers.
-SIDES: Dict[str, Tuple[str, Tuple[Tuple[int, ...], ...]]] = {
+SIDES: dict[str, tuple[str, tuple[tuple[int, ...], ...]]] = {
     "triangle": ("line", ((0, 1), (1, 2), (2, 0))),
     "triangle6": ("line3", ((0, 1, 3), (1, 2, 4), (2, 0, 5))),
     "tetra": ("triangle", ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))),
@@ -110,9 +110,9 @@ SIDES: Dict[str, Tuple[str, Tuple[Tuple[int, ...], ...]]] = {
 }
 
 
-def sides_of(blocks: Sequence[Block], dimension: int) -> List[Block]:
+def sides_of(blocks: Sequence[Block], dimension: int) -> list[Block]:
     """All sides of the cells of this dimension, one block for each kind of side."""
-    found: Dict[str, List[np.ndarray]] = {}
+    found: dict[str, list[np.ndarray]] = {}
     for block in blocks:
         if block.dimension == dimension:
             kind, sides = SIDES[block.kind]
@@ -132,7 +132,7 @@ def corner_keys(kind: str, nodes: np.ndarray) -> np.ndarray:
     return keys
 
 
-def boundary_of(blocks: Sequence[Block], dimension: int) -> List[Block]:
+def boundary_of(blocks: Sequence[Block], dimension: int) -> list[Block]:
     """Sides of one cell only."""
     found = []
     for block in sides_of(blocks, dimension):
@@ -142,7 +142,7 @@ def boundary_of(blocks: Sequence[Block], dimension: int) -> List[Block]:
     return found
 
 
-def facets_between(mesh: FoundMesh, points: np.ndarray) -> List[Block]:
+def facets_between(mesh: FoundMesh, points: np.ndarray) -> list[Block]:
     """Sides of cells on the mesh's boundary with all nodes among these points; with all corners where the set holds
     corners only, as sets of quadratic cells in Abaqus decks may."""
     mask = np.zeros(len(mesh.points), dtype=bool)
@@ -159,7 +159,7 @@ def facets_between(mesh: FoundMesh, points: np.ndarray) -> List[Block]:
     return blocks
 
 
-def as_sides(mesh: FoundMesh, groups: Sequence[Group]) -> List[Tuple[Group, np.ndarray]]:
+def as_sides(mesh: FoundMesh, groups: Sequence[Group]) -> list[tuple[Group, np.ndarray]]:
     """Gives facets the nodes of the cells' sides that have their corners: facets of first order fit cells of second.
     Returns the groups with facets that are sides of no cell of the groups, and the corners of these."""
     cells = [block for group in groups if group.dimension == mesh.dimension for block in group.parts]

@@ -3,7 +3,7 @@
 import shlex
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Sequence, Tuple
+from typing import Sequence
 
 import numpy as np
 
@@ -41,7 +41,7 @@ class _Extent:
     flat: bool = False
 
 
-def listing(mesh: FoundMesh, words: Sequence[str], sources: Sequence[Source], scale: float, join: float) -> List[str]:
+def listing(mesh: FoundMesh, words: Sequence[str], sources: Sequence[Source], scale: float, join: float) -> list[str]:
     """Lines. `words` are the files as the user gave them; the mesh is scaled already."""
     lines = _table(mesh, scale)
     volumes = separate_volumes(mesh)
@@ -53,7 +53,7 @@ def listing(mesh: FoundMesh, words: Sequence[str], sources: Sequence[Source], sc
     return lines + _command(mesh, volumes, words, sources, factor, join)
 
 
-def _cells(mesh: FoundMesh, name: str) -> List[Block]:
+def _cells(mesh: FoundMesh, name: str) -> list[Block]:
     places = mesh.cells[name]
     top = max(dimensions_of(mesh, places), default=0)
     return [Block(b.kind, b.nodes[p]) for b, p in zip(mesh.blocks, places) if b.dimension == top and len(p)]
@@ -98,7 +98,7 @@ def _are_flat(areas: np.ndarray) -> bool:
     return bool((np.abs(areas @ axis) / np.linalg.norm(axis)).sum() > (1 - FLAT) * sizes.sum())
 
 
-def _table(mesh: FoundMesh, scale: float) -> List[str]:
+def _table(mesh: FoundMesh, scale: float) -> list[str]:
     """One line a part: its elements, its measure, its size under each guess of the unit, or by the given scale."""
     units = UNITS if scale == 1 else (("mm", 1.0),)
     rows = [["part", "elements", "measure", *(f"size, mm, if in {unit}" for unit, _ in units)]]
@@ -124,9 +124,9 @@ def _table(mesh: FoundMesh, scale: float) -> List[str]:
     return lines + ([f"... and {left} parts more"] if left > 0 else [])
 
 
-def separate_volumes(mesh: FoundMesh) -> Dict[str, List[Block]]:
+def separate_volumes(mesh: FoundMesh) -> dict[str, list[Block]]:
     """Parts of cells, none of which shares a cell with another: named ones first."""
-    found: Dict[str, List[Block]] = {}
+    found: dict[str, list[Block]] = {}
     taken = [np.zeros(len(block.nodes), dtype=bool) for block in mesh.blocks]
     for name in sorted(mesh.cells, key=lambda name: (name == WHOLE, *_rank(mesh, name))):
         places = mesh.cells[name]
@@ -138,13 +138,13 @@ def separate_volumes(mesh: FoundMesh) -> Dict[str, List[Block]]:
     return found
 
 
-def _rank(mesh: FoundMesh, name: str) -> Tuple[bool, bool, bool]:
+def _rank(mesh: FoundMesh, name: str) -> tuple[bool, bool, bool]:
     """Sort key of names for the same elements. The least tells most: gmsh, for one, writes "Volume1" beside "fluid"."""
     known = any(word in name.lower() for word in (*FLUID, *SOLID))
     return name in mesh.numbered, not known, name[-1:].isdigit()
 
 
-def _touching(mesh: FoundMesh, volumes: Dict[str, List[Block]]) -> List[str]:
+def _touching(mesh: FoundMesh, volumes: dict[str, list[Block]]) -> list[str]:
     sides = "triangles" if mesh.dimension == 3 else "edges"
     few = len(volumes) <= MOST_VOLUMES
     found = contacts(mesh.points, volumes, mesh.dimension, distances=few)
@@ -176,7 +176,7 @@ def unit_words(longest: float) -> str:
     return f"the mesh is {longest:.3g} mm long: {' or '.join(fits) or 'give --scale FACTOR, from its unit to mm'}"
 
 
-def _unit(longest: float) -> Tuple[float, str]:
+def _unit(longest: float) -> tuple[float, str]:
     """A factor to mm by the longest extent, in words."""
     fits = [(unit, factor) for unit, factor in UNITS if SHORTEST <= longest * factor <= LONGEST]
     if not fits:
@@ -193,12 +193,12 @@ def _unit(longest: float) -> Tuple[float, str]:
 
 def _command(
     mesh: FoundMesh,
-    volumes: Dict[str, List[Block]],
+    volumes: dict[str, list[Block]],
     words: Sequence[str],
     sources: Sequence[Source],
     factor: float,
     join: float,
-) -> List[str]:
+) -> list[str]:
     """The call that makes the mesh of a case, with names where a guess is to be had."""
     given = [source.name for source in sources if source.name]
     groups = guessed_groups(mesh, volumes, given)
@@ -224,8 +224,8 @@ def _command(
 
 
 def guessed_groups(
-    mesh: FoundMesh, volumes: Dict[str, List[Block]], given: Sequence[str] = ()
-) -> List[Tuple[str, str]]:
+    mesh: FoundMesh, volumes: dict[str, list[Block]], given: Sequence[str] = ()
+) -> list[tuple[str, str]]:
     """Names and parts: roles of the volumes, and flat surfaces, which may be openings. `given` have a name already."""
     groups = [] if given else list(_roles(mesh, volumes).items())
     cells = [block for blocks in volumes.values() for block in blocks]
@@ -236,7 +236,7 @@ def guessed_groups(
     ]
     if mesh.dimension == 3:
         surfaces = [name for name in surfaces if _extent(mesh.points, _cells(mesh, name)).flat]
-    seen: List[set] = []
+    seen: list[set] = []
     for name in sorted(
         surfaces, key=lambda name: _rank(mesh, name)
     ):  # the same facets under a name and a number are one opening
@@ -253,9 +253,9 @@ def guessed_groups(
     return groups
 
 
-def _roles(mesh: FoundMesh, volumes: Dict[str, List[Block]]) -> Dict[str, str]:
+def _roles(mesh: FoundMesh, volumes: dict[str, list[Block]]) -> dict[str, str]:
     """Names for the volumes: by what they are called, else the fluid is the one whose box lies within the others'."""
-    roles: Dict[str, str] = {}
+    roles: dict[str, str] = {}
     rest = []
     for part in volumes:
         if "fluid" not in roles and any(word in part.lower() for word in FLUID):

@@ -4,7 +4,7 @@ meshio 5.0.0 demands a group `GRO` of every family; gmsh 4 writes it for physica
 which in MED go the other way round than in VTK, and ends at names of groups with letters beyond ASCII."""
 
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 import numpy as np
 
@@ -63,7 +63,7 @@ def _read(path: Path, file: Any) -> RawMesh:
     count = int(coordinates.attrs["NBR"])
     mesh = RawMesh(np.asarray(coordinates[()], dtype=float).reshape(-1, count).T, [])
     families = file["FAS"][meshes[0]] if meshes[0] in file.get("FAS", ()) else whole.get("FAS")
-    numbers: List[Optional[np.ndarray]] = []
+    numbers: list[np.ndarray | None] = []
     for name, group in step.get("MAI", {}).items():
         kind, nodes = KINDS.get(name, (f"polyhedron ({name})", 0))
         if not nodes:
@@ -83,7 +83,7 @@ def _read(path: Path, file: Any) -> RawMesh:
             mesh.unnamed.add(text)
     if "FAM" in step["NOE"]:
         of_points = np.asarray(step["NOE"]["FAM"][()], dtype=np.int64)
-        sets: Dict[str, np.ndarray] = {}
+        sets: dict[str, np.ndarray] = {}
         for text, unnamed, wanted in _families(families, "NOEUD"):
             if not unnamed:
                 sets[text] = np.union1d(sets.get(text, np.zeros(0, np.int64)), np.flatnonzero(of_points == wanted))
@@ -92,7 +92,7 @@ def _read(path: Path, file: Any) -> RawMesh:
     return mesh
 
 
-def _families(families: Any, place: str) -> List[Tuple[str, bool, int]]:
+def _families(families: Any, place: str) -> list[tuple[str, bool, int]]:
     """Each group of each family: its name, or the family's where it has no group, which of the two, the family's
     number."""
     found = []

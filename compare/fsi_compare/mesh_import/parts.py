@@ -5,7 +5,7 @@ An array of whole numbers says parts where its values are few, and numbers the e
 """
 
 from dataclasses import dataclass, field
-from typing import Dict, Iterable, List, Optional, Sequence, Tuple
+from typing import Iterable, Sequence
 
 import numpy as np
 
@@ -29,11 +29,11 @@ class FoundMesh:
     """A mesh and all that names parts of it."""
 
     points: np.ndarray  # (points, 3), mm
-    blocks: List[Block]
-    cells: Dict[str, List[np.ndarray]] = field(default_factory=dict)  # name -> places in each block
-    points_of: Dict[str, np.ndarray] = field(default_factory=dict)  # name -> places of points
+    blocks: list[Block]
+    cells: dict[str, list[np.ndarray]] = field(default_factory=dict)  # name -> places in each block
+    points_of: dict[str, np.ndarray] = field(default_factory=dict)  # name -> places of points
     numbered: frozenset = frozenset()  # names that are an array's and a number
-    passed_over: List[str] = field(default_factory=list)  # arrays that say no parts, and why
+    passed_over: list[str] = field(default_factory=list)  # arrays that say no parts, and why
 
     @property
     def dimension(self) -> int:
@@ -104,7 +104,7 @@ def _is_solid(name: str) -> bool:
     return name.startswith(("hexahedron", "wedge", "pyramid", "quad", "polyhedron", "polygon"))
 
 
-def _numbers(arrays: Sequence[np.ndarray]) -> Optional[List[np.ndarray]]:
+def _numbers(arrays: Sequence[np.ndarray]) -> list[np.ndarray] | None:
     """One whole number, or NaN, an entry; None where they are anything else."""
     found = []
     for array in arrays:
@@ -122,7 +122,7 @@ def _numbers(arrays: Sequence[np.ndarray]) -> Optional[List[np.ndarray]]:
     return found
 
 
-def _no_parts(name: str, values: Optional[List[np.ndarray]], what: str) -> str:
+def _no_parts(name: str, values: list[np.ndarray] | None, what: str) -> str:
     """Why an array says no parts; empty where it does."""
     if values is None:
         return "no whole numbers"
@@ -137,7 +137,7 @@ def _no_parts(name: str, values: Optional[List[np.ndarray]], what: str) -> str:
     return ""
 
 
-def _places_of_values(values: Sequence[np.ndarray]) -> Iterable[Tuple[int, List[np.ndarray]]]:
+def _places_of_values(values: Sequence[np.ndarray]) -> Iterable[tuple[int, list[np.ndarray]]]:
     """Each value with its places in each of the arrays, in ascending order; NaN is none."""
     every = np.concatenate(values)
     starts = np.cumsum([0] + [len(v) for v in values])
@@ -151,7 +151,7 @@ def _places_of_values(values: Sequence[np.ndarray]) -> Iterable[Tuple[int, List[
 
 def _by_value(
     name: str, values: Sequence[np.ndarray], blocks: Sequence[Block]
-) -> Iterable[Tuple[str, List[np.ndarray]]]:
+) -> Iterable[tuple[str, list[np.ndarray]]]:
     """Parts of an array. A number that elements of several dimensions have is a part for each: gmsh and dolfinx count
     volumes and surfaces apart, so that the same number means nothing."""
     nothing = np.zeros(0, dtype=np.int64)
@@ -162,7 +162,7 @@ def _by_value(
             yield text, [p if b.dimension == dimension else nothing for b, p in zip(blocks, places)]
 
 
-def dimensions_of(mesh: FoundMesh, places: Sequence[np.ndarray]) -> List[int]:
+def dimensions_of(mesh: FoundMesh, places: Sequence[np.ndarray]) -> list[int]:
     return sorted({block.dimension for block, p in zip(mesh.blocks, places) if len(p)})
 
 

@@ -1,12 +1,12 @@
 """What a file of a mesh holds, before any of it is called a part."""
 
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Set, Tuple
+from typing import Any
 
 import numpy as np
 
 # Simplices by meshio's names: dimension, order, gmsh's number, gmsh's order of the nodes.
-KINDS: Dict[str, Tuple[int, int, int, Tuple[int, ...]]] = {
+KINDS: dict[str, tuple[int, int, int, tuple[int, ...]]] = {
     "line": (1, 1, 1, (0, 1)),
     "line3": (1, 2, 8, (0, 1, 2)),
     "triangle": (2, 1, 2, (0, 1, 2)),
@@ -35,13 +35,13 @@ class RawMesh:
     """Arrays have an entry an element, NaN where an element has none; sets hold places, from 0."""
 
     points: np.ndarray  # (points, 2 or 3), the file's unit
-    blocks: List[Tuple[str, np.ndarray]]  # meshio's name of the kind, any kind; nodes of each element
-    cell_data: Dict[str, List[np.ndarray]] = field(default_factory=dict)  # an array a block
-    point_data: Dict[str, np.ndarray] = field(default_factory=dict)
-    cell_sets: Dict[str, List[np.ndarray]] = field(default_factory=dict)  # places in each block
-    point_sets: Dict[str, np.ndarray] = field(default_factory=dict)
-    unnamed: Set[str] = field(default_factory=set)  # of the sets of cells: those that have a number only
-    passed_over: List[str] = field(default_factory=list)  # what the reader left out, for messages
+    blocks: list[tuple[str, np.ndarray]]  # meshio's name of the kind, any kind; nodes of each element
+    cell_data: dict[str, list[np.ndarray]] = field(default_factory=dict)  # an array a block
+    point_data: dict[str, np.ndarray] = field(default_factory=dict)
+    cell_sets: dict[str, list[np.ndarray]] = field(default_factory=dict)  # places in each block
+    point_sets: dict[str, np.ndarray] = field(default_factory=dict)
+    unnamed: set[str] = field(default_factory=set)  # of the sets of cells: those that have a number only
+    passed_over: list[str] = field(default_factory=list)  # what the reader left out, for messages
 
 
 def of_meshio(mesh: Any) -> RawMesh:
@@ -65,7 +65,7 @@ def of_meshio(mesh: Any) -> RawMesh:
     return found
 
 
-def _name_physical_groups(mesh: RawMesh, field_data: Dict[str, Any]) -> None:
+def _name_physical_groups(mesh: RawMesh, field_data: dict[str, Any]) -> None:
     """$PhysicalNames of a gmsh file: name -> number and dimension. Of format 4 meshio makes sets of cells of them; of
     format 2.2 the numbers alone stand with the cells."""
     numbers = mesh.cell_data.get("gmsh:physical")

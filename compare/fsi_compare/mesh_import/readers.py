@@ -4,7 +4,7 @@ import contextlib
 import io
 import shlex
 from pathlib import Path
-from typing import Callable, Dict
+from typing import Callable
 
 from ..base.errors import InputError
 from ..base.files import exists, is_file, is_folder
@@ -20,7 +20,7 @@ from .xdmf import read_xdmf
 
 # By the end of a file's name, in lower case: what meshio reads wrongly; see the head of each module.
 # What meshio reads well, or reads at all, is left to it.
-READERS: Dict[str, Callable[[Path], RawMesh]] = {
+READERS: dict[str, Callable[[Path], RawMesh]] = {
     ".vtu": read_vtu,
     ".xdmf": read_xdmf,
     ".xmf": read_xdmf,

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import List, Sequence, Tuple
+from typing import Sequence
 
 import numpy as np
 
@@ -40,7 +40,7 @@ def source_of(text: str) -> Source:
     return Source(name, Path(rest))
 
 
-def read_sources(sources: Sequence[Source], scale: float) -> Tuple[FoundMesh, List[int]]:
+def read_sources(sources: Sequence[Source], scale: float) -> tuple[FoundMesh, list[int]]:
     """The mesh, and how many points the files up to each one have. Points are not joined yet. Raises InputError."""
     names = [source.name for source in sources if source.name]
     for name in names:
@@ -60,7 +60,7 @@ def read_sources(sources: Sequence[Source], scale: float) -> Tuple[FoundMesh, Li
         start, first = len(whole.blocks), end - len(mesh.points)
         whole.blocks += [Block(block.kind, block.nodes + first) for block in mesh.blocks]
 
-        def spread(places: List[np.ndarray]) -> List[np.ndarray]:
+        def spread(places: list[np.ndarray]) -> list[np.ndarray]:
             nothing = np.zeros(0, dtype=np.int64)
             return [places[i - start] if start <= i < start + len(places) else nothing for i in range(count)]
 
@@ -96,7 +96,7 @@ def _taken(name: str, mesh: FoundMesh, meshes: Sequence[FoundMesh]) -> bool:
     return any(name in other.cells or name in other.points_of for other in meshes if other is not mesh)
 
 
-def join(file: str, mesh: FoundMesh, ends: Sequence[int], tolerance: float) -> List[str]:
+def join(file: str, mesh: FoundMesh, ends: Sequence[int], tolerance: float) -> list[str]:
     """Joins points that are at most `tolerance` apart, mm; with 0 those of different files that agree in single
     precision. The first one's place stays. Returns what was done, in sentences. Raises InputError where a cell would
     lose an edge."""

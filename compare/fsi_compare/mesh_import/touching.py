@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from itertools import combinations
-from typing import List, Mapping, Sequence
+from typing import Mapping, Sequence
 
 import numpy as np
 
@@ -25,7 +25,7 @@ class Contact:
 
 def contacts(
     points: np.ndarray, volumes: Mapping[str, Sequence[Block]], dimension: int, distances: bool = True
-) -> List[Contact]:
+) -> list[Contact]:
     """The contacts between each two volumes, by name. Without distances only of those that share a side."""
     if len(volumes) < 2:
         return []
@@ -63,7 +63,7 @@ def _shared_sides(first: Sequence[Block], second: Sequence[Block]) -> int:
     return count
 
 
-def lonely(volumes: Mapping[str, Sequence[Block]], found: Sequence[Contact]) -> List[str]:
+def lonely(volumes: Mapping[str, Sequence[Block]], found: Sequence[Contact]) -> list[str]:
     """Volumes that share no side with another one, where there are several."""
     touching = {name for contact in found if contact.sides for name in (contact.first, contact.second)}
     return [name for name in volumes if name not in touching] if len(volumes) > 1 else []

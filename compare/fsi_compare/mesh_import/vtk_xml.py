@@ -10,7 +10,7 @@ import struct
 import xml.etree.ElementTree as ElementTree
 import zlib
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterator, Tuple, TypeVar
+from typing import Any, Callable, Iterator, TypeVar
 
 import numpy as np
 
@@ -25,7 +25,7 @@ TYPES |= {"Float32": "f4", "Float64": "f8"}
 
 
 EXTENSIONS = {"PolyData": ".vtp", "UnstructuredGrid": ".vtu"}
-UNPACKERS: Dict[str, Callable[[bytes], bytes]] = {
+UNPACKERS: dict[str, Callable[[bytes], bytes]] = {
     "": lambda data: data,
     "vtkZLibDataCompressor": zlib.decompress,
     "vtkLZMADataCompressor": lzma.decompress,
@@ -120,8 +120,8 @@ class VtkFile:
 
 
 def scalars_of(
-    file: VtkFile, piece: Any, place: str, count: int, passed_over: Dict[str, None]
-) -> Dict[str, np.ndarray]:
+    file: VtkFile, piece: Any, place: str, count: int, passed_over: dict[str, None]
+) -> dict[str, np.ndarray]:
     """Arrays of one number an entry below `place` of a piece. Others are not decoded: files of results may have
     hundreds. `passed_over` gets a word on each of these, once."""
     found = {}
@@ -153,7 +153,7 @@ def read_by(reader: Callable[[VtkFile], Read], path: Path, contents: str, what: 
         raise InputError(path, "", f"cannot be read: {error}", remedy) from None
 
 
-def pieces(file: VtkFile) -> Iterator[Tuple[Any, np.ndarray]]:
+def pieces(file: VtkFile) -> Iterator[tuple[Any, np.ndarray]]:
     """The pieces that have points, and these, (points, 3)."""
     for piece in file.root.iter("Piece"):
         there = piece.find("Points/DataArray")

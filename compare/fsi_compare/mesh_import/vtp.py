@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Dict, List, Optional
 
 import numpy as np
 
@@ -16,8 +15,8 @@ class Surface:
     """Points, mm or whatever the file has; polygons as lists of points; fields of the points."""
 
     points: np.ndarray
-    polygons: List[List[int]] = field(default_factory=list)
-    fields: Dict[str, np.ndarray] = field(default_factory=dict)
+    polygons: list[list[int]] = field(default_factory=list)
+    fields: dict[str, np.ndarray] = field(default_factory=dict)
 
 
 def read_vtp(path: Path) -> Surface:
@@ -27,7 +26,7 @@ def read_vtp(path: Path) -> Surface:
 
 def _read(file: VtkFile) -> Surface:
     surface = Surface(np.zeros((0, 3)))
-    parts: Dict[str, List[np.ndarray]] = {}
+    parts: dict[str, list[np.ndarray]] = {}
     for piece, points in pieces(file):
         if int(piece.get("NumberOfStrips") or 0) > 0:
             raise InputError(file.path, "", "holds strips of triangles", "write its surface as polygons")
@@ -49,10 +48,10 @@ def read_faces(path: Path) -> RawMesh:
 
 
 def _read_faces(file: VtkFile) -> RawMesh:
-    points: List[np.ndarray] = []
-    triangles: List[np.ndarray] = []
-    cell_data: Dict[str, List[np.ndarray]] = {}
-    passed_over: Dict[str, None] = {}
+    points: list[np.ndarray] = []
+    triangles: list[np.ndarray] = []
+    cell_data: dict[str, list[np.ndarray]] = {}
+    passed_over: dict[str, None] = {}
     first = 0
     for piece, there in pieces(file):
         others = [int(piece.get(f"NumberOf{kind}") or 0) for kind in ("Verts", "Lines", "Strips")]
@@ -81,6 +80,6 @@ def scalar_field(surface: Surface, name: str, path: Path) -> np.ndarray:
     """A field of one number a point. Raises InputError that lists those there are."""
     scalars = [n for n, values in surface.fields.items() if values.ndim == 1 and len(values) == len(surface.points)]
     if name not in scalars:
-        there: Optional[str] = ", ".join(scalars)
+        there: str | None = ", ".join(scalars)
         raise InputError(path, name, "is no field of one number at each point", f"those there are: {there or 'none'}")
     return surface.fields[name]

@@ -2,7 +2,7 @@
 appended arrays in base64, which is how VTK writes them; meshio 5.0.0 gives Lagrange cells kinds of their own."""
 
 from pathlib import Path
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 import numpy as np
 
@@ -41,11 +41,11 @@ def read_vtu(path: Path) -> RawMesh:
 
 
 def _read(file: VtkFile) -> RawMesh:
-    points: List[np.ndarray] = []
-    point_data: Dict[str, List[np.ndarray]] = {}
-    blocks: Dict[int, List[np.ndarray]] = {}  # by kind, of each piece that has such cells
-    cell_data: Dict[str, Dict[int, List[np.ndarray]]] = {}
-    passed_over: Dict[str, None] = {}
+    points: list[np.ndarray] = []
+    point_data: dict[str, list[np.ndarray]] = {}
+    blocks: dict[int, list[np.ndarray]] = {}  # by kind, of each piece that has such cells
+    cell_data: dict[str, dict[int, list[np.ndarray]]] = {}
+    passed_over: dict[str, None] = {}
     first = 0
     for piece, there in pieces(file):
         points.append(there)
@@ -76,7 +76,7 @@ def _read(file: VtkFile) -> RawMesh:
     )
 
 
-def _cells(file: VtkFile, piece: Any) -> List[Tuple[int, np.ndarray, np.ndarray]]:
+def _cells(file: VtkFile, piece: Any) -> list[tuple[int, np.ndarray, np.ndarray]]:
     """Kind, places in the piece and nodes of its cells, kind by kind."""
     arrays = {element.get("Name"): file.array(element) for element in piece.findall("Cells/DataArray")}
     if not {"connectivity", "offsets", "types"} <= set(arrays):

@@ -6,7 +6,6 @@ writes), one grid a document, and no grid that includes the geometry of another 
 import re
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
-from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
@@ -63,17 +62,17 @@ class _Document:
         domain = root.find("Domain")
         if root.tag.lower() != "xdmf" or domain is None:
             raise InputError(path, "", "holds no domain of XDMF", REMEDY)
-        self.passed_over: Dict[str, None] = {}
+        self.passed_over: dict[str, None] = {}
         self.root = root
         self.grids = list(self._uniform(domain))
 
     def mesh(self) -> RawMesh:
         if not self.grids:
             raise InputError(self.path, "", "holds no grid", REMEDY)
-        points: Optional[np.ndarray] = None
-        blocks: List[Tuple[str, np.ndarray]] = []
-        data: Dict[str, List[Tuple[int, np.ndarray, np.ndarray]]] = {}  # name -> block, places, values
-        point_data: Dict[str, np.ndarray] = {}
+        points: np.ndarray | None = None
+        blocks: list[tuple[str, np.ndarray]] = []
+        data: dict[str, list[tuple[int, np.ndarray, np.ndarray]]] = {}  # name -> block, places, values
+        point_data: dict[str, np.ndarray] = {}
         for grid in self.grids:
             own = self._points(grid)
             if points is None:
@@ -112,7 +111,7 @@ class _Document:
             passed_over=list(self.passed_over),
         )
 
-    def _uniform(self, parent: ElementTree.Element) -> List[ElementTree.Element]:
+    def _uniform(self, parent: ElementTree.Element) -> list[ElementTree.Element]:
         found = []
         for grid in parent.findall("Grid"):
             kind = grid.get("GridType", "Uniform").lower()
@@ -124,7 +123,7 @@ class _Document:
                 found += self._uniform(grid)
         return found
 
-    def _points(self, grid: ElementTree.Element) -> Optional[np.ndarray]:
+    def _points(self, grid: ElementTree.Element) -> np.ndarray | None:
         geometry = grid.find("Geometry")
         if geometry is None:
             return None
@@ -133,7 +132,7 @@ class _Document:
             raise InputError(self.path, "Geometry", f"is of the kind {kind}", "write the points as XYZ")
         return self._array(geometry).reshape(-1, len(kind)).astype(float)
 
-    def _elements(self, grid: ElementTree.Element) -> List[Tuple[str, np.ndarray, np.ndarray]]:
+    def _elements(self, grid: ElementTree.Element) -> list[tuple[str, np.ndarray, np.ndarray]]:
         """Kind, nodes and places in the grid of its elements, kind by kind; none where the grid includes another's."""
         topology = grid.find("Topology")
         if topology is None:
@@ -155,8 +154,8 @@ class _Document:
         nodes = numbers.reshape(-1, count)
         return [(kind, nodes, np.arange(len(nodes)))]
 
-    def _mixed(self, numbers: np.ndarray) -> List[Tuple[str, np.ndarray, np.ndarray]]:
-        found: Dict[str, Tuple[List[int], List[int]]] = {}  # kind -> where its nodes begin, places
+    def _mixed(self, numbers: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
+        found: dict[str, tuple[list[int], list[int]]] = {}  # kind -> where its nodes begin, places
         at, place, codes = 0, 0, numbers.tolist()
         while at < len(codes):
             code = codes[at]
@@ -179,7 +178,7 @@ class _Document:
             result.append((kind, numbers[np.array(starts)[:, None] + np.arange(count)], np.array(places)))
         return result
 
-    def _scalars(self, attribute: ElementTree.Element, name: str) -> Optional[np.ndarray]:
+    def _scalars(self, attribute: ElementTree.Element, name: str) -> np.ndarray | None:
         kind = (attribute.get("AttributeType") or attribute.get("Type") or "Scalar").lower()
         if kind != "scalar":
             self.passed_over[f"{name} ({kind})"] = None
@@ -245,7 +244,7 @@ class _Document:
         return file
 
 
-def _placed(blocks: List[Tuple[str, np.ndarray]], kind: str, nodes: np.ndarray) -> Tuple[int, np.ndarray]:
+def _placed(blocks: list[tuple[str, np.ndarray]], kind: str, nodes: np.ndarray) -> tuple[int, np.ndarray]:
     """Places of these elements: in a block that has them all, in any order, as tags of cells do; else in an added
     block."""
     for i, (other, there) in enumerate(blocks):
@@ -261,8 +260,8 @@ def _placed(blocks: List[Tuple[str, np.ndarray]], kind: str, nodes: np.ndarray) 
 
 
 def _spread(
-    blocks: List[Tuple[str, np.ndarray]], entries: List[Tuple[int, np.ndarray, np.ndarray]]
-) -> List[np.ndarray]:
+    blocks: list[tuple[str, np.ndarray]], entries: list[tuple[int, np.ndarray, np.ndarray]]
+) -> list[np.ndarray]:
     """An array a block, NaN where nothing is said."""
     whole = [np.full(len(nodes), np.nan) for _, nodes in blocks]
     for block, at, values in entries:

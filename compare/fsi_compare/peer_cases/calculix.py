@@ -4,7 +4,6 @@ With NLGEOM its *ELASTIC is St. Venant and Kirchhoff's law, without it the linea
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Optional, Tuple
 
 from ..base.errors import InputError
 from ..base.files import LARGEST, read_text
@@ -16,10 +15,10 @@ SI = SYSTEMS["si"]
 @dataclass
 class Deck:
     path: Path
-    words: List[str]  # in our keys and units, if the deck is in SI
+    words: list[str]  # in our keys and units, if the deck is in SI
 
 
-def deck_beside(folder: Path) -> Optional[Path]:
+def deck_beside(folder: Path) -> Path | None:
     """The only .inp in the folder or one below it that has a material; None where there are none or several."""
     found = []
     for path in sorted([*folder.glob("*.inp"), *folder.glob("*/*.inp")]):
@@ -31,7 +30,7 @@ def deck_beside(folder: Path) -> Optional[Path]:
 def read_deck(path: Path) -> Deck:
     """Reads a deck. Raises InputError."""
     cards = _cards(path)
-    by_name: Dict[str, List[Tuple[int, str, List[str]]]] = {}
+    by_name: dict[str, list[tuple[int, str, list[str]]]] = {}
     for card in cards:
         by_name.setdefault(card[1].split(",")[0].strip().upper(), []).append(card)
     materials = by_name.get("*MATERIAL", [])
@@ -55,9 +54,9 @@ def read_deck(path: Path) -> Deck:
     return Deck(path, words)
 
 
-def _cards(path: Path) -> List[Tuple[int, str, List[str]]]:
+def _cards(path: Path) -> list[tuple[int, str, list[str]]]:
     """Line, keyword line, and lines of data of each."""
-    cards: List[Tuple[int, str, List[str]]] = []
+    cards: list[tuple[int, str, list[str]]] = []
     text = read_text(path, "give the deck", "write the deck as text", LARGEST)
     for number, line in enumerate(text.splitlines(), 1):
         line = line.strip()
@@ -70,7 +69,7 @@ def _cards(path: Path) -> List[Tuple[int, str, List[str]]]:
     return cards
 
 
-def _numbers(path: Path, card: Tuple[int, str, List[str]], count: int) -> List[float]:
+def _numbers(path: Path, card: tuple[int, str, list[str]], count: int) -> list[float]:
     line, keyword, data = card
     words = data[0].split(",") if data else []
     try:

@@ -1,7 +1,7 @@
 """Writes a case: case.toml and its tables. The mesh is written by fsi-mesh, from what geometry.py hands over."""
 
 from pathlib import Path
-from typing import Any, Dict, List
+from typing import Any
 
 from .model import PeerCase
 from .units import rounded
@@ -40,7 +40,7 @@ def case_text(case: PeerCase) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _section(name: str, section: Dict[str, Any]) -> List[str]:
+def _section(name: str, section: dict[str, Any]) -> list[str]:
     """Layers are sections of their own; other tables stand in one line."""
     below = {key: value for key, value in section.items() if key == "layers"}
     lines = ["", f"[{name}]"] + _entries({k: v for k, v in section.items() if k not in below})
@@ -50,7 +50,7 @@ def _section(name: str, section: Dict[str, Any]) -> List[str]:
     return lines
 
 
-def _entries(section: Dict[str, Any]) -> List[str]:
+def _entries(section: dict[str, Any]) -> list[str]:
     return [f"{key} = {value_of(value)}" for key, value in section.items()]
 
 

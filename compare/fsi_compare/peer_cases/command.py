@@ -2,7 +2,6 @@
 
 import argparse
 from pathlib import Path
-from typing import List
 
 from ..base.errors import InputError, printable, say_warning
 from ..base.files import folder
@@ -42,7 +41,7 @@ def convert_case(options: argparse.Namespace) -> int:
             "give 0 to 90 degrees: the other family mirrors it",
         )
     case = read_peer_case(options.case, units_of(options.units), angle, options.join or 0.0)
-    lines: List[str] = [f"{case.file}, a case of {case.program}, taken in {options.units}."]
+    lines: list[str] = [f"{case.file}, a case of {case.program}, taken in {options.units}."]
     lines += case.said + [f"No counterpart: {note}" for note in case.notes]
     try:
         write_case(case, options.output)

@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Optional, Sequence, Tuple
+from typing import Sequence
 
 import numpy as np
 
@@ -27,7 +27,7 @@ class Face:
     medium: str  # volume group
     triangles: np.ndarray  # (triangles, 3), points of the joined mesh
     area: float = 0.0  # mm^2
-    normal: Tuple[float, float, float] = (0.0, 0.0, 0.0)  # mean, out of its medium, of length 1
+    normal: tuple[float, float, float] = (0.0, 0.0, 0.0)  # mean, out of its medium, of length 1
     flat: bool = False
     on_interface: bool = False
 
@@ -35,8 +35,8 @@ class Face:
 @dataclass
 class CaseMesh:
     mesh: FoundMesh
-    groups: List[Group]
-    said: List[str]
+    groups: list[Group]
+    said: list[str]
     order: int
 
     def write(self, path: Path) -> None:
@@ -45,10 +45,10 @@ class CaseMesh:
             write_gmsh(out, self.mesh, self.groups)
 
 
-def plain_names(given: Sequence[str], taken: Sequence[str]) -> List[str]:
+def plain_names(given: Sequence[str], taken: Sequence[str]) -> list[str]:
     """Names for groups of the mesh and keys of the case file: letters, digits, _ and -, each once; none that means
     something of itself in a mesh of ours."""
-    names: List[str] = []
+    names: list[str] = []
     for text in given:
         name = re.sub(r"[^A-Za-z0-9_-]", "_", text) or "face"
         if name in ("inner", "wall_ends", "fluid", "all") or name.startswith("symmetry"):
@@ -62,8 +62,8 @@ def plain_names(given: Sequence[str], taken: Sequence[str]) -> List[str]:
 
 
 def read_case_mesh(
-    file: str, media: Dict[str, Path], faces: Sequence[Tuple[str, str, str, Path]], scale: float, tolerance: float
-) -> Tuple[CaseMesh, List[Face]]:
+    file: str, media: dict[str, Path], faces: Sequence[tuple[str, str, str, Path]], scale: float, tolerance: float
+) -> tuple[CaseMesh, list[Face]]:
     """Reads the mesh from files of volumes (by group) and of faces: name, the other program's name, medium and file.
     Facets of the interface of fluid and wall belong to no group of the mesh. Raises InputError."""
     sources = [Source(name, path) for name, path in media.items()]
@@ -98,8 +98,8 @@ def read_case_mesh(
 
 
 def _face(
-    mesh: FoundMesh, group: Group, given: str, medium: str, tetrahedra: Dict[str, np.ndarray], path: Path
-) -> Tuple[Face, Optional[Group]]:
+    mesh: FoundMesh, group: Group, given: str, medium: str, tetrahedra: dict[str, np.ndarray], path: Path
+) -> tuple[Face, Group | None]:
     """The face without what is on the interface, and its group."""
     triangles = np.concatenate([block.nodes[:, :3] for block in group.parts])
     opposite, uses = _owners(tetrahedra[medium], triangles)
@@ -128,7 +128,7 @@ def _face(
     return face, Group(group.name, group.dimension, [block for block in parts if len(block.nodes)])
 
 
-def _owners(tetrahedra: np.ndarray, triangles: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+def _owners(tetrahedra: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The corner of a cell that lies behind each triangle, and of how many cells it is a side."""
     sides = np.concatenate([tetrahedra[:, list(side)] for side in OPPOSITE])
     behind = np.concatenate([tetrahedra[:, k] for k in range(4)])

@@ -1,7 +1,6 @@
 """preCICE's configuration, which couples programs and holds neither mesh nor material. What it and a deck of CalculiX
 beside it say is read and told; the rest of the case is with the program of the fluid, whose mesh nothing names."""
 
-from typing import List, Optional
 
 from .calculix import deck_beside, read_deck
 from .model import PeerCase
@@ -13,9 +12,9 @@ def is_case(root: Entry) -> bool:
     return root.name == "precice-configuration"
 
 
-def read_case(root: Entry, units: Units, fibre_angle: Optional[float] = None, tolerance: float = 0.0) -> PeerCase:
+def read_case(root: Entry, units: Units, fibre_angle: float | None = None, tolerance: float = 0.0) -> PeerCase:
     """Raises InputError always: the configuration has no fluid."""
-    said: List[str] = []
+    said: list[str] = []
     participants = [entry.attribute("name") for entry in root.every() if entry.name == "participant"]
     if participants:
         said.append(f"it couples {' and '.join(participants)}")

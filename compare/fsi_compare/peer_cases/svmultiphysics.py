@@ -6,7 +6,7 @@ set_bc.cpp (a value of Dir is along the normal out of the fluid, one of Neu a pr
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 import numpy as np
 
@@ -108,21 +108,21 @@ def is_case(root: Entry) -> bool:
     return root.name == "svMultiPhysicsFile"
 
 
-def read_case(root: Entry, units: Units, fibre_angle: Optional[float] = None, tolerance: float = 0.0) -> PeerCase:
+def read_case(root: Entry, units: Units, fibre_angle: float | None = None, tolerance: float = 0.0) -> PeerCase:
     """Reads solver.xml. Raises InputError."""
     return _Reader(root, units, fibre_angle, tolerance).read()
 
 
 class _Reader:
-    def __init__(self, root: Entry, units: Units, fibre_angle: Optional[float], tolerance: float) -> None:
+    def __init__(self, root: Entry, units: Units, fibre_angle: float | None, tolerance: float) -> None:
         self.root, self.units, self.fibre_angle, self.tolerance = root, units, fibre_angle, tolerance
         self.folder = root.file.parent
         self.case = PeerCase(PROGRAM, root.file)
-        self.fluid: Dict[str, Any] = {}
-        self.structure: Dict[str, Any] = {}
-        self.openings: List[Dict[str, Any]] = []
-        self.supports: Dict[str, Dict[str, Any]] = {}
-        self.closed: List[str] = []
+        self.fluid: dict[str, Any] = {}
+        self.structure: dict[str, Any] = {}
+        self.openings: list[dict[str, Any]] = []
+        self.supports: dict[str, dict[str, Any]] = {}
+        self.closed: list[str] = []
         self.backflow = 0.2
 
     def read(self) -> PeerCase:
@@ -143,7 +143,7 @@ class _Reader:
         self._name_the_rest()
         return self.case
 
-    def _time(self, general: Entry) -> Dict[str, Any]:
+    def _time(self, general: Entry) -> dict[str, Any]:
         if general.number("Number_of_spatial_dimensions", 3) != 3:
             raise general.need("Number_of_spatial_dimensions").refuse("is not 3", "give a case in three dimensions")
         step, count = general.need("Time_step_size"), general.need("Number_of_time_steps")
@@ -156,12 +156,12 @@ class _Reader:
         value = radius.as_number() if radius else 0.5
         if radius and not 0 <= value <= 1:
             raise radius.refuse(f"{value:g} is no spectral radius", "give one from 0 to 1")
-        made: Dict[str, Any] = {"step": dt, "end": dt * steps, "scheme": "generalised-alpha", "spectral_radius": value}
+        made: dict[str, Any] = {"step": dt, "end": dt * steps, "scheme": "generalised-alpha", "spectral_radius": value}
         self.every = int(general.number("Increment_in_saving_VTK_files", 0))
         return made
 
     def _equation(self) -> Entry:
-        found: List[Entry] = []
+        found: list[Entry] = []
         for entry in self.root.all("Add_equation"):
             given = entry.attribute("type")
             if given in CMM:
@@ -218,14 +218,14 @@ class _Reader:
         words += "ends of the wall that meet them, and not where these are clamped"
         self.case.note("Add_equation mesh", where, words + (f" (Poisson_ratio {ratio.text})" if ratio else ""))
 
-    def _domains(self, equation: Entry, kind: str) -> Dict[int, Tuple[Entry, str]]:
+    def _domains(self, equation: Entry, kind: str) -> dict[int, tuple[Entry, str]]:
         """By number: the entry with the domain's values, and its equation."""
         given = equation.all("Domain")
         if not given:
             if kind == "FSI":
                 raise equation.refuse("has no Domain", "give one of the fluid and one of the wall")
             return {0: (equation, kind)}
-        domains: Dict[int, Tuple[Entry, str]] = {}
+        domains: dict[int, tuple[Entry, str]] = {}
         for entry in given:
             name = entry.attribute("id")
             if not name.lstrip("-").isdigit():
@@ -239,8 +239,8 @@ class _Reader:
             domains[int(name)] = (entry, EQUATIONS[own])
         return domains
 
-    def _media(self, domains: Dict[int, Tuple[Entry, str]], kind: str) -> List[Medium]:
-        media: List[Medium] = []
+    def _media(self, domains: dict[int, tuple[Entry, str]], kind: str) -> list[Medium]:
+        media: list[Medium] = []
         for entry in self.root.all("Add_mesh"):
             given = entry.attribute("name")
             for word in ("Set_mesh_as_shell", "Set_mesh_as_fibers"):
@@ -277,14 +277,14 @@ class _Reader:
             medium.name = "fluid"
         return media
 
-    def _mesh(self, media: List[Medium]) -> CaseMesh:
+    def _mesh(self, media: list[Medium]) -> CaseMesh:
         scales = {medium.entry.number("Mesh_scale_factor", 1.0) for medium in media}
         if len(scales) > 1:
             raise media[-1].entry.refuse("has a Mesh_scale_factor of its own", "give all meshes one unit of length")
         (scale,) = scales
         if scale <= 0:
             raise media[0].entry.need("Mesh_scale_factor").refuse(f"{scale:g} is not positive", "give one above 0")
-        faces: List[Tuple[Entry, Medium, str]] = []
+        faces: list[tuple[Entry, Medium, str]] = []
         for medium in media:
             for entry in medium.entry.all("Add_face"):
                 given = entry.attribute("name")
@@ -323,8 +323,8 @@ class _Reader:
             raise entry.refuse(f"there is no file {path}", "give its path, from the folder of the case")
         return path
 
-    def _domain_values(self, media: List[Medium], domains: Dict[int, Tuple[Entry, str]], kind: str) -> Dict[str, Layer]:
-        layers: Dict[str, Layer] = {}
+    def _domain_values(self, media: list[Medium], domains: dict[int, tuple[Entry, str]], kind: str) -> dict[str, Layer]:
+        layers: dict[str, Layer] = {}
         for medium in media:
             entry, own = domains[medium.domain]
             if medium.kind == "fluid":
@@ -373,7 +373,7 @@ class _Reader:
             )
 
     def _conditions(self, equation: Entry, kind: str) -> None:
-        by_face: Dict[str, List[Entry]] = {face.given: [] for face in self.case.faces}
+        by_face: dict[str, list[Entry]] = {face.given: [] for face in self.case.faces}
         for entry in equation.all("Add_BC"):
             given = entry.attribute("name")
             if given not in by_face:
@@ -396,7 +396,7 @@ class _Reader:
                 if not entries:
                     self.case.said.append(f"{face.given}: a free face of the wall")
 
-    def _opening(self, face: Face, entries: List[Entry]) -> None:
+    def _opening(self, face: Face, entries: list[Entry]) -> None:
         if len(entries) > 1:
             raise entries[1].refuse("is a second condition of a face of the fluid", "give one")
         if not entries:
@@ -443,7 +443,7 @@ class _Reader:
                 f"a velocity (no Impose_flux): a flow_rate of it times {share:g} times the area, {face.area:.6g} mm^2"
             )
             self.case.note(entry.key, f"line {entry.line}", words, True)
-        opening: Dict[str, Any] = {"surface": face.name}
+        opening: dict[str, Any] = {"surface": face.name}
         if dependence == "Steady":
             opening["flow_rate"] = factor * value
         else:
@@ -454,7 +454,7 @@ class _Reader:
 
     def _given_pressure(self, face: Face, entry: Entry) -> None:
         dependence = entry.word("Time_dependence", "Steady")
-        opening: Dict[str, Any] = {"surface": face.name}
+        opening: dict[str, Any] = {"surface": face.name}
         pressure = self.units.pressure
         if dependence == "Steady":
             value = entry.number("Value", 0.0) * pressure
@@ -477,7 +477,7 @@ class _Reader:
             f"{face.given}: {', '.join(k for k in opening if k not in ('surface', 'backflow')) or 'free of traction'}"
         )
 
-    def _windkessel(self, values: Entry) -> Dict[str, Any]:
+    def _windkessel(self, values: Entry) -> dict[str, Any]:
         resistance, pressure = self.units.resistance, self.units.pressure
         return {
             "proximal": self._positive(values.need("Proximal_resistance")) * resistance,
@@ -499,7 +499,7 @@ class _Reader:
         return entry.refuse(f"Time_dependence '{given}' has no counterpart", f"there are {there_are}")
 
     @staticmethod
-    def _direction(entry: Entry) -> List[float]:
+    def _direction(entry: Entry) -> list[float]:
         found = entry.find("Effective_direction")
         if found is None:
             return []
@@ -512,7 +512,7 @@ class _Reader:
             raise found.refuse(f"'{found.text}' is no direction", "write, for one, (0, 0, 1)")
         return numbers
 
-    def _wave(self, entry: Entry) -> Tuple[Waveform, str]:
+    def _wave(self, entry: Entry) -> tuple[Waveform, str]:
         series, coefficients = entry.find("Temporal_values_file_path"), entry.find("Fourier_coefficients_file_path")
         if series is not None:
             wave, error = read_series(self._file(series), entry.yes("Ramp_function", False))
@@ -529,13 +529,13 @@ class _Reader:
             return wave, f"its Fourier series of {len(wave.real)} modes"
         raise entry.refuse("is Unsteady without values", "give Temporal_values_file_path")
 
-    def _table(self, face: Face, entry: Entry, key: str, header: Tuple[str, str], factor: float) -> Dict[str, Any]:
+    def _table(self, face: Face, entry: Entry, key: str, header: tuple[str, str], factor: float) -> dict[str, Any]:
         """Keys of an opening or a support, whose rows are in a file beside the case."""
         wave, words = self._wave(entry)
         name = f"{face.name}.csv"
         rows = [(time * self.units.time, value * factor) for time, value in wave.rows()]
         self.case.tables[name] = Table(header, rows)
-        made: Dict[str, Any] = {key: {"file": name}}
+        made: dict[str, Any] = {key: {"file": name}}
         if not wave.ramp:
             made["period"] = wave.period * self.units.time
         self.case.note(entry.key, f"line {entry.line}", f"{name}: {words}, in {len(rows)} rows")
@@ -568,7 +568,7 @@ class _Reader:
         if len(support) == 1:
             del self.supports[face.name]
 
-    def _wall_load(self, face: Face, entry: Entry, dependence: str, support: Dict[str, Any]) -> None:
+    def _wall_load(self, face: Face, entry: Entry, dependence: str, support: dict[str, Any]) -> None:
         if entry.yes("Undeforming_neu_face", False):
             raise entry.need("Undeforming_neu_face").refuse("keeps a loaded face in its shape", "take it out")
         if dependence not in ("Steady", "Unsteady"):
@@ -591,7 +591,7 @@ class _Reader:
             self.case.note(entry.key, f"line {entry.line}", words, True)
         self.case.said.append(f"{face.given}: a pressure on the wall")
 
-    def _assemble(self, mesh: CaseMesh, time: Dict[str, Any], layers: Dict[str, Layer], kind: str) -> None:
+    def _assemble(self, mesh: CaseMesh, time: dict[str, Any], layers: dict[str, Layer], kind: str) -> None:
         sections = self.case.sections
         sections["title"] = f"{absolute(self.root.file).parent.name or self.root.file.stem}, from {PROGRAM}"
         sections["element"] = "p1" if mesh.order == 1 else "p2p1"
@@ -619,8 +619,8 @@ class _Reader:
 
     def _name_the_rest(self) -> None:
         """A line for each kind of entry that no reader took."""
-        found: Dict[str, List[Entry]] = {}
-        skipped: List[Entry] = []
+        found: dict[str, list[Entry]] = {}
+        skipped: list[Entry] = []
         for entry in self.root.every():
             if entry.parent is not None and entry.parent in skipped:
                 skipped.append(entry)

@@ -15,7 +15,7 @@ and the penalty of a change of volume, of which ours has the first:
 """
 
 from dataclasses import dataclass, field
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any, Callable
 
 from .units import Units
 from .xml_file import Entry
@@ -56,18 +56,18 @@ class Layer:
     """`constants` of [structure.layers.NAME]; `bulk_modulus` where the law takes that of [structure]; notes: entry,
     what is done, whether it matters."""
 
-    constants: Dict[str, Any]
+    constants: dict[str, Any]
     density: float
-    bulk_modulus: Optional[float] = None
-    notes: List[Tuple[Entry, str, bool]] = field(default_factory=list)
+    bulk_modulus: float | None = None
+    notes: list[tuple[Entry, str, bool]] = field(default_factory=list)
 
 
-def young_and_poisson(mu: float, bulk: float) -> Tuple[float, float]:
+def young_and_poisson(mu: float, bulk: float) -> tuple[float, float]:
     """Young's modulus and Poisson's ratio of a shear and a bulk modulus."""
     return 9 * bulk * mu / (3 * bulk + mu), (3 * bulk - 2 * mu) / (2 * (3 * bulk + mu))
 
 
-def layer_of(domain: Entry, equation: str, units: Units, fibre_angle: Optional[float]) -> Layer:
+def layer_of(domain: Entry, equation: str, units: Units, fibre_angle: float | None) -> Layer:
     """A layer from the domain of a wall. Raises InputError for what has no counterpart."""
     density = domain.number("Density", 0.5) * units.density
     if density <= 0:
@@ -130,22 +130,20 @@ def _solid(at: Entry, bulk: float) -> None:
         raise at.refuse(problem, "give Poisson_ratio below 0.5 or a Penalty_parameter")
 
 
-def _neo_hookean(at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, _: Optional[float]) -> None:
+def _neo_hookean(at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, _: float | None) -> None:
     _solid(at, bulk)
     young, poisson = young_and_poisson(mu, bulk)
     layer.constants = {"material": "neo-hookean", "young": young, "poisson": poisson}
 
 
-def _mooney_rivlin(
-    at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, _: Optional[float]
-) -> None:
+def _mooney_rivlin(at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, _: float | None) -> None:
     _solid(at, bulk)
     c1, c2 = (2 * at.number(name) * units.pressure for name in ("c1", "c2"))
     layer.constants = {"material": "mooney-rivlin", "c10": c1, "c01": c2}
     layer.bulk_modulus = bulk
 
 
-def _saint_venant(at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, _: Optional[float]) -> None:
+def _saint_venant(at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, _: float | None) -> None:
     if nu >= 0.5:
         raise at.refuse("stVK is incompressible, Poisson_ratio 0.5", "give less than 0.5")
     lame = 2 * mu * nu / (1 - 2 * nu)
@@ -159,7 +157,7 @@ def _saint_venant(at: Entry, mu: float, bulk: float, nu: float, units: Units, la
 
 
 def _two_families(
-    at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, angle: Optional[float]
+    at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, angle: float | None
 ) -> None:
     _solid(at, bulk)
     a4, b4, a6, b6, kappa = (at.number(name) for name in ("a4", "b4", "a6", "b6", "kappa"))
@@ -183,7 +181,7 @@ def _two_families(
     layer.notes.append((at, words, True))
 
 
-MAKERS: Dict[str, Callable[[Entry, float, float, float, Units, Layer, Optional[float]], None]] = {
+MAKERS: dict[str, Callable[[Entry, float, float, float, Units, Layer, float | None], None]] = {
     "neoHookean": _neo_hookean,
     "MR": _mooney_rivlin,
     "stVK": _saint_venant,
@@ -219,7 +217,7 @@ def _viscosity(domain: Entry, units: Units, layer: Layer) -> None:
     layer.constants["viscosity"] = value
 
 
-def viscosity_of(domain: Entry, units: Units) -> Tuple[Dict[str, Any], List[Tuple[Entry, str, bool]]]:
+def viscosity_of(domain: Entry, units: Units) -> tuple[dict[str, Any], list[tuple[Entry, str, bool]]]:
     """Keys of [fluid], and notes. Raises InputError."""
     entry = domain.need("Viscosity")
     model = entry.attribute("model")
@@ -240,7 +238,7 @@ def viscosity_of(domain: Entry, units: Units) -> Tuple[Dict[str, Any], List[Tupl
         at_rest, high = positive("Limiting_low_shear_rate_viscosity", mu), positive(
             "Limiting_high_shear_rate_viscosity", mu
         )
-        law: Dict[str, Any] = {"name": "carreau-yasuda", "mu0": at_rest, "mu_inf": high}
+        law: dict[str, Any] = {"name": "carreau-yasuda", "mu0": at_rest, "mu_inf": high}
         law["lambda"] = positive("Shear_rate_tensor_multiplier", seconds)
         law["a"], law["n"] = positive("Shear_rate_tensor_exponent", 1.0), entry.number("Power_law_index")
         return {"viscosity_model": law}, []

@@ -1,7 +1,6 @@
 """Units of a case whose program has none of its own: whatever three units it was written in, to mm, mg and ms."""
 
 from dataclasses import dataclass
-from typing import Dict
 
 from ..base.errors import InputError
 from ..base.suggestions import nearest
@@ -56,7 +55,7 @@ class Units:
 
 
 CGS = Units("cgs", 10.0, 1000.0, 1000.0)
-SYSTEMS: Dict[str, Units] = {
+SYSTEMS: dict[str, Units] = {
     "cgs": CGS,  # cm, g, s: what svMultiPhysics and SimVascular are used with
     "si": Units("si", 1000.0, 1e6, 1000.0),  # m, kg, s
     "mm-g-s": Units("mm-g-s", 1.0, 1000.0, 1000.0),

@@ -6,7 +6,7 @@ import math
 import xml.parsers.expat as expat
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Dict, Iterator, List, Optional
+from typing import Iterator
 
 from ..base.errors import InputError
 from ..base.files import DEEPEST, LARGEST, read_bytes
@@ -18,11 +18,11 @@ class Entry:
 
     file: Path
     name: str
-    attributes: Dict[str, str]
+    attributes: dict[str, str]
     line: int
-    parent: Optional["Entry"] = None
+    parent: "Entry | None" = None
     text: str = ""
-    children: List["Entry"] = field(default_factory=list)
+    children: list["Entry"] = field(default_factory=list)
     taken: bool = False
 
     @property
@@ -36,13 +36,13 @@ class Entry:
     def refuse(self, problem: str, remedy: str) -> InputError:
         return InputError(self.file, f"line {self.line}: {self.key}", problem, remedy)
 
-    def all(self, name: str) -> List["Entry"]:
+    def all(self, name: str) -> list["Entry"]:
         found = [child for child in self.children if child.name == name]
         for child in found:
             child.taken = True
         return found
 
-    def find(self, name: str) -> Optional["Entry"]:
+    def find(self, name: str) -> "Entry | None":
         """The last of this name, as programs that read one after the other have it."""
         found = self.all(name)
         return found[-1] if found else None
@@ -63,7 +63,7 @@ class Entry:
         found = self.find(name)
         return found.text if found else default
 
-    def number(self, name: str, default: Optional[float] = None) -> float:
+    def number(self, name: str, default: float | None = None) -> float:
         """The number in the entry of this name. Raises InputError where it is missing without a default, or not
         finite."""
         found = self.find(name)
@@ -101,10 +101,10 @@ def read_xml(path: Path) -> Entry:
     """The root. Raises InputError."""
     data = read_bytes(path, "give the file of the case", "give the .xml file of a case", LARGEST)
     parser = expat.ParserCreate(namespace_separator=None)
-    open_entries: List[Entry] = []
-    roots: List[Entry] = []
+    open_entries: list[Entry] = []
+    roots: list[Entry] = []
 
-    def start(name: str, attributes: Dict[str, str]) -> None:
+    def start(name: str, attributes: dict[str, str]) -> None:
         if len(open_entries) >= DEEPEST:
             raise InputError(path, f"line {parser.CurrentLineNumber}", f"has more than {DEEPEST} levels", "mend it")
         parent = open_entries[-1] if open_entries else None

@@ -4,7 +4,7 @@ import argparse
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Callable, Sequence
 
 import numpy as np
 
@@ -47,8 +47,8 @@ examples:
 @dataclass(frozen=True)
 class Reference:
     folder: Path
-    waves: Dict[str, Waves]  # by quantity's column
-    step: Optional[float]  # ms; None: extrapolated to zero
+    waves: dict[str, Waves]  # by quantity's column
+    step: float | None  # ms; None: extrapolated to zero
 
 
 @dataclass(frozen=True)
@@ -58,11 +58,11 @@ class Accuracy:
     label: str
     element: str
     geometry: str
-    nodes: Optional[int]
+    nodes: int | None
     step: float  # ms
     steps: int
     seconds: float  # of all time steps
-    errors: Dict[str, List[float]]  # by quantity's column: at each time, relative
+    errors: dict[str, list[float]]  # by quantity's column: at each time, relative
     summary: dict  # all of summary.json
 
     def worst(self, quantity: Quantity) -> float:
@@ -121,7 +121,7 @@ def require_lines(folder: Path) -> None:
             raise InputError(folder / q.file, "", problem, remedy)
 
 
-def _step(waves: Dict[str, Waves]) -> float:
+def _step(waves: dict[str, Waves]) -> float:
     """The last one, ms."""
     times = waves[PRESSURE.column].times
     return float(times[-1] - times[-2]) if len(times) > 1 else float(times[-1])
@@ -174,7 +174,7 @@ RUNS: Sequence[Column[Accuracy]] = (
 )
 
 
-def _percents(q: Quantity, times: Sequence[float]) -> List[Column[Accuracy]]:
+def _percents(q: Quantity, times: Sequence[float]) -> list[Column[Accuracy]]:
     """Columns of the error at each time, its mean and its maximum."""
 
     def column(head: str, value: Callable[[Accuracy], float]) -> Column[Accuracy]:
@@ -195,13 +195,13 @@ def _percents(q: Quantity, times: Sequence[float]) -> List[Column[Accuracy]]:
 def _facts(found: Sequence[Accuracy], times: Sequence[float]) -> Facts:
     """A line for each time of each run."""
 
-    def of_run(column: Column[Accuracy]) -> Column[Tuple[Accuracy, int]]:
+    def of_run(column: Column[Accuracy]) -> Column[tuple[Accuracy, int]]:
         return Column(csv=column.name, value=lambda r: column.value(r[0]), behind=column.behind)
 
-    def of_quantity(q: Quantity) -> Column[Tuple[Accuracy, int]]:
+    def of_quantity(q: Quantity) -> Column[tuple[Accuracy, int]]:
         return Column(csv=f"{CSV[q.column]}_relative_L2", value=lambda r: r[0].errors[q.column][r[1]])
 
-    time: Column[Tuple[Accuracy, int]] = Column(csv="time", unit="ms", value=lambda r: times[r[1]])
+    time: Column[tuple[Accuracy, int]] = Column(csv="time", unit="ms", value=lambda r: times[r[1]])
     columns = [*map(of_run, RUNS), time, *map(of_quantity, QUANTITIES)]
     return Facts(columns, [(one, place) for one in found for place in range(len(times))])
 

@@ -3,7 +3,7 @@
 import argparse
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Optional, Sequence
+from typing import Sequence
 
 from ..base.errors import InputError, printable
 from ..base.files import exists, folder, together
@@ -47,22 +47,22 @@ class Cost:
     label: str
     program: str  # "monolithic" or "partitioned"
     mesh: str
-    unknowns: Optional[int]
-    threads: Optional[int]  # of each process
+    unknowns: int | None
+    threads: int | None  # of each process
     processes: int
     steps: int
     seconds: float  # of all time steps
-    coupling_mean: Optional[float]  # coupling iterations per step; None: monolithic
-    coupling_range: Optional[tuple]
+    coupling_mean: float | None  # coupling iterations per step; None: monolithic
+    coupling_range: tuple | None
     newton: int
     linear: int
-    solves: Dict[str, int]  # linear solves, by system
-    preparations: Dict[str, int]  # factorisations or set-ups of a preconditioner, by system
-    displacement_residual: Optional[float]  # largest of the steps
-    force_residual: Optional[float]
-    memory_mib: Optional[float]
-    restarted_from: Optional[int]
-    work_units: Optional[float]  # per step; None: not measured
+    solves: dict[str, int]  # linear solves, by system
+    preparations: dict[str, int]  # factorisations or set-ups of a preconditioner, by system
+    displacement_residual: float | None  # largest of the steps
+    force_residual: float | None
+    memory_mib: float | None
+    restarted_from: int | None
+    work_units: float | None  # per step; None: not measured
     summary: dict  # all of summary.json
 
     @property
@@ -129,9 +129,9 @@ def read_cost(folder: Path, label: str) -> Cost:
     )
 
 
-def calls(phases: dict, kinds: Sequence[str]) -> Dict[str, int]:
+def calls(phases: dict, kinds: Sequence[str]) -> dict[str, int]:
     """How often phases "KIND: SYSTEM" were entered, by system."""
-    found: Dict[str, int] = {}
+    found: dict[str, int] = {}
     for name, phase in phases.items():
         kind, colon, system = name.partition(": ")
         if colon and kind in kinds:
@@ -140,7 +140,7 @@ def calls(phases: dict, kinds: Sequence[str]) -> Dict[str, int]:
 
 
 def _solves(head: str, system: str) -> Column[Cost]:
-    def per_step(cost: Cost) -> Optional[float]:
+    def per_step(cost: Cost) -> float | None:
         count = cost.solves.get(system)
         return None if count is None else count / cost.steps
 
@@ -154,8 +154,8 @@ def _calls(counts: str, csv: str, system: str) -> Column[Cost]:
 SYSTEMS = {"whole": COUPLED, "fluid": FLUID, "wall": WALL, "mesh": MESH}  # by their names in tables
 
 
-def _work_units(first: Cost) -> List[Column[Cost]]:
-    def relative(cost: Cost) -> Optional[float]:
+def _work_units(first: Cost) -> list[Column[Cost]]:
+    def relative(cost: Cost) -> float | None:
         return cost.work_units / first.work_units if cost.work_units and first.work_units else None
 
     return [
@@ -166,10 +166,10 @@ def _work_units(first: Cost) -> List[Column[Cost]]:
     ]
 
 
-def cost_columns(first: Cost) -> List[Column[Cost]]:
+def cost_columns(first: Cost) -> list[Column[Cost]]:
     """`first`: the run that the others' seconds and work units are relative to."""
 
-    def relative(cost: Cost) -> Optional[float]:
+    def relative(cost: Cost) -> float | None:
         return cost.seconds_per_step / first.seconds_per_step if first.seconds_per_step > 0 else None
 
     return [
@@ -221,7 +221,7 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
     return Table("cost", title, cost_columns(costs[0]), costs, notes=cost_notes(costs))
 
 
-def cost_notes(costs: Sequence[Cost]) -> List[str]:
+def cost_notes(costs: Sequence[Cost]) -> list[str]:
     machines = about_machines([c.summary for c in costs])
     notes = [f"{machines}."] if machines else []
     if any(c.work_units is not None for c in costs):

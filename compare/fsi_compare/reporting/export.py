@@ -2,7 +2,6 @@
 
 import argparse
 from pathlib import Path
-from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
@@ -62,16 +61,16 @@ def export(options: argparse.Namespace) -> int:
 
 
 def write_series(
-    place: Path, name: str, medium: MediumFields, fields: List[str], times: Optional[List[float]] = None
+    place: Path, name: str, medium: MediumFields, fields: list[str], times: list[float] | None = None
 ) -> int:
     """NAME.pvd and a VTU file for each time, by default those that all of the fields were written at. Returns how many
     files. Raises InputError for a time outside of them."""
     at = common_times(medium, fields) if times is None else times
     digits = max(4, len(str(len(at))))
-    series: List[Tuple[float, str]] = []
+    series: list[tuple[float, str]] = []
     for number, time in enumerate(at):
-        of_points: Dict[str, np.ndarray] = {}
-        of_cells: Dict[str, np.ndarray] = {}
+        of_points: dict[str, np.ndarray] = {}
+        of_cells: dict[str, np.ndarray] = {}
         for field in fields:
             values = medium.at(time, field)
             if values.ndim == 2 and values.shape[1] == 6:
@@ -86,7 +85,7 @@ def write_series(
     return len(series) + 1
 
 
-def common_times(medium: MediumFields, fields: List[str]) -> List[float]:
+def common_times(medium: MediumFields, fields: list[str]) -> list[float]:
     """Times in ms that all of these fields were written at."""
     common = set(medium.times_of(fields[0]).tolist())
     for field in fields[1:]:
@@ -94,7 +93,7 @@ def common_times(medium: MediumFields, fields: List[str]) -> List[float]:
     return sorted(common)
 
 
-def _wanted_fields(text: Optional[str], media: Dict[str, MediumFields]) -> Optional[List[str]]:
+def _wanted_fields(text: str | None, media: dict[str, MediumFields]) -> list[str] | None:
     if text is None:
         return None
     known = sorted({field for medium in media.values() for field in medium.names})
@@ -106,7 +105,7 @@ def _wanted_fields(text: Optional[str], media: Dict[str, MediumFields]) -> Optio
     return wanted
 
 
-def _read_times(text: Optional[str]) -> Optional[List[float]]:
+def _read_times(text: str | None) -> list[float] | None:
     """Increasing."""
     if text is None:
         return None

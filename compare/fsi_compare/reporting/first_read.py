@@ -1,7 +1,7 @@
 """What a reader of a report is told first: what was computed, whether it can be trusted, flows and pressures of the
 openings, what it cost."""
 
-from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 
@@ -14,10 +14,10 @@ from .layout import Table
 
 PA_PER_KPA, MMHG_PER_KPA = 1000.0, 7.50062
 SUPPLIED = ("inlet_work", "load_work", "inlet_kinetic_inflow", "support_work")  # columns of energy.csv
-Labelled = Tuple[str, RunResults]
+Labelled = tuple[str, RunResults]
 
 
-def case_lines(runs: Sequence[RunResults], labels: Sequence[str]) -> List[str]:
+def case_lines(runs: Sequence[RunResults], labels: Sequence[str]) -> list[str]:
     """The case in words, one fact a line; a fact that differs between runs is said of each."""
     facts = {
         "case": [run.title for run in runs],
@@ -78,12 +78,12 @@ def _choices(run: RunResults) -> str:
     )
 
 
-def _total(run: RunResults, name: str) -> Optional[float]:
+def _total(run: RunResults, name: str) -> float | None:
     value = run.summary.get("totals", {}).get(name)
     return float(value) if isinstance(value, (int, float)) else None
 
 
-def _share_of_supply(run: RunResults, column: str) -> Optional[float]:
+def _share_of_supply(run: RunResults, column: str) -> float | None:
     """Sum of |values| of a column of the energy balance over that of all that was supplied."""
     energy = run.energy
     if energy is None or column not in energy:
@@ -92,20 +92,20 @@ def _share_of_supply(run: RunResults, column: str) -> Optional[float]:
     return float(np.abs(energy[column]).sum()) / supply if supply > 0 else None
 
 
-def _ringing(run: RunResults) -> Optional[float]:
+def _ringing(run: RunResults) -> float | None:
     """Largest sawtooth of a mean pressure, relative to the largest range of one."""
     curves = [opening.mean_pressure for opening in run.openings.values()]
     span = max((float(np.ptp(curve)) for curve in curves), default=0.0)
     return max(sawtooth(curve) for curve in curves) / span if span > 0 else None
 
 
-def interface_shares(run: RunResults) -> Tuple[Optional[float], Optional[float]]:
+def interface_shares(run: RunResults) -> tuple[float | None, float | None]:
     """Largest gap between fluid and wall over the interface's largest displacement, and the mean imbalance of tractions
     over the fluid's, of the steps looked at. None: the run did not watch it, or nothing moved."""
     found = run.summary.get("interface")
     if not isinstance(found, dict):
         return None, None
-    entries: Dict[str, Any] = found
+    entries: dict[str, Any] = found
 
     def number(name: str) -> float:
         value = entries.get(name)
@@ -195,9 +195,9 @@ class Varying(NamedTuple):
     layer: str
     constant: str
     unit: str
-    smallest: Optional[float]
-    mean: Optional[float]
-    largest: Optional[float]
+    smallest: float | None
+    mean: float | None
+    largest: float | None
     sources: str
 
 
@@ -244,9 +244,9 @@ class Thickness(NamedTuple):
 
     run: str
     layer: str
-    smallest: Optional[float]  # mm
+    smallest: float | None  # mm
     smallest_at: str  # mm
-    largest: Optional[float]
+    largest: float | None
     largest_at: str
 
 
@@ -281,17 +281,17 @@ def thickness_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     return Table("thickness", "Thickness of the wall", THICKNESS, records, notes=[note])
 
 
-def _place(entry: Dict[str, Any], name: str) -> str:
+def _place(entry: dict[str, Any], name: str) -> str:
     found = entry.get(name)
     numbers = found if isinstance(found, list) else []
     return ", ".join(f"{x:.4g}" for x in numbers if isinstance(x, (int, float)))
 
 
-def _word(entry: Dict[str, Any], name: str) -> str:
+def _word(entry: dict[str, Any], name: str) -> str:
     return printable(str(entry.get(name, "")))
 
 
-def _number(entry: Dict[str, Any], name: str) -> Optional[float]:
+def _number(entry: dict[str, Any], name: str) -> float | None:
     value = entry.get(name)
     return float(value) if isinstance(value, (int, float)) else None
 
@@ -299,7 +299,7 @@ def _number(entry: Dict[str, Any], name: str) -> Optional[float]:
 class OfOpening(NamedTuple):
     run: str
     opening: Opening
-    share: Optional[float]  # of what flows out, over the last cycle or the run
+    share: float | None  # of what flows out, over the last cycle or the run
     window: np.ndarray  # levels that count
 
 
@@ -341,7 +341,7 @@ OPENINGS: Sequence[Column[OfOpening]] = (
 def openings_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     """Flows and pressures over the last cycle of runs that repeat, else over all times."""
     records = []
-    cycles: Dict[str, float] = {}
+    cycles: dict[str, float] = {}
     for run, label in zip(runs, labels):
         if not run.openings:
             continue
@@ -368,7 +368,7 @@ def _mean(opening: Opening, window: np.ndarray) -> float:
     return float(opening.flow[window].mean())
 
 
-def _period(run: RunResults) -> Optional[float]:
+def _period(run: RunResults) -> float | None:
     openings = list(run.openings.values())
     return period_of(openings[0].time, {o.name: o.flow for o in openings}) if openings else None
 
@@ -402,7 +402,7 @@ def cycles_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     return Table("cycles", "From cycle to cycle", CHANGES, records, notes=[note])
 
 
-def _each_step(run: RunResults, name: str) -> Optional[float]:
+def _each_step(run: RunResults, name: str) -> float | None:
     total, steps = _total(run, name), _total(run, "steps")
     return total / steps if total is not None and steps else None
 

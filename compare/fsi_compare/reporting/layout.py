@@ -5,7 +5,7 @@ import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any, List, Optional, Sequence, Tuple
+from typing import Any, Sequence
 
 from ..base.errors import printable
 from ..base.files import replacing
@@ -21,23 +21,23 @@ class Table:
     title: str
     columns: Sequence[Column[Any]]
     records: Sequence[Any]
-    facts: Optional[Facts] = None
-    notes: List[str] = field(default_factory=list)
+    facts: Facts | None = None
+    notes: list[str] = field(default_factory=list)
 
     @cached_property
-    def shown(self) -> List[Column[Any]]:
+    def shown(self) -> list[Column[Any]]:
         """The columns that people read."""
         return [column for column in self.columns if column.head]
 
     @cached_property
-    def heads(self) -> List[Tuple[str, str]]:
+    def heads(self) -> list[tuple[str, str]]:
         """(group, name) of each of them."""
         return [tuple(t.replace("{unit}", c.unit) for t in (c.group, c.head)) for c in self.shown]  # type: ignore[misc]
 
     @cached_property
-    def spans(self) -> List[Tuple[str, int, int]]:
+    def spans(self) -> list[tuple[str, int, int]]:
         """(group, first column, end): neighbours of the same group are one span, those without are one each."""
-        found: List[Tuple[str, int, int]] = []
+        found: list[tuple[str, int, int]] = []
         for i, (group, _) in enumerate(self.heads):
             same = bool(found) and bool(group) and found[-1][0] == group
             found.append((group, found.pop()[1] if same else i, i + 1))
@@ -48,20 +48,20 @@ class Table:
         return any(group for group, _ in self.heads)
 
     @cached_property
-    def rows(self) -> List[List[str]]:
+    def rows(self) -> list[list[str]]:
         return [[column.shown(record) for column in self.shown] for record in self.records]
 
     @cached_property
-    def _csv(self) -> List[Column[Any]]:
+    def _csv(self) -> list[Column[Any]]:
         columns = self.columns if self.facts is None else self.facts.columns
         return sorted((column for column in columns if column.csv), key=lambda column: column.behind)
 
     @property
-    def csv_columns(self) -> List[str]:
+    def csv_columns(self) -> list[str]:
         return [column.name for column in self._csv]
 
     @cached_property
-    def csv_rows(self) -> List[List[Any]]:
+    def csv_rows(self) -> list[list[Any]]:
         records = self.records if self.facts is None else self.facts.records
         return [[column.value(record) for column in self._csv] for record in records]
 
@@ -115,7 +115,7 @@ def _field(cell: Any) -> Any:
     return repr(float(cell)) if math.isfinite(cell) else None
 
 
-def write_tables(folder: Path, tables: Sequence[Table], markdown: str, heading: str) -> List[Path]:
+def write_tables(folder: Path, tables: Sequence[Table], markdown: str, heading: str) -> list[Path]:
     """Writes each table as CSV, and all into one Markdown file of that name."""
     with replacing(folder / markdown) as temporary:
         temporary.write_text("\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]), encoding="utf-8")

@@ -3,7 +3,6 @@
 import argparse
 import math
 from pathlib import Path
-from typing import Optional, Tuple
 
 from ..base.errors import InputError, printable
 from ..base.files import output_folder
@@ -71,7 +70,7 @@ def make(options: argparse.Namespace) -> int:
     return 0
 
 
-def read_range(text: Optional[str]) -> Optional[Tuple[float, float]]:
+def read_range(text: str | None) -> tuple[float, float] | None:
     """Reads two increasing numbers. Raises InputError."""
     if text is None:
         return None

@@ -3,7 +3,7 @@
 import textwrap
 import warnings
 from pathlib import Path
-from typing import Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Callable, Sequence
 
 from matplotlib.artist import Artist
 import matplotlib
@@ -48,7 +48,7 @@ MARKED_LINES = (
 )
 
 # Nothing of the day or the version of a program: the same data give the same file.
-METADATA: Dict[str, Dict[str, None]] = {
+METADATA: dict[str, dict[str, None]] = {
     ".png": {"Software": None},
     ".svg": {"Date": None, "Creator": None},
     ".pdf": {"CreationDate": None, "Creator": None, "Producer": None},
@@ -74,12 +74,12 @@ STYLE = {
 
 def write_pressure_waves(
     folder: Path, waves: Sequence[PressureWaves], labels: Sequence[str], times: Sequence[float], title: str
-) -> List[Path]:
+) -> list[Path]:
     """Writes `pressure_waves.png` and `.svg`; each run is drawn at its own points."""
     return write_figure(folder, "pressure_waves", lambda: pressure_figure(waves, labels, times, title))
 
 
-def write_figure(folder: Path, stem: str, draw: Callable[[], Figure]) -> List[Path]:
+def write_figure(folder: Path, stem: str, draw: Callable[[], Figure]) -> list[Path]:
     """Writes `stem.png` and `.svg` of the figure that `draw` makes."""
     paths = [folder / f"{stem}.png", folder / f"{stem}.svg"]
     _save(paths, draw, DPI)
@@ -147,7 +147,7 @@ def finish(
     handles: Sequence[Artist],
     labels: Sequence[str],
     title: str,
-    panels: Optional[Tuple[float, float]] = None,
+    panels: tuple[float, float] | None = None,
 ) -> Figure:
     """The figure, done: puts the heading above the panels and the legend below them, each in a strip of its own so that
     it covers no curve, and sets the figure's size; `panels` are width and height of the panels together, in inches: the

@@ -1,6 +1,6 @@
 """Where the largest values of a run are: a table whose rows turn the view to their place."""
 
-from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 
@@ -23,7 +23,7 @@ class Place(NamedTuple):
     point: np.ndarray  # mm, (3,), reference
 
     @property
-    def look(self) -> Dict[str, Any]:
+    def look(self) -> dict[str, Any]:
         """The place that the page's view turns to."""
         point = [float(f"{x:.7g}") for x in self.point]
         return {"quantity": self.key, "time": self.time, "run": self.number, "part": self.part, "point": point}
@@ -59,7 +59,7 @@ APART: Sequence[Column[Apart]] = (
 )
 
 
-def places_table(scene: ReportScene) -> Tuple[Table, List[Dict[str, Any]]]:
+def places_table(scene: ReportScene) -> tuple[Table, list[dict[str, Any]]]:
     """The table, and what each row turns the view to."""
     records = []
     for number, run in enumerate(scene.runs):
@@ -74,9 +74,9 @@ def places_table(scene: ReportScene) -> Tuple[Table, List[Dict[str, Any]]]:
     return table, [record.look for record in records]
 
 
-def largest_of(run: RunScene, number: int, key: str) -> Optional[Place]:
+def largest_of(run: RunScene, number: int, key: str) -> Place | None:
     """Where a field is largest; None where the run has no such quantity, or where it is zero throughout."""
-    best: Optional[Place] = None
+    best: Place | None = None
     for part in run.parts:
         quantity = run.scene.quantities.get(key, {}).get(part.surface.medium.name)
         values = None if quantity is None else run.fields.get(f"{part.name}/{quantity.field}")

@@ -4,7 +4,7 @@ it does not show, and the pictures beside it stay."""
 
 import base64
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Sequence, Tuple
+from typing import Any, Sequence
 
 import numpy as np
 
@@ -45,21 +45,21 @@ class Panel:
     """One diagram; its curves are all of one kind. Axes are (quantity, unit)."""
 
     title: str
-    x: Tuple[str, str]
-    y: Tuple[str, str]
-    lines: List[MovingLine] = field(default_factory=list)
-    series: List[Series] = field(default_factory=list)
+    x: tuple[str, str]
+    y: tuple[str, str]
+    lines: list[MovingLine] = field(default_factory=list)
+    series: list[Series] = field(default_factory=list)
 
 
 @dataclass
 class Player:
-    runs: List[str]  # names
-    panels: List[Panel]
+    runs: list[str]  # names
+    panels: list[Panel]
 
-    def values(self) -> Dict[str, Any]:
+    def values(self) -> dict[str, Any]:
         """The data of the page's element, and notes on what was left out to keep the page small."""
         panels = [panel for panel in self.panels if panel.lines or panel.series]
-        notes: List[str] = []
+        notes: list[str] = []
         content = {
             "times": _short(self._times(panels)),
             "runs": [{"name": name, **_style(i)} for i, name in enumerate(self.runs)],
@@ -81,7 +81,7 @@ class Player:
         times = np.unique(np.round(np.concatenate([np.atleast_1d(t) for t in found] or [np.zeros(1)]), 9))
         return times if len(times) <= MOST_TIMES else np.linspace(times[0], times[-1], MOST_TIMES)
 
-    def _panel(self, panel: Panel, levels: int, notes: List[str]) -> Dict[str, Any]:
+    def _panel(self, panel: Panel, levels: int, notes: list[str]) -> dict[str, Any]:
         curves = []
         for line in panel.lines:
             rows, points = thinned(len(line.times), levels), thinned(len(line.x), MOST_POINTS)
@@ -114,7 +114,7 @@ def thinned(count: int, most: int) -> np.ndarray:
     return np.arange(count) if count <= most else np.unique(np.linspace(0, count - 1, most).round().astype(int))
 
 
-def packed(values: np.ndarray) -> Dict[str, Any]:
+def packed(values: np.ndarray) -> dict[str, Any]:
     """Numbers in 16 bits each, to 1/65534 of their range; NaN and infinity become 65535."""
     flat = np.asarray(values, dtype=float).ravel()
     finite = np.isfinite(flat)
@@ -128,7 +128,7 @@ def packed(values: np.ndarray) -> Dict[str, Any]:
     return {"low": low, "step": step, "data": base64.b64encode(numbers.tobytes()).decode("ascii")}
 
 
-def axis(values: np.ndarray) -> Dict[str, Any]:
+def axis(values: np.ndarray) -> dict[str, Any]:
     """Increasing numbers to nine digits."""
     steps = np.diff(values)
     if len(values) > 2 and np.ptp(steps) <= 1e-9 * abs(float(values[-1])):
@@ -136,11 +136,11 @@ def axis(values: np.ndarray) -> Dict[str, Any]:
     return {"numbers": _short(values)}
 
 
-def _short(numbers: np.ndarray) -> List[float]:
+def _short(numbers: np.ndarray) -> list[float]:
     return [float(f"{number:.9g}") for number in numbers]
 
 
-def _style(place: int) -> Dict[str, Any]:
+def _style(place: int) -> dict[str, Any]:
     line = LINES[place % len(LINES)]
     kind = line["linestyle"]
     dash = DASHES[kind] if isinstance(kind, str) else " ".join(f"{1.5 * part:g}" for part in kind[1])  # type: ignore

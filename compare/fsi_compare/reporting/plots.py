@@ -1,7 +1,7 @@
 """Plots of runs for scripts and notebooks. Each draws into the axes that it is given, or into new ones, and returns
 them; curves are told apart without colour, too."""
 
-from typing import Any, Optional, Sequence
+from typing import Any, Sequence
 
 import matplotlib.pyplot as pyplot
 from matplotlib.axes import Axes
@@ -20,14 +20,14 @@ def plot_line(
     time: float,
     line: str = "centre_line",
     quantity: str = "pressure",
-    axes: Optional[Axes] = None,
+    axes: Axes | None = None,
 ) -> Axes:
     """A quantity along a line at one time in ms, a curve for each run that has the line: `line` is 'centre_line'
     ('pressure'), 'wall_line' ('radial', 'axial') or a line of the case. Raises InputError when no run has it."""
     axes = axes or _new()
     drawn = 0
     for run in runs:
-        found: Optional[Line] = getattr(run, line) if line in OF_RUNS else run.lines.get(line)
+        found: Line | None = getattr(run, line) if line in OF_RUNS else run.lines.get(line)
         if found is not None:
             axes.plot(found.s, found.at(time, quantity), label=run.label, **_style(drawn))
             axes.set_ylabel(f"{quantity} in {found.units[quantity]}")
@@ -39,7 +39,7 @@ def plot_line(
     return axes
 
 
-def plot_openings(runs: Sequence[RunResults], quantity: str = "flow", axes: Optional[Axes] = None) -> Axes:
+def plot_openings(runs: Sequence[RunResults], quantity: str = "flow", axes: Axes | None = None) -> Axes:
     """'flow' (positive outwards) or 'mean_pressure' of all openings over time, a curve for each run and opening. Raises
     InputError when no run has openings."""
     axes = axes or _new()
@@ -57,7 +57,7 @@ def plot_openings(runs: Sequence[RunResults], quantity: str = "flow", axes: Opti
     return axes
 
 
-def plot_energy(run: RunResults, columns: Sequence[str] = (), axes: Optional[Axes] = None) -> Axes:
+def plot_energy(run: RunResults, columns: Sequence[str] = (), axes: Axes | None = None) -> Axes:
     """Columns of the energy balance over time, without names those that end in 'energy'. Raises InputError when the run
     has no such column."""
     axes = axes or _new()

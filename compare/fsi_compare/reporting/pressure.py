@@ -2,7 +2,7 @@
 
 import argparse
 import math
-from typing import List, Sequence
+from typing import Sequence
 
 from ..base.errors import InputError, printable, say_warning
 from ..base.files import folder, together
@@ -76,7 +76,7 @@ def pressure(options: argparse.Namespace) -> int:
     return 0
 
 
-def read_times(text: str) -> List[float]:
+def read_times(text: str) -> list[float]:
     times = []
     for part in text.split(","):
         try:

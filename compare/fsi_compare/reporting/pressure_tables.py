@@ -3,7 +3,7 @@
 import json
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Sequence
 
 from ..base.errors import printable
 from ..base.files import replacing
@@ -21,12 +21,12 @@ class Comparison:
 
     labels: Sequence[str]
     times: Sequence[float]  # ms
-    at_times: List[List[Difference]]  # [run after the first][time]
-    over_time: List[OverTime]  # [run after the first]
-    peaks: List[List[Crest]]  # [run][time]
-    speeds: List[Optional[float]]  # [run], mm/ms
-    conditions: List[Conditions]  # [run]
-    warnings: List[str]  # in what the runs' meshes, steps and lengths differ
+    at_times: list[list[Difference]]  # [run after the first][time]
+    over_time: list[OverTime]  # [run after the first]
+    peaks: list[list[Crest]]  # [run][time]
+    speeds: list[float | None]  # [run], mm/ms
+    conditions: list[Conditions]  # [run]
+    warnings: list[str]  # in what the runs' meshes, steps and lengths differ
 
 
 def compare_pressure(runs: Sequence[Run], labels: Sequence[str], times: Sequence[float]) -> Comparison:
@@ -95,12 +95,12 @@ def _difference_row(name: str, d: Difference) -> str:
     )
 
 
-def _relative(value: Optional[float]) -> str:
+def _relative(value: float | None) -> str:
     return "n/a" if value is None else f"{value:.2e}"
 
 
 # Of (run's label, time, place, pressure).
-WAVES: Sequence[Column[Tuple[str, float, float, float]]] = (
+WAVES: Sequence[Column[tuple[str, float, float, float]]] = (
     Column(csv="run", value=lambda w: w[0]),
     Column(csv="time", unit="ms", value=lambda w: float(w[1])),
     Column(csv="z", unit="mm", value=lambda w: float(w[2])),
@@ -119,7 +119,7 @@ def write_json(path: Path, comparison: Comparison) -> None:
     """The printed numbers in full precision; null where the table says n/a."""
     runs = []
     for i, label in enumerate(comparison.labels):
-        run: Dict[str, Any] = {
+        run: dict[str, Any] = {
             "run": label,
             "mesh": comparison.conditions[i].mesh or None,
             "step_ms": [comparison.conditions[i].smallest_step, comparison.conditions[i].largest_step],

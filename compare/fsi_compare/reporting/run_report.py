@@ -1,7 +1,7 @@
 """`fsi-compare report`: finished runs beside each other in one HTML file through which the reader moves in time."""
 
 import argparse
-from typing import TYPE_CHECKING, NamedTuple, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, NamedTuple, Sequence
 
 from ..base.errors import InputError, printable, say_note
 from ..base.files import folder, together
@@ -140,7 +140,7 @@ def default_title(runs: Sequence[RunResults]) -> str:
     return titles.pop() if len(titles) == 1 and "" not in titles else "Runs beside each other"
 
 
-RUNS: Sequence[Column[Tuple[str, RunResults]]] = (
+RUNS: Sequence[Column[tuple[str, RunResults]]] = (
     Column("run", "run", lambda r: r[0], left=True),
     Column("program", "program", lambda r: r[1].program, left=True),
     Column("case", "title", lambda r: r[1].title, left=True),
@@ -174,7 +174,7 @@ def named(run: RunResults, entry: str) -> str:
     return printable(run.summary.get(entry, ""))
 
 
-def end_of(run: RunResults) -> Optional[float]:
+def end_of(run: RunResults) -> float | None:
     """ms, the last time that a line or an opening has; None where there is neither."""
     ends = [line.times[-1] for line in (run.centre_line, run.wall_line) if line is not None]
     ends += [opening.time[-1] for opening in run.openings.values()]
@@ -209,7 +209,7 @@ class Apart(NamedTuple):
 
     run: str
     quantity: str
-    difference: Optional[Difference]
+    difference: Difference | None
     levels: int
 
 

@@ -2,7 +2,7 @@
 templates/scene*.js."""
 
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Any, Sequence
 
 import numpy as np
 
@@ -28,17 +28,17 @@ class RunScene:
 
     name: str
     scene: Scene
-    parts: List[Part]
+    parts: list[Part]
     times: np.ndarray  # ms, (frames,)
-    fields: Dict[str, np.ndarray] = field(default_factory=dict)  # "part/field" -> (frames, points[, components])
+    fields: dict[str, np.ndarray] = field(default_factory=dict)  # "part/field" -> (frames, points[, components])
     apart: bool = False  # stored as differences from the first run, which has the same points and times
 
 
 class ReportScene:
     """The scene of one or several runs. `notes` say what was left out."""
 
-    def __init__(self, names: Sequence[str], scenes: Sequence[Scene], frames: Optional[int] = None) -> None:
-        self.notes: List[str] = []
+    def __init__(self, names: Sequence[str], scenes: Sequence[Scene], frames: int | None = None) -> None:
+        self.notes: list[str] = []
         self.runs = [RunScene(name, scene, *self._thinned(name, scene)) for name, scene in zip(names, scenes)]
         self._choose_times(frames)
         for run in self.runs:
@@ -60,7 +60,7 @@ class ReportScene:
             )
         return parts, np.zeros(0)
 
-    def _choose_times(self, frames: Optional[int]) -> None:
+    def _choose_times(self, frames: int | None) -> None:
         """Chooses times: at most `frames`, and as many as the page may hold."""
         a_time = sum(self._numbers(run) for run in self.runs)
         most = max(FEWEST_FRAMES, min(frames or MOST_FRAMES, MOST_NUMBERS // max(a_time, 1)))
@@ -80,7 +80,7 @@ class ReportScene:
         )
 
     @staticmethod
-    def _fields(part: Part) -> List[str]:
+    def _fields(part: Part) -> list[str]:
         return [name for name in part.surface.names if part.shows(name)]
 
     def _read(self, run: RunScene) -> None:
@@ -88,7 +88,7 @@ class ReportScene:
         for medium in run.scene.meshes.media.values():
             for name in medium.names:
                 parts = [part for part in run.parts if part.surface.medium is medium and part.shows(name)]
-                levels: List[List[np.ndarray]] = [[] for _ in parts]
+                levels: list[list[np.ndarray]] = [[] for _ in parts]
                 for time in _within(run.times, medium.times_of(name)) if parts else np.zeros(0):
                     interruption.check()
                     values = medium.at(float(time), name)
@@ -109,9 +109,9 @@ class ReportScene:
         else:
             run.apart = set(run.fields) == set(first.fields)
 
-    def values(self) -> Dict[str, Any]:
+    def values(self) -> dict[str, Any]:
         """The data of the page's element."""
-        content: Dict[str, Any] = {
+        content: dict[str, Any] = {
             "runs": [self._run(run) for run in self.runs],
             "quantities": self._quantities(),
             "first": self.runs[0].scene.first,
@@ -127,7 +127,7 @@ class ReportScene:
         }
         return {"content": content, "notes": list(dict.fromkeys(self.notes))}
 
-    def _run(self, run: RunScene) -> Dict[str, Any]:
+    def _run(self, run: RunScene) -> dict[str, Any]:
         parts = []
         for part in run.parts:
             prefix = f"{part.name}/"
@@ -152,14 +152,14 @@ class ReportScene:
             )
         return {"name": run.name, "times": _short(run.times), "parts": parts, "apart": run.apart}
 
-    def _quantities(self) -> List[Dict[str, Any]]:
-        keys: Dict[str, Quantity] = {}
+    def _quantities(self) -> list[dict[str, Any]]:
+        keys: dict[str, Quantity] = {}
         for run in self.runs:
             for key in run.scene.quantities:
                 keys.setdefault(key, run.scene.quantity(key))
         return [self._quantity(key, quantity) for key, quantity in keys.items()]
 
-    def _quantity(self, key: str, quantity: Quantity) -> Dict[str, Any]:
+    def _quantity(self, key: str, quantity: Quantity) -> dict[str, Any]:
         media = sorted({name for run in self.runs for name in run.scene.quantities.get(key, {})})
         words = quantity.words + (" in the wall" if key.startswith("wall_pressure") else "")
         scale = scale_of((level for run in self.runs for level in self.levels(run, key)), quantity.signed)
@@ -175,7 +175,7 @@ class ReportScene:
             "apart": [_scale(scale_of_difference(self.apart(run, key))) for run in self.runs[1:]],
         }
 
-    def levels(self, run: RunScene, key: str) -> List[np.ndarray]:
+    def levels(self, run: RunScene, key: str) -> list[np.ndarray]:
         """Values of each part at each time."""
         found = []
         for part in run.parts:
@@ -185,20 +185,20 @@ class ReportScene:
                 found += [quantity.of(level) for level in values]
         return found
 
-    def apart(self, run: RunScene, key: str) -> List[np.ndarray]:
+    def apart(self, run: RunScene, key: str) -> list[np.ndarray]:
         """Differences from the first run."""
         return [b - a for a, b in zip(self.levels(self.runs[0], key), self.levels(run, key))] if run.apart else []
 
-    def _box(self) -> Dict[str, Any]:
+    def _box(self) -> dict[str, Any]:
         points = np.concatenate([part.surface.points for run in self.runs for part in run.parts])
         return {"low": _short(points.min(axis=0)), "high": _short(points.max(axis=0))}
 
-    def _plane(self) -> Optional[Dict[str, Any]]:
+    def _plane(self) -> dict[str, Any] | None:
         plane = self.runs[0].scene.plane
         return None if plane is None else {"origin": _short(plane.origin), "normal": _short(plane.normal)}
 
-    def _views(self) -> List[Dict[str, Any]]:
-        found: List[Dict[str, Any]] = []
+    def _views(self) -> list[dict[str, Any]]:
+        found: list[dict[str, Any]] = []
         for name, camera, target in views_of(self.runs[0].scene.meshes):
             view = {"name": name, "towards": _short(camera.axes[2]), "up": _short(camera.axes[1])}
             found.append(view if target is None else {**view, "target": _short(target)})
@@ -218,11 +218,11 @@ def _within(times: np.ndarray, of_field: np.ndarray) -> np.ndarray:
     return np.clip(times, of_field[0], of_field[-1])
 
 
-def _scale(scale: Scale) -> Dict[str, Any]:
-    ends: Dict[str, float] = {"low": scale.low, "high": scale.high, "least": scale.least, "largest": scale.largest}
-    found: Dict[str, Any] = {name: float(f"{end:.6g}") if np.isfinite(end) else None for name, end in ends.items()}
+def _scale(scale: Scale) -> dict[str, Any]:
+    ends: dict[str, float] = {"low": scale.low, "high": scale.high, "least": scale.least, "largest": scale.largest}
+    found: dict[str, Any] = {name: float(f"{end:.6g}") if np.isfinite(end) else None for name, end in ends.items()}
     return {**found, "diverging": scale.diverging, "map": scale.map}
 
 
-def _short(numbers: np.ndarray) -> List[float]:
+def _short(numbers: np.ndarray) -> list[float]:
     return [float(f"{number:.{DECIMALS}g}") for number in numbers]

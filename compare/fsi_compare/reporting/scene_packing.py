@@ -3,7 +3,7 @@ deflated, in base64. templates/scene_data.js reads them."""
 
 import base64
 import zlib
-from typing import Any, Dict
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +11,7 @@ NONE = 65535
 LEVEL = 6
 
 
-def packed_numbers(values: np.ndarray) -> Dict[str, Any]:
+def packed_numbers(values: np.ndarray) -> dict[str, Any]:
     """Rows of numbers, (rows, ...), in 16 bits each, to 1/65534 of their range; what is no number stays none."""
     rows = np.asarray(values, dtype=float).reshape(len(values), -1)
     finite = np.isfinite(rows)
@@ -22,7 +22,7 @@ def packed_numbers(values: np.ndarray) -> Dict[str, Any]:
     return {"low": low, "step": step, "rows": len(rows), "data": _deflated(numbers)}
 
 
-def packed_counts(numbers: np.ndarray) -> Dict[str, Any]:
+def packed_counts(numbers: np.ndarray) -> dict[str, Any]:
     """Whole numbers from zero, one row."""
     row = np.asarray(numbers).ravel()
     before = np.concatenate([[0], row[:-1]]).astype(np.int64)

@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import NamedTuple, Optional
+from typing import NamedTuple
 
 from .scene_packing import deflated_text
 
@@ -23,7 +23,7 @@ class Library(NamedTuple):
     program: str  # deflated, in base64
 
 
-def library() -> Optional[Library]:
+def library() -> Library | None:
     """Reads three.js; None where the package is not installed."""
     try:
         program = PROGRAM.read_text(encoding="utf-8")

@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import List, Optional, Sequence
+from typing import Sequence
 
 import numpy as np
 
@@ -30,17 +30,17 @@ class State:
     program: str
     status: str
     steps: int = 0
-    planned: Optional[int] = None
+    planned: int | None = None
     time: float = 0.0  # ms
-    step_seconds: Optional[float] = None
-    curves: List[Curve] = field(default_factory=list)
+    step_seconds: float | None = None
+    curves: list[Curve] = field(default_factory=list)
 
     @property
     def over(self) -> bool:
         return self.status in OVER
 
     @property
-    def seconds_left(self) -> Optional[float]:
+    def seconds_left(self) -> float | None:
         if self.planned is None or self.step_seconds is None or self.over:
             return None
         return max(self.planned - self.steps, 0) * self.step_seconds
@@ -69,7 +69,7 @@ def state_of(folder: Path) -> State:
     return state
 
 
-def planned_steps(log: Path) -> Optional[int]:
+def planned_steps(log: Path) -> int | None:
     """The number of steps in the log's first line; None for adaptive steps, or without a log."""
     try:
         with open(log, encoding="utf-8", errors="replace") as file:

@@ -2,7 +2,6 @@
 pieces."""
 
 from dataclasses import dataclass
-from typing import List, Tuple
 
 import numpy as np
 
@@ -53,7 +52,7 @@ def straight_cells(cells: np.ndarray) -> np.ndarray:
     return cells[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]]].reshape(-1, 3)
 
 
-def _parts(face: Tuple[int, ...], nodes: int) -> List[List[int]]:
+def _parts(face: tuple[int, ...], nodes: int) -> list[list[int]]:
     """Straight parts of a face of a cell, in the cell's own numbers."""
     if nodes not in MIDDLES:
         return [list(face)]
@@ -67,7 +66,7 @@ def _parts(face: Tuple[int, ...], nodes: int) -> List[List[int]]:
     return [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
 
 
-def _sorted(a: int, b: int) -> Tuple[int, int]:
+def _sorted(a: int, b: int) -> tuple[int, int]:
     return (a, b) if a < b else (b, a)
 
 

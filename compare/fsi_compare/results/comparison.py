@@ -1,7 +1,7 @@
 """How far two runs are apart along a line, in the norms of `fsi-compare pressure`."""
 
 from dataclasses import dataclass
-from typing import Optional, Sequence
+from typing import Sequence
 
 import numpy as np
 
@@ -24,7 +24,7 @@ class LineDifference:
 
 
 def difference(
-    line: Optional[Line], reference: Optional[Line], quantity: str, times: Optional[Sequence[float]] = None
+    line: Line | None, reference: Line | None, quantity: str, times: Sequence[float] | None = None
 ) -> LineDifference:
     """Difference of one quantity between the lines of two runs, on the points of the reference; linear between points
     and between time levels. `times` in ms; without them the levels of the reference that the other run reaches. Raises

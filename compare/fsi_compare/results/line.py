@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Mapping, Optional
+from typing import Mapping
 
 import numpy as np
 
@@ -22,7 +22,7 @@ class Line:
     s: np.ndarray  #: mm along the line in the reference configuration, increasing, (points,)
     values: Mapping[str, np.ndarray]  #: by quantity, (levels, points)
     units: Mapping[str, str]  #: of each quantity
-    points: Optional[np.ndarray] = None  #: reference positions, mm, (points, 3); None: not recorded
+    points: np.ndarray | None = None  #: reference positions, mm, (points, 3); None: not recorded
 
     def __getitem__(self, quantity: str) -> np.ndarray:
         """(levels, points). Raises InputError."""
@@ -37,7 +37,7 @@ class Line:
         return f"<Line {self.name}: {len(self.times)} levels, {len(self.s)} points; {quantities}>"
 
     @property
-    def vectors(self) -> List[str]:
+    def vectors(self) -> list[str]:
         """Quantities of which all three components are there: 'velocity' for 'velocity_x', ..."""
         heads = [name[:-2] for name in self.values if name.endswith(VECTOR[0])]
         return [head for head in heads if all(head + end in self.values for end in VECTOR)]
@@ -82,6 +82,6 @@ def line_of(name: str, path: Path, samples: Samples, position: str = "z_mm") -> 
     )
 
 
-def lines_of(path: Path, finished: bool = True) -> Dict[str, Line]:
+def lines_of(path: Path, finished: bool = True) -> dict[str, Line]:
     """All lines of `lines.csv` by name; `finished`: see read_samples(). Raises InputError."""
     return {name: line_of(name, path, line, "s_mm") for name, line in read_samples(path, finished).items()}

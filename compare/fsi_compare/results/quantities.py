@@ -1,7 +1,7 @@
 """What of a field is shown as one number for each node: magnitudes and components of vectors, stresses of tensors."""
 
 from dataclasses import dataclass
-from typing import Callable, List
+from typing import Callable
 
 import numpy as np
 
@@ -48,12 +48,12 @@ def _von_mises(values: np.ndarray) -> np.ndarray:
     return np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (xy**2 + xz**2 + yz**2))
 
 
-def quantities_of(medium: MediumFields) -> List[Quantity]:
+def quantities_of(medium: MediumFields) -> list[Quantity]:
     """Quantities of all fields of a medium, in the order of their names."""
     return [quantity for field in medium.names for quantity in quantities_of_field(medium, field)]
 
 
-def quantities_of_field(medium: MediumFields, field: str) -> List[Quantity]:
+def quantities_of_field(medium: MediumFields, field: str) -> list[Quantity]:
     words, unit = WORDS.get(field, field.replace("_", " ")), medium.units[field]
     width = medium.width(field)
     if width == 1:

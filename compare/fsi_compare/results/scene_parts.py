@@ -1,7 +1,7 @@
 """What of a run is shown together: its surfaces by group, and which fields each has."""
 
 from dataclasses import dataclass
-from typing import Dict, List, Optional, Sequence, Tuple
+from typing import Sequence
 
 import numpy as np
 
@@ -15,7 +15,7 @@ OF_BOTH = ("displacement", "velocity")  # fields of fluid and wall that are one 
 FIRST = {False: ("wall_shear_stress", "displacement", "pressure"), True: ("velocity", "displacement", "pressure")}
 SNAPS = 0.995  # cosine of the angle to a coordinate axis that a cut's normal takes
 # Surfaces that are there by their group. Those of two-dimensional meshes are edges, which are swept around the axis.
-GROUPS: Dict[bool, Tuple[Tuple[str, str], ...]] = {
+GROUPS: dict[bool, tuple[tuple[str, str], ...]] = {
     False: (("lumen", "lumen"), ("openings", "openings"), ("inner", "wall"), ("outer", "wall")),
     True: (
         ("fluid section", "section"),
@@ -44,7 +44,7 @@ class CutPlane:
     normal: np.ndarray  # of length 1, (3,)
 
 
-def parts_of(meshes: Surfaces, plane: Optional[CutPlane]) -> List[Part]:
+def parts_of(meshes: Surfaces, plane: CutPlane | None) -> list[Part]:
     names = meshes.names
     found = [Part(name, group, meshes.get(name)) for name, group in GROUPS[meshes.flat] if name in names]
     if plane is not None and not meshes.flat:
@@ -53,7 +53,7 @@ def parts_of(meshes: Surfaces, plane: Optional[CutPlane]) -> List[Part]:
     return found
 
 
-def middle_plane(meshes: Surfaces) -> Optional[CutPlane]:
+def middle_plane(meshes: Surfaces) -> CutPlane | None:
     """Through the middle of the fluid (without one, of the wall), spanned by the directions in which it spreads most;
     None in two dimensions."""
     if meshes.flat:
@@ -72,9 +72,9 @@ def key_of(medium: str, quantity: Quantity) -> str:
     return f"wall_{quantity.key}" if other else quantity.key
 
 
-def scene_quantities(meshes: Surfaces) -> Dict[str, Dict[str, Quantity]]:
+def scene_quantities(meshes: Surfaces) -> dict[str, dict[str, Quantity]]:
     """Quantities by key, then by medium."""
-    found: Dict[str, Dict[str, Quantity]] = {}
+    found: dict[str, dict[str, Quantity]] = {}
     for name, medium in meshes.media.items():
         for quantity in quantities_of(medium):
             if not (meshes.flat and quantity.key.endswith(_idle_component(meshes))):
@@ -104,10 +104,10 @@ def camera_of(meshes: Surfaces, swept: bool = False) -> Camera:
     return Camera(np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0]))
 
 
-def views_of(meshes: Surfaces) -> List[Tuple[str, Camera, Optional[np.ndarray]]]:
+def views_of(meshes: Surfaces) -> list[tuple[str, Camera, np.ndarray | None]]:
     """Names, directions to look from (the usual one, along the axes, from the openings), and the middle to look at in
     mm."""
-    found: List[Tuple[str, Camera, Optional[np.ndarray]]] = [
+    found: list[tuple[str, Camera, np.ndarray | None]] = [
         ("section" if meshes.flat else "oblique", camera_of(meshes), None)
     ]
     if meshes.geometry == "axisymmetric":

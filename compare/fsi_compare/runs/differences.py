@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass
-from typing import Any, List, Optional, Sequence
+from typing import Any, Sequence
 
 import numpy as np
 
@@ -14,9 +14,9 @@ class Difference:
     """Norms of p - p_reference over the centre line; the relative ones are None where the reference is zero."""
 
     max_norm: float  # Pa
-    max_relative: Optional[float]  # to max |p_reference| at the same time
+    max_relative: float | None  # to max |p_reference| at the same time
     l2_norm: float  # Pa mm^(1/2)
-    l2_relative: Optional[float]  # to the L2 norm of p_reference at the same time
+    l2_relative: float | None  # to the L2 norm of p_reference at the same time
 
 
 def l2_norm(z: np.ndarray, values: np.ndarray) -> float:
@@ -39,7 +39,7 @@ def difference(z: np.ndarray, reference: np.ndarray, other: np.ndarray) -> Diffe
     )
 
 
-def differences_at(reference: PressureWaves, other: PressureWaves, times: Sequence[float]) -> List[Difference]:
+def differences_at(reference: PressureWaves, other: PressureWaves, times: Sequence[float]) -> list[Difference]:
     """Differences at the given times, in ms, on the reference's points."""
     other = other.on(reference.z)
     return [difference(reference.z, reference.at(time), other.at(time)) for time in times]
@@ -50,7 +50,7 @@ class OverTime:
     """Each norm's largest value over the time levels that both runs have."""
 
     levels: int
-    largest: Optional[Difference]  # None when there is no common level
+    largest: Difference | None  # None when there is no common level
 
 
 def largest_difference(reference: PressureWaves, other: PressureWaves) -> OverTime:

@@ -1,7 +1,7 @@
 """Names of runs in tables and pictures: those that the user gives, or the shortest that tell the runs apart."""
 
 from pathlib import Path
-from typing import List, Optional, Sequence
+from typing import Sequence
 
 from ..base.errors import InputError, printable
 from ..base.files import absolute
@@ -9,7 +9,7 @@ from .coupling import coupling_words
 from .run_folder import Run
 
 
-def read_labels(text: Optional[str], runs: int) -> Optional[List[str]]:
+def read_labels(text: str | None, runs: int) -> list[str] | None:
     if text is None:
         return None
     labels = [printable(label.strip()) for label in text.split(",")]
@@ -42,7 +42,7 @@ def default_labels(runs: Sequence[Run]) -> list:
     return [f"{label} ({i})" for i, label in enumerate(choices[-1], 1)]
 
 
-def folder_labels(folders: Sequence[Path]) -> List[str]:
+def folder_labels(folders: Sequence[Path]) -> list[str]:
     """The folders' names, or their paths where two names are the same."""
     names = [printable(absolute(folder).name) for folder in folders]
     return [name if names.count(name) == 1 else printable(str(folder)) for name, folder in zip(names, folders)]

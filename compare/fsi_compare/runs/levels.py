@@ -1,7 +1,6 @@
 """Values along a line over time, as tables hold them: a block of lines for each time level, the same points in each."""
 
 from pathlib import Path
-from typing import Tuple
 
 import numpy as np
 
@@ -9,7 +8,7 @@ from ..base.errors import InputError
 from .columns import INTERRUPTED, numbers, read_fields
 
 
-def read_levels(path: Path, column: str) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+def read_levels(path: Path, column: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times (levels,), places z (points,) and values (levels, points) of a CSV with `time_ms`, `z_mm` and the column.
     Raises InputError."""
     wanted = ("time_ms", "z_mm", column)

@@ -1,7 +1,6 @@
 """The pressure along the centre line over time, and the wave in it: crests and their speed."""
 
 from dataclasses import dataclass
-from typing import Optional, Tuple
 
 import numpy as np
 
@@ -32,7 +31,7 @@ class PressureWaves:
         """Whether `time`, in ms, lies between the first and the last level."""
         return self.times[0] - self.time_tolerance <= time <= self.times[-1] + self.time_tolerance
 
-    def level(self, time: float) -> Optional[int]:
+    def level(self, time: float) -> int | None:
         """Index of the level at `time`, in ms; None when no level is there."""
         nearest = int(np.argmin(np.abs(self.times - time)))
         return nearest if abs(self.times[nearest] - time) <= self.time_tolerance else None
@@ -81,7 +80,7 @@ def peak(z: np.ndarray, pressure: np.ndarray) -> Crest:
     return crest_at(z, pressure, int(np.argmax(pressure)))
 
 
-def crest_speed(waves: PressureWaves, window: Tuple[float, float] = SPEED_WINDOW_MS) -> Optional[float]:
+def crest_speed(waves: PressureWaves, window: tuple[float, float] = SPEED_WINDOW_MS) -> float | None:
     """Speed in mm/ms of the main crest: slope of the least-squares line through its positions at the levels of
     `window`.
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Optional
+from typing import Any
 
 from ..base.errors import InputError, printable
 from ..base.files import read_object
@@ -18,10 +18,10 @@ class WaveReference:
 
     folder: Path
     description: str  # how it was computed
-    own_error: Dict[str, float]  # by quantity's column, relative L2
-    waves: Dict[str, Waves]  # by quantity's column
-    case: Dict[str, Any]  # the physical entries of the case that it solves, by dotted key; empty: not recorded
-    step: Optional[float] = None  # ms; None: extrapolated to zero
+    own_error: dict[str, float]  # by quantity's column, relative L2
+    waves: dict[str, Waves]  # by quantity's column
+    case: dict[str, Any]  # the physical entries of the case that it solves, by dotted key; empty: not recorded
+    step: float | None = None  # ms; None: extrapolated to zero
 
     def of(self, quantity: Quantity) -> Waves:
         return self.waves[quantity.column]

@@ -1,6 +1,6 @@
 """What a curve over time tells of its run: whether it alternates from step to step, and whether it repeats."""
 
-from typing import Mapping, Optional
+from typing import Mapping
 
 import numpy as np
 
@@ -15,7 +15,7 @@ def sawtooth(values: np.ndarray) -> float:
     return float(pairs.max()) if len(pairs) else 0.0
 
 
-def period_of(times: np.ndarray, flows: Mapping[str, np.ndarray]) -> Optional[float]:
+def period_of(times: np.ndarray, flows: Mapping[str, np.ndarray]) -> float | None:
     """The shortest time in ms after which a flow repeats, twice at least; None where none does, or for unequal
     steps."""
     steps = np.diff(times)

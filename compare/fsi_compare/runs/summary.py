@@ -3,7 +3,7 @@
 import math
 import shlex
 from pathlib import Path
-from typing import Any, Callable, Dict, Mapping, Optional, Union
+from typing import Any, Callable, Mapping
 
 from ..base.errors import InputError
 from ..base.files import read_object
@@ -29,11 +29,11 @@ PER_PROCESS = (
 MOST = 1 << 53  # counts up to here are exact as floating-point numbers too
 
 
-def _text(value: Any) -> Optional[str]:
+def _text(value: Any) -> str | None:
     return None if isinstance(value, str) else "is not a text"
 
 
-def _number(value: Any) -> Optional[str]:
+def _number(value: Any) -> str | None:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return "is not a number"
     if isinstance(value, float) and not math.isfinite(value):
@@ -41,13 +41,13 @@ def _number(value: Any) -> Optional[str]:
     return None if 0 <= value < 1e100 else "is negative" if value < 0 else "is too large"
 
 
-def _count(value: Any) -> Optional[str]:
+def _count(value: Any) -> str | None:
     if isinstance(value, bool) or not isinstance(value, int):
         return "is not a whole number"
     return None if 0 <= value <= MOST else "is negative" if value < 0 else "is too large"
 
 
-def _spread(value: Any) -> Optional[str]:
+def _spread(value: Any) -> str | None:
     """A number that is the same on all processes, or the least, the mean and the largest of theirs."""
     if not isinstance(value, dict):
         return _number(value)
@@ -64,7 +64,7 @@ class _Each(dict):
     """Entries of any name, all of one shape."""
 
 
-Shape = Union[Callable[[Any], Optional[str]], Mapping[str, Any]]
+Shape = Callable[[Any], str | None] | Mapping[str, Any]
 SHAPE: Mapping[str, Shape] = {
     "title": _text,
     "version": _text,
@@ -89,7 +89,7 @@ SHAPE: Mapping[str, Shape] = {
 }
 
 
-def read_summary(path: Path) -> Dict[str, Any]:
+def read_summary(path: Path) -> dict[str, Any]:
     """Reads the summary of a run that reached its end. Only `program` and `status` are demanded; an entry that is null
     counts as missing. Raises InputError naming the key."""
     summary = read_object(path, FINISHED, AGAIN)
@@ -98,7 +98,7 @@ def read_summary(path: Path) -> Dict[str, Any]:
     return checked(path, summary)
 
 
-def checked(path: Path, summary: Dict[str, Any]) -> Dict[str, Any]:
+def checked(path: Path, summary: dict[str, Any]) -> dict[str, Any]:
     """The entries without nulls. Raises InputError for an entry of another kind."""
     return _checked(path, "", summary, SHAPE)
 

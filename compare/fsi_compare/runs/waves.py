@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, Sequence, Union
+from typing import Sequence
 
 import numpy as np
 
@@ -38,7 +38,7 @@ class Waves:
     def covers(self, time: float) -> bool:
         return self.times[0] - 1e-6 <= time <= self.times[-1] + 1e-6
 
-    def at(self, times: Union[Sequence[float], np.ndarray], z: np.ndarray) -> np.ndarray:
+    def at(self, times: Sequence[float] | np.ndarray, z: np.ndarray) -> np.ndarray:
         """(times, z), linear between levels and points; a level nearer than 1e-6 ms is taken as it is."""
         rows = []
         for time in times:
@@ -81,7 +81,7 @@ def averaged(waves: Waves, times: Sequence[float], window: float = WINDOW) -> Wa
     return Waves(np.array(times, dtype=float), waves.z, np.array(rows))
 
 
-def read_run(folder: Path, times: Sequence[float]) -> Dict[str, Waves]:
+def read_run(folder: Path, times: Sequence[float]) -> dict[str, Waves]:
     """All quantities of a result folder by column, the averaged pressure at `times` (ms). Raises InputError."""
     waves = {q.column: read_waves(folder / q.file, q.column) for q in WRITTEN}
     return {**waves, AVERAGED.column: averaged(waves[PRESSURE.column], times)}

@@ -4,7 +4,7 @@ A work unit is the seconds of one product with the coupled matrix, which each ru
 (docs/guide/solvers.md, "Work units").
 """
 
-from typing import Any, List, Mapping, Optional, Sequence
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import printable
 
@@ -18,13 +18,13 @@ NOTE = (
 NOTE_IN_ALL = f"Work units of all steps together. {NOTE}"
 
 
-def per_step(summary: Summary) -> Optional[float]:
+def per_step(summary: Summary) -> float | None:
     """Work units per step of the program that wrote the summary, without output; None: it did not measure the unit."""
     value = summary.get("totals", {}).get("work_units_per_step")
     return None if value is None else float(value)
 
 
-def in_all(summary: Summary) -> Optional[float]:
+def in_all(summary: Summary) -> float | None:
     """Work units of all steps together; None as in per_step()."""
     each, steps = per_step(summary), summary.get("totals", {}).get("steps")
     if each is None or steps is None:
@@ -32,7 +32,7 @@ def in_all(summary: Summary) -> Optional[float]:
     return each * (steps - summary.get("restarted_from_step", 0))
 
 
-def shown(work: Optional[float]) -> str:
+def shown(work: float | None) -> str:
     """Text for tables: three digits, without exponent."""
     if work is None:
         return ""
@@ -54,7 +54,7 @@ def about_machines(summaries: Sequence[Summary]) -> str:
     return f"These runs are of {'; and of '.join(parts)}; compare work units, not seconds" if parts else ""
 
 
-def _distinct(names: Sequence[str]) -> List[str]:
+def _distinct(names: Sequence[str]) -> list[str]:
     """The names in the order in which they come, each once, without unknown ones."""
     return list(dict.fromkeys(name for name in names if name))
 

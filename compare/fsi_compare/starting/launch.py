@@ -2,7 +2,7 @@
 
 import os
 import shutil
-from typing import List, Sequence
+from typing import Sequence
 
 from ..base.errors import InputError
 
@@ -12,7 +12,7 @@ def usable_cores() -> int:
     return len(os.sched_getaffinity(0))
 
 
-def launched(command: Sequence, processes: int) -> List[str]:
+def launched(command: Sequence, processes: int) -> list[str]:
     """The command that starts `command` as so many processes; itself for one. Raises InputError where there is no
     mpirun."""
     words = [str(word) for word in command]

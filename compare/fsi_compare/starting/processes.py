@@ -8,7 +8,7 @@ import threading
 import time
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, IO, Iterable, Iterator, List, Optional, Sequence
+from typing import Any, Callable, IO, Iterable, Iterator, Sequence
 
 from ..base import interruption
 from .launch import without_chatter
@@ -45,7 +45,7 @@ class _Running:
 
 def execute(command: Sequence, tick: Callable[[], None] = lambda: None) -> End:
     """Runs one program to its end, calling `tick` about once a second."""
-    ends: List[End] = []
+    ends: list[End] = []
     run_jobs([Job(0, command)], 1, lambda key, end: ends.append(end), lambda running: tick() if running else None)
     return ends[0]
 
@@ -59,12 +59,12 @@ def run_jobs(
     """Runs all, calling `ended` after each and `tick` with the keys of those that run, about once a second. When
     fsi-compare is interrupted, it ends them and raises Interrupted. A program that cannot be started ends with code
     1."""
-    running: Dict[int, _Running] = {}
+    running: dict[int, _Running] = {}
     waiting = iter(jobs)
     with interruption.at_sudden_end(lambda: _kill(running)), _stopped_together(running):
         try:
             interruption.check()
-            job: Optional[Job] = next(waiting, None)
+            job: Job | None = next(waiting, None)
             ticked = time.monotonic()
             while running or job is not None:
                 while job is not None and len(running) < at_once:
@@ -150,13 +150,13 @@ def _finish(processes: Sequence[subprocess.Popen]) -> None:
             process.wait()
 
 
-def _kill(running: Dict[int, _Running]) -> None:
+def _kill(running: dict[int, _Running]) -> None:
     for entry in list(running.values()):
         entry.process.kill()
 
 
 @contextmanager
-def _stopped_together(running: Dict[int, _Running]) -> Iterator[None]:
+def _stopped_together(running: dict[int, _Running]) -> Iterator[None]:
     """Stops the programs with Ctrl-Z, since they are in groups of their own; the pause does not count as their time."""
     if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTSTP) != signal.SIG_DFL:
         yield

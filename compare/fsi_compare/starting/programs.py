@@ -8,7 +8,6 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Optional
 
 from ..base.errors import InputError
 from ..base.files import absolute, exists, is_file, is_folder, read_bytes
@@ -26,7 +25,7 @@ class Program:
     digest: str = ""  # SHA-256 of the executable: a program built anew may keep its version
 
 
-def find_program(name: str, named: Optional[Path] = None, option: str = "--program") -> Program:
+def find_program(name: str, named: Path | None = None, option: str = "--program") -> Program:
     """The program `named`, else the one of this name beside fsi-compare, else the one on the path. It must answer."""
     path = named if named is not None else _beside(Path(sys.argv[0]), name)
     if path is None:
@@ -42,7 +41,7 @@ def find_program(name: str, named: Optional[Path] = None, option: str = "--progr
     return Program(path, said["version"], _digest(_executable(path, said["level"])))
 
 
-def _executable(path: Path, level: Optional[str]) -> Path:
+def _executable(path: Path, level: str | None) -> Path:
     """The executable behind `path`: in a package with builds for several x86-64 levels, that of the level it reports
     (packages/start_level.c)."""
     own = Path(os.path.realpath(path))
@@ -54,16 +53,16 @@ def _digest(path: Path) -> str:
     return hashlib.sha256(read_bytes(path, BUILD, BUILD)).hexdigest()
 
 
-def find_mesh_maker(monolithic: Program) -> Optional[Path]:
+def find_mesh_maker(monolithic: Program) -> Path | None:
     return find_beside(monolithic, "fsi-mesh")
 
 
-def find_beside(program: Program, name: str) -> Optional[Path]:
+def find_beside(program: Program, name: str) -> Path | None:
     """The program of this name beside another one, else the one on the path."""
     return _beside(program.path, name)
 
 
-def _beside(program: Path, name: str) -> Optional[Path]:
+def _beside(program: Path, name: str) -> Path | None:
     for folder in (program.parent, absolute(program).parent):
         if is_file(folder / name):
             return folder / name

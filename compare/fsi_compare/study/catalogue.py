@@ -9,7 +9,7 @@ import importlib
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Mapping, Sequence, Tuple
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
 from ..base.files import is_file
@@ -27,7 +27,7 @@ class Catalogue:
         return Catalogue({**self.modules, **other.modules}, (*self.folders, *other.folders))
 
     @property
-    def kinds(self) -> Tuple[str, ...]:
+    def kinds(self) -> tuple[str, ...]:
         return tuple(self.modules)
 
     def kind(self, name: str) -> Any:
@@ -36,7 +36,7 @@ class Catalogue:
         return importlib.import_module(self.modules[name])
 
     @property
-    def ready(self) -> Dict[str, Path]:
+    def ready(self) -> dict[str, Path]:
         """The ready study files by name, in the order of their names."""
         files = [path for folder in self.folders for path in folder.glob("*.toml")]
         studies = [path for path in files if re.search(r"^kind\s*=", path.read_text(encoding="utf-8"), re.MULTILINE)]

@@ -4,7 +4,7 @@ import argparse
 import platform
 import time
 from pathlib import Path
-from typing import Any, Dict, List, Optional, TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
 from ..base.errors import InputError, ProgramError, printable, say_note, say_warning
 from ..base.files import absolute, folder, output_folder, together
@@ -99,7 +99,7 @@ def study(options: argparse.Namespace) -> int:
         return make(options, asked, kind, folder, programs)
 
 
-def make(options: argparse.Namespace, asked: Study, kind: Any, folder: Path, programs: Dict[str, Program]) -> int:
+def make(options: argparse.Namespace, asked: Study, kind: Any, folder: Path, programs: dict[str, Program]) -> int:
     """Makes the runs that are missing and the report from all. The folder is locked."""
     if options.fresh:
         remove_runs(folder)
@@ -146,7 +146,7 @@ def list_ready(options: argparse.Namespace, catalogue: Catalogue) -> int:
     if options.output is not None:
         raise InputError("", "--output", "is of one study, and --list without STUDY is of all", "name the study")
     try:
-        programs: Optional[Dict[str, Program]] = find_programs(options)
+        programs: dict[str, Program] | None = find_programs(options)
     except InputError as error:
         if options.monolithic or options.partitioned:
             raise
@@ -157,7 +157,7 @@ def list_ready(options: argparse.Namespace, catalogue: Catalogue) -> int:
     return 0
 
 
-def find_programs(options: argparse.Namespace) -> Dict[str, Program]:
+def find_programs(options: argparse.Namespace) -> dict[str, Program]:
     """Both drivers by name."""
     return {
         "fsi-monolithic": find_program("fsi-monolithic", options.monolithic, "--monolithic"),
@@ -165,7 +165,7 @@ def find_programs(options: argparse.Namespace) -> Dict[str, Program]:
     }
 
 
-def about(report: "Report", asked: Study, runner: Runner, programs: Dict[str, Program]) -> None:
+def about(report: "Report", asked: Study, runner: Runner, programs: dict[str, Program]) -> None:
     """How to make the report again, and on what it was made."""
     report.section("About this report")
     if runner.warning:

@@ -2,7 +2,7 @@
 
 import filecmp
 from pathlib import Path
-from typing import Iterable, List, Optional, Sequence
+from typing import Iterable, Sequence
 
 from ..base.errors import InputError
 from ..base.files import is_file, remove_tree
@@ -41,7 +41,7 @@ def same_results(folders: Sequence[Path]) -> bool:
     )
 
 
-def keep_median(folder: Path, repetitions: Sequence[Path]) -> List[float]:
+def keep_median(folder: Path, repetitions: Sequence[Path]) -> list[float]:
     """Leaves the repetition of median seconds (of two middle ones the faster) in `folder` and removes the others;
     the seconds of all, sorted. Where the process is killed in between, the run is made anew."""
     seconds = {place: step_seconds(place) for place in [folder, *repetitions]}
@@ -55,7 +55,7 @@ def keep_median(folder: Path, repetitions: Sequence[Path]) -> List[float]:
     return sorted(seconds.values())
 
 
-def spread(timings: Sequence[float]) -> Optional[float]:
+def spread(timings: Sequence[float]) -> float | None:
     """Slowest over fastest; None: timed once."""
     return max(timings) / min(timings) if len(timings) > 1 and min(timings) > 0 else None
 

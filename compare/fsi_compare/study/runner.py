@@ -8,7 +8,7 @@ import shlex
 import time
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Mapping, Sequence
 
 from ..base import interruption
 from ..base.errors import InputError, ProgramError
@@ -61,30 +61,30 @@ class Runner:
         self,
         study: Study,
         folder: Path,
-        programs: Dict[str, Program],
-        mesh_maker: Optional[Path],
-        threads: Optional[int] = None,
-        jobs: Optional[int] = None,
+        programs: dict[str, Program],
+        mesh_maker: Path | None,
+        threads: int | None = None,
+        jobs: int | None = None,
         quiet: bool = False,
-        processes: Optional[int] = None,
+        processes: int | None = None,
     ):
         self.study, self.folder, self.programs, self.mesh_maker = study, folder, programs, mesh_maker
         self.threads = study.threads if threads is None else threads
         self.processes = study.processes if processes is None else processes  # of runs whose group does not say
         self.jobs = study.jobs if jobs is None else jobs
         self.quiet = quiet
-        self._known: Dict[str, StudyRun] = {}  # by fingerprint
+        self._known: dict[str, StudyRun] = {}  # by fingerprint
         self.seconds = 0.0  # of all runs asked for, whenever they were made
         self._taken_up = Builds("finished runs", "`--fresh`")
         self.builds = [self._taken_up]  # and of what a kind takes up by other means
 
-    def run(self, requests: Sequence[Request]) -> List[StudyRun]:
+    def run(self, requests: Sequence[Request]) -> list[StudyRun]:
         """Makes runs, and returns them in the order of the requests. The same run asked for twice is made once."""
         make_folder(self.folder / "runs")
         keys = [fingerprint(*self._what_decides(r)) for r in requests]
         progress = StudyProgress(self.quiet, self.jobs)
-        jobs: List[Job] = []
-        wanted: Dict[str, Request] = {}
+        jobs: list[Job] = []
+        wanted: dict[str, Request] = {}
         for key, request in zip(keys, requests):
             if key in self._known or key in wanted:
                 continue
@@ -131,7 +131,7 @@ class Runner:
             for n in range(2, study.repeats + 1)
             for key, request in short.items()
         ]
-        places: Dict[str, List[Path]] = {key: [] for key in short}
+        places: dict[str, list[Path]] = {key: [] for key in short}
         progress.repeat([request for _, request, _ in again])
         for _, _, place in again:
             remove_tree(place)
@@ -183,7 +183,7 @@ class Runner:
     def _as(run: StudyRun, request: Request) -> StudyRun:
         return replace(run, request=request)
 
-    def _what_decides(self, request: Request) -> Tuple[Request, Program, Optional[Path], int, int]:
+    def _what_decides(self, request: Request) -> tuple[Request, Program, Path | None, int, int]:
         mesh_file = self.mesh_file(request.mesh)
         return request, self._program(request), mesh_file, self.threads, self.processes_of(request)
 
@@ -193,7 +193,7 @@ class Runner:
     def _program(self, request: Request) -> Program:
         return self.programs[request.method.program]
 
-    def mesh_file(self, mesh: Optional[StudyMesh]) -> Optional[Path]:
+    def mesh_file(self, mesh: StudyMesh | None) -> Path | None:
         """The mesh made for the study; None: the driver makes it, or the case names it."""
         if mesh is None or not mesh.options:
             return None
@@ -229,7 +229,7 @@ class Runner:
 
     def standing(self, requests: Sequence[Request]) -> "Standing":
         """How many of the runs are there, without making any. The same run asked for twice counts once."""
-        found: Dict[str, Optional[StudyRun]] = {}
+        found: dict[str, StudyRun | None] = {}
         for request in requests:
             mesh = request.mesh
             if mesh is not None and mesh.options and not self._mesh_is_made(mesh):
@@ -245,7 +245,7 @@ class Runner:
         name = re.sub(r"[^A-Za-z0-9.+-]+", "-", f"{request.case}-{request.method.name}").strip("-")[:LONGEST_NAME]
         return self.folder / "runs" / f"{name}-{key[:12]}"
 
-    def _command(self, request: Request, folder: Path) -> List[str]:
+    def _command(self, request: Request, folder: Path) -> list[str]:
         words = [
             str(self._program(request).path),
             str(request.case_file),
@@ -265,7 +265,7 @@ class Runner:
             words += ["--set", f"{name}={toml_value(value)}"]
         return launched(words, self.processes_of(request))
 
-    def _finished(self, key: str, request: Request) -> Optional[StudyRun]:
+    def _finished(self, key: str, request: Request) -> StudyRun | None:
         folder = self._place(key, request)
         try:
             record = read_object(folder / RECORD, AGAIN, AGAIN)
@@ -315,12 +315,12 @@ def is_interrupted(code: int) -> bool:
     return any(code in (-number, 128 + number) for number in interruption.WATCHED)
 
 
-def recipe(mesh: StudyMesh) -> List[str]:
+def recipe(mesh: StudyMesh) -> list[str]:
     """What decides a mesh: its options, and the contents of the scripts and meshes that they name."""
     return [*mesh.options, *contents([mesh.command, *mesh.options])]
 
 
-def write_record(folder: Path, record: Dict[str, Any]) -> None:
+def write_record(folder: Path, record: dict[str, Any]) -> None:
     with replacing(folder / RECORD) as temporary:
         temporary.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
 
@@ -346,7 +346,7 @@ def sweep_study(folder: Path) -> None:
                 remove_tree(place / name)
 
 
-def judge(folder: Path, end: End) -> Tuple[str, str]:
+def judge(folder: Path, end: End) -> tuple[str, str]:
     """(status, message) of a run that has ended."""
     if end.out_of_time:
         return OUT_OF_TIME, end.message

@@ -1,7 +1,7 @@
 """A section of a study file: its entries, each of the kind that is asked for."""
 
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Iterator, Mapping, Sequence
 
 from ..base.errors import InputError
 from ..base.suggestions import check_keys, nearest
@@ -42,11 +42,11 @@ class Section:
             raise self.wrong(name, problem, f"write a section [{self.key_of(name)}]")
         return found
 
-    def settings(self, name: str) -> Dict[str, Any]:
+    def settings(self, name: str) -> dict[str, Any]:
         """Case-file entries, keys in quotes ("time.step" = 0.1) or nested (time.step = 0.1)."""
         return dict(flat(self.table(name)))
 
-    def text(self, name: str, default: Optional[str] = None) -> str:
+    def text(self, name: str, default: str | None = None) -> str:
         if name not in self.entries and default is not None:
             return default
         value = self.entries.get(name)
@@ -61,7 +61,7 @@ class Section:
             raise self.wrong(name, problem, f"leave it out for {default}")
         return value
 
-    def number(self, name: str, default: Optional[float] = None) -> float:
+    def number(self, name: str, default: float | None = None) -> float:
         if name not in self.entries and default is not None:
             return default
         value = self.entries.get(name)
@@ -70,7 +70,7 @@ class Section:
             raise self.wrong(name, problem, "give a number" if default is None else f"leave it out for {default:g}")
         return float(self.entries[name])
 
-    def numbers(self, name: str, default: Optional[Sequence[float]] = None) -> List[float]:
+    def numbers(self, name: str, default: Sequence[float] | None = None) -> list[float]:
         if name not in self.entries and default is not None:
             return list(default)
         values = self.entries.get(name)
@@ -84,7 +84,7 @@ class Section:
         self._require_known(name, value, known, what)
         return str(value)
 
-    def names(self, name: str, known: Sequence[str], default: Sequence[str], what: str) -> List[str]:
+    def names(self, name: str, known: Sequence[str], default: Sequence[str], what: str) -> list[str]:
         """`what` they are, e.g. "method of the study"."""
         values = self.entries.get(name, list(default))
         if not isinstance(values, list):
@@ -103,7 +103,7 @@ def is_positive(value: Any) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and 0 < value <= LARGEST_NUMBER
 
 
-def flat(table: Mapping[str, Any], prefix: str = "") -> Iterator[Tuple[str, Any]]:
+def flat(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
     """The entries of nested tables by dotted keys."""
     for key, value in table.items():
         if isinstance(value, dict):

@@ -1,7 +1,6 @@
 """Names of what the source tree alone has: the studies of this project, compare/research, which are not installed."""
 
 from pathlib import Path
-from typing import Union
 
 from ..base.errors import InputError
 
@@ -22,7 +21,7 @@ KINDS = ("accuracy-cost", "calibration", "coupling", "paper", "references", "sca
 COMMANDS = ("solvers",)
 
 
-def refusal(path: Union[str, Path], key: str, what: str) -> InputError:
+def refusal(path: str | Path, key: str, what: str) -> InputError:
     problem = f"{what} belongs to this project's own research, which is not installed"
     remedy = "build in the source tree and call build/release/bin/fsi-compare there (compare/research)"
     return InputError(path, key, problem, remedy)

@@ -5,7 +5,7 @@ import math
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Iterable, Mapping, Sequence
 
 from ..base.case_names import short_name
 from ..base.errors import InputError
@@ -62,7 +62,7 @@ class Method:
 class StudyMesh:
     name: str
     label: str
-    options: Tuple[str, ...]  # of fsi-mesh's command; empty: a level of the same name, made by the driver on demand
+    options: tuple[str, ...]  # of fsi-mesh's command; empty: a level of the same name, made by the driver on demand
     command: str = "artery"  # others may follow among the options (gallery/mesh_chain.py)
 
 
@@ -75,10 +75,10 @@ class Request:
     method: Method
     values: Mapping[str, Any]  # label or value of each quantity that the group varies, by its name
     case_file: Path
-    mesh: Optional[StudyMesh]  # None: the case file's own
+    mesh: StudyMesh | None  # None: the case file's own
     settings: Mapping[str, Any]  # entries over the case file's, without the mesh
     time_limit: float  # s
-    processes: Optional[int] = None  # None: as many as the study's other runs
+    processes: int | None = None  # None: as many as the study's other runs
 
     @property
     def label(self) -> str:
@@ -115,7 +115,7 @@ class Study:
         method: str,
         values: Mapping[str, Any],
         settings: Mapping[str, Any],
-        mesh: Optional[str] = None,
+        mesh: str | None = None,
     ) -> Request:
         """One more run, for kinds that decide on the next run from the last."""
         chosen = self.methods[method]
@@ -132,7 +132,7 @@ class Study:
         )
 
 
-def _mesh_of(scene: Optional[Scene], quick: bool) -> Optional[StudyMesh]:
+def _mesh_of(scene: Scene | None, quick: bool) -> StudyMesh | None:
     """The mesh of a scene; None where the case is no scene."""
     return None if scene is None else mesh_of_scene(scene, quick)
 
@@ -186,19 +186,19 @@ class _Value:
 
     shown: Any
     settings: Mapping[str, Any] = field(default_factory=dict)
-    mesh: Optional[StudyMesh] = None
-    processes: Optional[int] = None
+    mesh: StudyMesh | None = None
+    processes: int | None = None
 
 
 class _Reader:
     def __init__(self, path: Path, quick: bool):
         self.path, self.quick = path, quick
-        self.scenes: Dict[str, Scene] = {}  # of the cases that are scenes
+        self.scenes: dict[str, Scene] = {}  # of the cases that are scenes
 
     def wrong(self, key: str, problem: str, remedy: str) -> InputError:
         return InputError(self.path, key, problem, remedy)
 
-    def study(self, data: Dict[str, Any], kinds: Sequence[str]) -> Study:
+    def study(self, data: dict[str, Any], kinds: Sequence[str]) -> Study:
         top = self.section("", data, TOP_KEYS)
         kind = top.text("kind")
         if kind not in kinds and kind in source_tree.KINDS:
@@ -218,7 +218,7 @@ class _Reader:
             meshes[name] = self.mesh(name, entry)
         settings = top.settings("set")
         repeats = top.count("repeats", 1)
-        requests: List[Request] = []
+        requests: list[Request] = []
         for name, group in top.table("runs").items():
             requests += self.group(name, group, cases, methods, meshes, settings, of_case, limit)
         return Study(
@@ -257,14 +257,14 @@ class _Reader:
             raise self.wrong(f"cases.{name}", f"no such case file: {path}", "give it relative to the study file")
         return path
 
-    def scene(self, name: str, entry: Dict[str, Any]) -> Path:
+    def scene(self, name: str, entry: dict[str, Any]) -> Path:
         key = f"cases.{name}.scene"
         if "file" in entry:
             raise self.wrong(key, "has a file beside it", "give one of the two")
         self.scenes[name] = read_scene(READY / self.one_of(key, entry["scene"], ready_scenes()))
         return self.scenes[name].case
 
-    def of_scene(self, name: str) -> Dict[str, Any]:
+    def of_scene(self, name: str) -> dict[str, Any]:
         """Settings of a scene's short form, where that is asked for."""
         return dict(self.scenes[name].quick) if self.quick and name in self.scenes else {}
 
@@ -297,7 +297,7 @@ class _Reader:
         settings: Mapping[str, Any],
         of_case: Mapping[str, Mapping[str, Any]],
         limit: float,
-    ) -> List[Request]:
+    ) -> list[Request]:
         key = f"runs.{name}"
         self.section(key, group, GROUP_KEYS)
         quick = group.get("quick", False)
@@ -333,7 +333,7 @@ class _Reader:
             requests.append(Request(name, case, method, values, cases[case], mesh, merged, limit, processes))
         return requests
 
-    def points(self, key: str, quantity: str, values: Any) -> List[Any]:
+    def points(self, key: str, quantity: str, values: Any) -> list[Any]:
         """The values of an axis as they are given, or those that "cores" stands for."""
         if quantity == PROCESSES and values == CORES:
             most = usable_cores()
@@ -379,7 +379,7 @@ class _Reader:
             raise self.wrong(key, f"'{name}' is unknown", remedy)
         return name
 
-    def names(self, group: Dict[str, Any], name: str, known: Mapping[str, Any], section: str) -> List[str]:
+    def names(self, group: dict[str, Any], name: str, known: Mapping[str, Any], section: str) -> list[str]:
         """Cases or methods: those that a group names, or all."""
         given = group.get(name, list(known))
         if not isinstance(given, list):
@@ -393,7 +393,7 @@ class _Reader:
                 key, f"{show(value)} is no number or text", "write { label = ..., set = { ... } } for others"
             )
 
-    def list(self, key: str, values: Any) -> List[Any]:
+    def list(self, key: str, values: Any) -> list[Any]:
         if not isinstance(values, list) or not values:
             raise self.wrong(key, "is not a list of values", "write [a, b, ...]")
         return values

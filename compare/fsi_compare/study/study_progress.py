@@ -2,7 +2,7 @@
 
 import sys
 import time
-from typing import Any, Dict, List, Sequence, Tuple
+from typing import Any, Sequence
 
 from .mesh_levels import MESH_NODES
 from ..starting.duration import duration
@@ -16,10 +16,10 @@ class StudyProgress:
     def __init__(self, quiet: bool, jobs: int):
         self._quiet, self._jobs = quiet, jobs
         self._terminal = sys.stderr.isatty()
-        self._left: List[Request] = []
+        self._left: list[Request] = []
         self._total = self._known_count = self._failed_count = 0
-        self._rates: Dict[str, Tuple[float, float]] = {}  # method -> (weight, seconds)
-        self._began: Dict[int, float] = {}
+        self._rates: dict[str, tuple[float, float]] = {}  # method -> (weight, seconds)
+        self._began: dict[int, float] = {}
 
     @staticmethod
     def weight(request: Request) -> float:

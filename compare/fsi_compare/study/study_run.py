@@ -3,7 +3,6 @@
 import functools
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Optional, Tuple
 
 from ..base.errors import InputError
 from ..base.files import is_file, read_object
@@ -32,7 +31,7 @@ class StudyRun:
     message: str  # why it is not done
     seconds: float  # of the process, start to end
     command: str  # to repeat it by hand
-    timings: Tuple[float, ...] = ()  # s, of the time steps: of all repetitions, of which this is the median
+    timings: tuple[float, ...] = ()  # s, of the time steps: of all repetitions, of which this is the median
 
     @property
     def done(self) -> bool:
@@ -89,12 +88,12 @@ class StudyRun:
         return float(self.summary.get("totals", {}).get("wall_s", float("nan")))
 
     @property
-    def work_units_per_step(self) -> Optional[float]:
+    def work_units_per_step(self) -> float | None:
         """Work units per step; None: the run did not measure the unit."""
         return per_step(self.summary)
 
     @property
-    def work_units(self) -> Optional[float]:
+    def work_units(self) -> float | None:
         """Work units of all time steps."""
         return in_all(self.summary)
 
@@ -106,6 +105,6 @@ class StudyRun:
         return totals.get(key, float("nan")) / self.steps if self.steps else float("nan")
 
 
-def known(value: float) -> Optional[float]:
+def known(value: float) -> float | None:
     """The value; None for NaN."""
     return value if value == value else None

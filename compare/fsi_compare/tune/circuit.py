@@ -10,7 +10,7 @@ where e_i is the pressure that opening i is given, or the distal one behind its 
 """
 
 from dataclasses import dataclass
-from typing import Dict, Mapping, Union
+from typing import Mapping
 
 import numpy as np
 
@@ -48,7 +48,7 @@ class Windkessel:
         return self.distal / (1 + 1j * frequency * self.distal * self.compliance)
 
 
-End = Union[GivenFlow, GivenPressure, Windkessel]
+End = GivenFlow | GivenPressure | Windkessel
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ def periodic_state(vessel: Vessel, ends: Mapping[str, End], period: float) -> St
         if isinstance(end, GivenFlow):
             given[name] = np.fft.rfft(end.flow)
             continue
-        law: Union[float, np.ndarray] = end.proximal + end.behind(frequency) if isinstance(end, Windkessel) else 0.0
+        law: float | np.ndarray = end.proximal + end.behind(frequency) if isinstance(end, Windkessel) else 0.0
         admittance[name] = 1 / (serial[name] + law + short)
         source[name] = _source(end, len(frequency))
     total = sum(admittance.values()) + 1j * frequency * vessel.compliance
@@ -85,7 +85,7 @@ def periodic_state(vessel: Vessel, ends: Mapping[str, End], period: float) -> St
     return State(pressure, {n: _in_time(q) for n, q in flows.items()}, stored)
 
 
-def mean_flows(vessel: Vessel, ends: Mapping[str, End]) -> Dict[str, float]:
+def mean_flows(vessel: Vessel, ends: Mapping[str, End]) -> dict[str, float]:
     """Outwards, of harmonic 0 alone."""
     short = _short(vessel, ends)
     laws = {n: end.resistance if isinstance(end, Windkessel) else 0.0 for n, end in ends.items()}

@@ -3,7 +3,7 @@
 import argparse
 import shlex
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional
+from typing import Any, Mapping
 
 from ..base.errors import InputError, ProgramError, printable, say_note, say_warning
 from ..base.files import absolute, folder, is_file, output_folder, read_toml, remove_tree, together
@@ -63,7 +63,7 @@ def add_parser(commands: Commands, version: str) -> None:
     )
     command.add_argument("case", metavar="CASE.toml", type=Path, help="case file")
     command.add_argument("-o", "--output", metavar="OUTDIR", type=folder, help="default: results/tune/CASE")
-    several: Dict[str, Any] = {"action": "append", "default": []}
+    several: dict[str, Any] = {"action": "append", "default": []}
     command.add_argument(
         "--pressure", metavar="NAME=LOW/HIGH", **several, help="of one opening, diastolic and systolic, in kPa or mmHg"
     )
@@ -117,7 +117,7 @@ def run(options: argparse.Namespace) -> int:
         return _write(options, scene, demand, outcome, beats)
 
 
-def decided(scene: Scene, demand: Demand) -> List[str]:
+def decided(scene: Scene, demand: Demand) -> list[str]:
     """Sentences on what was decided without the call saying it."""
     lines = [f"tuned: the Windkessels of {', '.join(scene.windkessels)}; a beat takes {scene.period:g} ms"]
     lines.append(f"proximal resistance: {demand.rule.words}; compliance: shared out like the mean flow")
@@ -196,11 +196,11 @@ class Beats:
             raise ProgramError(self.scene.path, f"beat {number}", message, "mend the case first")
         return Ran(curves_of(open_run(done.folder).openings), done.seconds)
 
-    def mesh_file(self) -> Optional[Path]:
+    def mesh_file(self) -> Path | None:
         return self.runner.mesh_file(self.mesh)
 
 
-def _mesh(scene: Scene, words: Optional[str], mesh_maker: Optional[Path], place: Path) -> Optional[StudyMesh]:
+def _mesh(scene: Scene, words: str | None, mesh_maker: Path | None, place: Path) -> StudyMesh | None:
     """The mesh of the beats; None: the case's own file or level."""
     section = scene.entries.get("mesh", {})
     own = section.get("file") if isinstance(section, dict) else None
@@ -245,7 +245,7 @@ def _write_tuned(inside: Path, scene: Scene, outcome: Outcome, beats: Beats) -> 
     return path
 
 
-def _tuned(opening: Mapping[str, Any], values: Mapping[str, Any], starts: Mapping[str, float]) -> Dict[str, Any]:
+def _tuned(opening: Mapping[str, Any], values: Mapping[str, Any], starts: Mapping[str, float]) -> dict[str, Any]:
     name = str(opening.get("surface"))
     if name not in values:
         return dict(opening)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Sequence
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
 from ..base.suggestions import nearest
@@ -22,7 +22,7 @@ class Scene:
     period: float  # ms
 
     @property
-    def windkessels(self) -> List[str]:
+    def windkessels(self) -> list[str]:
         return [name for name, one in self.openings.items() if WINDKESSEL in one]
 
     @property
@@ -93,7 +93,7 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and value > 0
 
 
-def checked_targets(scene: Scene, targets: Sequence[Target]) -> List[Target]:
+def checked_targets(scene: Scene, targets: Sequence[Target]) -> list[Target]:
     """The targets, with the remaining share for an outlet without a target. Raises InputError."""
     for target in targets:
         if target.opening not in scene.openings:
@@ -133,8 +133,8 @@ def _require_above_distal(scene: Scene, target: Target) -> None:
             raise InputError("", "--pressure", problem, "give a higher one")
 
 
-def _with_rest(scene: Scene, targets: List[Target]) -> List[Target]:
-    named: Dict[str, Target] = {t.opening: t for t in targets if t.kind in (SPLIT, FLOW)}
+def _with_rest(scene: Scene, targets: list[Target]) -> list[Target]:
+    named: dict[str, Target] = {t.opening: t for t in targets if t.kind in (SPLIT, FLOW)}
     missing = [name for name in scene.windkessels if name not in named]
     if not named:
         return targets

@@ -7,7 +7,7 @@ flow. Least squares of the relative differences by Levenberg's and Marquardt's m
 """
 
 from dataclasses import dataclass
-from typing import Callable, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -26,7 +26,7 @@ DIGITS = 6  # of the values that a case gets
 class Rule:
     """Rule for proximal resistances."""
 
-    share: Optional[float]  # of an outlet's whole; None: the case's values stay
+    share: float | None  # of an outlet's whole; None: the case's values stay
 
     def law(self, case: Windkessel, whole: float, compliance: float) -> Windkessel:
         proximal = case.proximal if self.share is None else self.share * whole
@@ -69,7 +69,7 @@ class Unknowns:
     def _compliance(self) -> float:
         return sum(law.compliance for law in self.model.case.values())
 
-    def values(self, unknowns: np.ndarray) -> Dict[str, Windkessel]:
+    def values(self, unknowns: np.ndarray) -> dict[str, Windkessel]:
         factors = np.exp(unknowns)
         if self.each:
             whole = dict(zip(self.names, factors))
@@ -90,7 +90,7 @@ class Unknowns:
 
 @dataclass(frozen=True)
 class Solution:
-    values: Dict[str, Windkessel]
+    values: dict[str, Windkessel]
     foreseen: np.ndarray  # the targets' values by the model, corrected, (targets,)
     unknowns: np.ndarray
 
@@ -131,7 +131,7 @@ def _least_squares(left: Callable[[np.ndarray], np.ndarray], start: np.ndarray) 
     return x
 
 
-def _steps(count: int) -> List[np.ndarray]:
+def _steps(count: int) -> list[np.ndarray]:
     return list(DIFFERENCE * np.eye(count))
 
 
@@ -145,7 +145,7 @@ def rounded(law: Windkessel) -> Windkessel:
 
 def reachable_pulse(
     model: Model, targets: Sequence[Target], rule: Rule, solution: Solution
-) -> Optional[Tuple[float, float]]:
+) -> tuple[float, float] | None:
     """The smallest and largest pulse pressure in kPa that compliances behind the outlets can give with the resistances
     found; None where no pulse is asked for."""
     unknowns = Unknowns(model, targets, rule)

@@ -3,7 +3,7 @@
 import json
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Sequence
 
 from ..base.errors import printable
 from ..base.files import absolute, replacing
@@ -22,7 +22,7 @@ class Found:
     beat: int
     target: Target
     got: float
-    foreseen: Optional[float]
+    foreseen: float | None
 
     @property
     def percent(self) -> float:
@@ -70,7 +70,7 @@ VALUES: Sequence[Column[Value]] = (
     Column("ends with [{unit}]", "end", lambda v: v.beat.repeats[v.outlet].end, _number, unit="kPa"),
     Column("periodic [{unit}]", "periodic", lambda v: v.beat.repeats[v.outlet].periodic, _number, unit="kPa"),
 )
-VESSEL: Sequence[Column[Tuple[Beat, str]]] = (
+VESSEL: Sequence[Column[tuple[Beat, str]]] = (
     Column("beat", "beat", lambda v: v[0].number),
     Column("opening", "opening", lambda v: v[1], left=True),
     Column("resistance [{unit}]", "resistance", lambda v: v[0].vessel.resistance[v[1]], _number, unit="kPa ms/mm^3"),
@@ -83,7 +83,7 @@ VESSEL: Sequence[Column[Tuple[Beat, str]]] = (
 )
 
 
-def tables_of(demand: Demand, outcome: Outcome) -> List[Table]:
+def tables_of(demand: Demand, outcome: Outcome) -> list[Table]:
     found = [
         Found(beat.number, target, float(beat.got[i]), None if beat.foreseen is None else float(beat.foreseen[i]))
         for beat in outcome.beats
@@ -100,11 +100,11 @@ def tables_of(demand: Demand, outcome: Outcome) -> List[Table]:
 
 def write_results(
     folder: Path, scene: Scene, demand: Demand, outcome: Outcome, program: str
-) -> Tuple[List[Table], List[Path]]:
+) -> tuple[list[Table], list[Path]]:
     tables = tables_of(demand, outcome)
     written = write_tables(folder, tables, "tune.md", f"Tuning of {printable(scene.path.stem)}")
     last = outcome.beats[-1]
-    said: Dict[str, Any] = {
+    said: dict[str, Any] = {
         "case": str(absolute(scene.path)),
         "program": program,
         "period_ms": scene.period,

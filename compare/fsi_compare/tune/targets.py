@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Sequence
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
 from ..base.files import read_toml
@@ -56,7 +56,7 @@ class _Word:
         return InputError(self.place, self.key, problem, remedy or f"give one like {EXAMPLES[self.section]}")
 
 
-def read_targets(options: Mapping[str, Sequence[str]], table: "Path | None") -> List[Target]:
+def read_targets(options: Mapping[str, Sequence[str]], table: "Path | None") -> list[Target]:
     """`options`: texts NAME=VALUE by section. Raises InputError."""
     words = []
     for section, texts in options.items():
@@ -67,7 +67,7 @@ def read_targets(options: Mapping[str, Sequence[str]], table: "Path | None") -> 
                 raise word.refuse(f"'{text}' names no opening and value")
             words.append(word)
     words += _words_of(table) if table is not None else []
-    targets: Dict[Any, Target] = {}
+    targets: dict[Any, Target] = {}
     for word in words:
         for target in _targets(word):
             if (target.opening, target.kind) in targets:
@@ -84,7 +84,7 @@ def no_pressure() -> InputError:
     return InputError("", "--pressure", "is missing", f"give one like {EXAMPLES['pressure']}")
 
 
-def _words_of(path: Path) -> List[_Word]:
+def _words_of(path: Path) -> list[_Word]:
     sections = read_toml(path, "give a TOML file of targets", TABLE)
     check_keys(path, "", sections, list(OPTIONS))
     words = []
@@ -99,7 +99,7 @@ def _words_of(path: Path) -> List[_Word]:
     return words
 
 
-def _targets(word: _Word) -> List[Target]:
+def _targets(word: _Word) -> list[Target]:
     if word.section == "pressure":
         match = re.fullmatch(rf"({NUMBER})\s*/\s*({NUMBER})\s*([A-Za-z]*)", word.text)
         if match is None:

@@ -1,7 +1,7 @@
 """Beat after beat: run, fit the model, find values, until a beat shows what is asked for."""
 
 from dataclasses import dataclass, field
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence
+from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -34,7 +34,7 @@ class Beat:
     values: Mapping[str, Windkessel]
     starts: Mapping[str, float]  # kPa, of the Windkessels; empty: as the case says
     got: np.ndarray  # (targets,)
-    foreseen: Optional[np.ndarray]  # by the model of the beat before; None: there was none
+    foreseen: np.ndarray | None  # by the model of the beat before; None: there was none
     repeats: Mapping[str, Repetition]
     vessel: Vessel
     period_share: float  # distance from the periodic state over the largest pressure of the beat
@@ -52,9 +52,9 @@ class Beat:
 
 @dataclass
 class Outcome:
-    beats: List[Beat] = field(default_factory=list)
+    beats: list[Beat] = field(default_factory=list)
     reached: bool = False
-    lines: List[str] = field(default_factory=list)  # what was decided and found, in sentences
+    lines: list[str] = field(default_factory=list)  # what was decided and found, in sentences
 
 
 @dataclass(frozen=True)
@@ -77,9 +77,9 @@ def tune(scene: Scene, demand: Demand, run_beat: RunBeat, tell: Callable[[str], 
     outcome = Outcome()
     case = {name: scene.law(name) for name in scene.windkessels}
     values, starts = case, _starts_of_case(scene)
-    settings: Dict[str, Any] = {}
-    foreseen: Optional[np.ndarray] = None
-    limits: List[str] = []
+    settings: dict[str, Any] = {}
+    foreseen: np.ndarray | None = None
+    limits: list[str] = []
     for number in range(1, demand.beats + 1):
         try:
             ran = run_beat(number, settings)
@@ -117,16 +117,16 @@ def tune(scene: Scene, demand: Demand, run_beat: RunBeat, tell: Callable[[str], 
     return outcome
 
 
-def _starts_of_case(scene: Scene) -> Dict[str, float]:
+def _starts_of_case(scene: Scene) -> dict[str, float]:
     """Pressures that the case gives at the start; with a lumped start the driver finds them."""
     if scene.entries["time"].get("start") == "lumped":
         return {}
     return {n: float(scene.openings[n][WINDKESSEL].get("initial_pressure", 0.0)) for n in scene.windkessels}
 
 
-def settings_of(scene: Scene, values: Mapping[str, Windkessel], starts: Mapping[str, float]) -> Dict[str, Any]:
+def settings_of(scene: Scene, values: Mapping[str, Windkessel], starts: Mapping[str, float]) -> dict[str, Any]:
     """Entries of a case by their full keys."""
-    found: Dict[str, Any] = {}
+    found: dict[str, Any] = {}
     for name, law in values.items():
         key = f"opening.{name}.windkessel"
         found.update(
@@ -145,7 +145,7 @@ def _beat(
     ran: Ran,
     values: Mapping[str, Windkessel],
     starts: Mapping[str, float],
-    foreseen: Optional[np.ndarray],
+    foreseen: np.ndarray | None,
 ) -> Beat:
     curves, period = ran.curves, scene.period
     for name in [*scene.windkessels, *(target.opening for target in demand.targets)]:
@@ -181,7 +181,7 @@ def _no_flow(model: Model) -> str:
     return f"Nothing can be found: {said}. Give a table with a positive mean."
 
 
-def _limits(model: Model, demand: Demand, foreseen: np.ndarray, pulse: Optional["tuple[float, float]"]) -> List[str]:
+def _limits(model: Model, demand: Demand, foreseen: np.ndarray, pulse: "tuple[float, float] | None") -> list[str]:
     """Why the model itself does not come to what is asked for, with what to try."""
     asked = np.array([target.value for target in demand.targets])
     if bool(np.all(np.abs(foreseen - asked) <= 0.5 * demand.tolerance * asked)):
@@ -214,7 +214,7 @@ def _limits(model: Model, demand: Demand, foreseen: np.ndarray, pulse: Optional[
     return lines
 
 
-def _missed(beat: Beat, demand: Demand) -> List[str]:
+def _missed(beat: Beat, demand: Demand) -> list[str]:
     lines = [f"Not reached in {demand.beats} beat{'s' if demand.beats > 1 else ''}."]
     if beat.period_share > demand.tolerance:
         far = 100 * beat.period_share

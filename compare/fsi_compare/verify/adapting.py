@@ -7,7 +7,7 @@ do with N^(-p/d), also where the solution has kinks that would cost the uniform 
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Dict, Mapping, Optional, Sequence, Tuple
+from typing import Mapping, Sequence
 
 from ..base.errors import InputError
 from ..base.files import read_bytes
@@ -27,7 +27,7 @@ class Adapted(Recipe):
 
     base: Recipe = None  # type: ignore[assignment]
     dimension: int = 3
-    parents: Dict[int, Tuple[Path, Path]] = field(
+    parents: dict[int, tuple[Path, Path]] = field(
         default_factory=dict
     )  # mesh and run by level; the case's own is level 0
 
@@ -51,7 +51,7 @@ class Adapted(Recipe):
     def level(self, mesh: float) -> int:
         return round(-math.log(mesh) / math.log(RATIO))
 
-    def mesh(self, factor: float, folder: Path, case: str) -> Optional[StudyMesh]:
+    def mesh(self, factor: float, folder: Path, case: str) -> StudyMesh | None:
         """The mesh of a level. Raises InputError where the run that it is made from is missing."""
         level = self.level(1 / factor)
         if level == 0:

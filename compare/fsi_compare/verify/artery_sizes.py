@@ -3,7 +3,7 @@
 import re
 import tempfile
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Sequence
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
 from ..starting.processes import answer
@@ -35,15 +35,15 @@ def waves_of(entries: Mapping[str, Any]) -> str:
     return str(entries.get("mesh", {}).get("waves") or ("resolved" if keeps_short_waves(entries) else "damped"))
 
 
-def cells_of(words: Sequence[str]) -> List[float]:
+def cells_of(words: Sequence[str]) -> list[float]:
     """Numbers of cells that are given."""
     found = options_of(words)
     return [float(found[name]) for name in CELLS if name in found]
 
 
-def options_of(words: Sequence[str]) -> Dict[str, str]:
+def options_of(words: Sequence[str]) -> dict[str, str]:
     """Options by name, of --name value and --name=value; a flag has an empty value."""
-    found: Dict[str, str] = {}
+    found: dict[str, str] = {}
     for i, word in enumerate(words):
         if word.startswith("--"):
             name, mark, value = word.partition("=")
@@ -52,7 +52,7 @@ def options_of(words: Sequence[str]) -> Dict[str, str]:
     return found
 
 
-def with_numbers(words: List[str], mesh_maker: Path) -> List[str]:
+def with_numbers(words: list[str], mesh_maker: Path) -> list[str]:
     """The words with the numbers of cells that fsi-mesh reports in the place of a recommended mesh."""
     options = options_of(words)
     if "--for" not in options:
@@ -77,7 +77,7 @@ def with_numbers(words: List[str], mesh_maker: Path) -> List[str]:
     return kept if "--order" in options else [*kept, "--order", "2"]
 
 
-def _without(words: Sequence[str], names: Sequence[str]) -> List[str]:
+def _without(words: Sequence[str], names: Sequence[str]) -> list[str]:
     kept, skip = [], False
     for word in words:
         name = word.partition("=")[0]
@@ -90,10 +90,10 @@ def _without(words: Sequence[str], names: Sequence[str]) -> List[str]:
     return kept
 
 
-def artery_words(words: Sequence[str], factor: float) -> List[str]:
+def artery_words(words: Sequence[str], factor: float) -> list[str]:
     """Counts times the factor, sizes by it."""
     options = options_of(words)
-    changed: Dict[str, str] = {}
+    changed: dict[str, str] = {}
     for name in CELLS:
         if name in options:
             changed[name] = str(max(1, round(float(options[name]) * factor)))

@@ -2,7 +2,7 @@
 
 import argparse
 from pathlib import Path
-from typing import Any, Dict, List, Sequence
+from typing import Any, Sequence
 
 from ..base.errors import InputError, printable
 from ..base.files import absolute, folder, output_folder, together
@@ -140,7 +140,7 @@ def _share(text: str) -> float:
     return value
 
 
-def _drivers(text: str) -> List[str]:
+def _drivers(text: str) -> list[str]:
     names = [name.strip() for name in text.split(",")]
     for name in names:
         if name not in DRIVERS:
@@ -152,7 +152,7 @@ def make(
     options: argparse.Namespace,
     requests: Requests,
     family: Sequence[Member],
-    programs: Dict[str, Program],
+    programs: dict[str, Program],
     mesh_maker: Path,
     times: Sequence[float],
 ) -> int:
@@ -175,7 +175,7 @@ def make(
     return write(options, maker, [one for each in sets for one in each.judged], waves, sets)
 
 
-def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], programs: Dict[str, Program]) -> int:
+def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], programs: dict[str, Program]) -> int:
     """--error: on to settings that reach it."""
     requests = maker.requests
     demand = Demand(options.error, options.budget and 60 * options.budget, options.of, times)
@@ -208,10 +208,10 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
 
 def look(
     maker: Maker, facts: CaseFacts, times: Sequence[float], names: Sequence[str]
-) -> "tuple[List[BarsOfRun], List[Any]]":
+) -> "tuple[list[BarsOfRun], list[Any]]":
     """All bars, by driver, and bands. Raises InputError where nothing is sampled, or nothing of that name."""
-    sets: List[BarsOfRun] = []
-    waves: List[Any] = []
+    sets: list[BarsOfRun] = []
+    waves: list[Any] = []
     for family in maker.families.values():
         curves = family.read()
         found = judge(family, curves, facts, times, names)

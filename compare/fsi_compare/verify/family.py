@@ -4,7 +4,7 @@ import copy
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Dict, List, Mapping, Optional, Sequence
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 
@@ -38,8 +38,8 @@ class CaseFacts:
     step: float  # ms, or the tolerance of adaptive steps
     end: float  # ms
     scheme: str
-    period: Optional[float]  # ms
-    flow_interval: Optional[float] = None  # ms, between the points of the given flow's table
+    period: float | None  # ms
+    flow_interval: float | None = None  # ms, between the points of the given flow's table
 
     @property
     def time_order(self) -> float:
@@ -75,7 +75,7 @@ class Member:
         return ", ".join(parts + (["looser"] if self.looser else []) + (["other element"] if self.other else []))
 
 
-def with_settings(entries: Mapping[str, Any], settings: Mapping[str, Any]) -> Dict[str, Any]:
+def with_settings(entries: Mapping[str, Any], settings: Mapping[str, Any]) -> dict[str, Any]:
     """The entries of a case file with others over them, by their full keys."""
     found = copy.deepcopy(dict(entries))
     for key, value in settings.items():
@@ -122,7 +122,7 @@ def read_case(path: Path, settings: Mapping[str, Any] = MappingProxyType({})) ->
     )
 
 
-def _flow_interval(case: Path, openings: Any) -> Optional[float]:
+def _flow_interval(case: Path, openings: Any) -> float | None:
     """The smallest of all tables of flow rates, each by the median of its intervals; None: no table, or none that can
     be read here, which the driver then says."""
     found = []
@@ -146,7 +146,7 @@ def mesh_ratio(recipe: Recipe, levels: int, finer: bool) -> float:
     return recipe.ratio([-k for k in range(below, levels + below)])
 
 
-def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: bool) -> List[Member]:
+def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: bool) -> list[Member]:
     """Members from cheap to dear. `levels` meshes; `finer`: one is finer than the user's own. A mesh file has no
     coarser ones."""
     below = -1 if finer else 0
@@ -190,7 +190,7 @@ class Requests:
         self.facts, self.recipe, self.folder = facts, recipe, folder
         self.methods = {name: _method(name) for name in drivers}
         self.time_limit = time_limit
-        self.scheme: Optional[str] = None  # which fsi-partitioned took where the case names none, once a run has told
+        self.scheme: str | None = None  # which fsi-partitioned took where the case names none, once a run has told
 
     def study(self, threads: int) -> Study:
         """The study of all runs, for the runner."""
@@ -199,7 +199,7 @@ class Requests:
             path, self.name, "verify", threads, 1, self.time_limit, {self.name: path}, self.methods, {}, (), {}, False
         )
 
-    def mesh(self, member: Member) -> Optional[StudyMesh]:
+    def mesh(self, member: Member) -> StudyMesh | None:
         return self.recipe.mesh(1 / member.mesh, self.folder, self.name)
 
     def of(self, member: Member, driver: str) -> Request:
@@ -220,7 +220,7 @@ class Requests:
         }
         return Request("family", self.name, method, values, case, self.mesh(member), settings, self.time_limit)
 
-    def _step(self, member: Member) -> Dict[str, Any]:
+    def _step(self, member: Member) -> dict[str, Any]:
         facts = self.facts
         if member.step == 1 or facts.static:
             return {}
@@ -228,7 +228,7 @@ class Requests:
             return {"time.tolerance": facts.step * member.step**facts.time_order}
         return {"time.step": facts.step * member.step}
 
-    def tolerances(self, program: str, factor: float) -> Dict[str, Any]:
+    def tolerances(self, program: str, factor: float) -> dict[str, Any]:
         """Tolerances that a driver stops by, changed by a factor. For a case that awaits_scheme() they are a guess."""
         return {key: factor * value for key, value in governing(program, self.facts.entries, self.scheme).items()}
 

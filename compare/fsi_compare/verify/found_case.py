@@ -1,12 +1,12 @@
 """A case file with the settings that were found, to be run as it stands from any folder."""
 
 from pathlib import Path
-from typing import Any, List, Mapping
+from typing import Any, Mapping
 
 from ..base.files import absolute, replacing
 
 
-def write_case(path: Path, entries: Mapping[str, Any], home: Path, comments: List[str]) -> None:
+def write_case(path: Path, entries: Mapping[str, Any], home: Path, comments: list[str]) -> None:
     """`home`: the folder that names of files in `entries` are relative to."""
     lines = [f"# {comment}" for comment in comments] + _section("", _with_full_names(entries, home))
     with replacing(path) as temporary:
@@ -25,7 +25,7 @@ def _with_full_names(entry: Any, home: Path) -> Any:
     return [_with_full_names(value, home) for value in entry] if isinstance(entry, list) else entry
 
 
-def _section(name: str, entries: Mapping[str, Any]) -> List[str]:
+def _section(name: str, entries: Mapping[str, Any]) -> list[str]:
     """Values first, then sections, as TOML has it."""
     values = {key: value for key, value in entries.items() if not _is_section(value)}
     lines = [f"[{name}]"] if name and (values or not entries) else []

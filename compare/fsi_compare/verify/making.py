@@ -2,7 +2,7 @@
 
 import shlex
 from dataclasses import replace
-from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Iterable, Mapping, Sequence
 
 from ..base.errors import InputError, ProgramError, say_note, say_warning
 from ..base.files import absolute
@@ -26,13 +26,11 @@ class Maker:
     ) -> None:
         self.runner, self.requests, self.dimension, self.quiet = runner, requests, dimension, quiet
         self.names = names
-        self.last: Optional[
-            int
-        ] = None  # level of the adapted mesh that was none the better for it: there is no finer one
+        self.last: int | None = None  # level of the adapted mesh that was none the better for it: there is no finer one
         self.families = {driver: FamilyRuns(driver, {}) for driver in requests.methods}
-        self.others: Dict[str, StudyRun] = {}
-        self.notes: List[str] = []
-        self._meshes: Dict[float, str] = {}  # why one cannot be made, by size; empty: it can
+        self.others: dict[str, StudyRun] = {}
+        self.notes: list[str] = []
+        self._meshes: dict[float, str] = {}  # why one cannot be made, by size; empty: it can
 
     @property
     def seconds(self) -> float:
@@ -45,7 +43,7 @@ class Maker:
         if not isinstance(recipe, Adapted):
             self._together([pair for pair in self._wanted(members) if self._has_mesh(*pair)])
             return
-        moved: List[Member] = []
+        moved: list[Member] = []
         for mesh in sorted(
             {member.mesh for member, _ in self._wanted(members)}, reverse=True
         ):  # each from its predecessor
@@ -68,7 +66,7 @@ class Maker:
         recipe = self.requests.recipe
         return not isinstance(recipe, Adapted) or self.last is None or recipe.level(member.mesh) <= self.last
 
-    def _wanted(self, members: Iterable[Member]) -> List[Tuple[Member, str]]:
+    def _wanted(self, members: Iterable[Member]) -> list[tuple[Member, str]]:
         """Requests that are not there yet, each once."""
         pairs = [(m, driver) for m in dict.fromkeys(members) for driver in self.families]
         return [(m, driver) for m, driver in pairs if m not in self.families[driver].runs]
@@ -98,13 +96,13 @@ class Maker:
             self.last = level
             self.note(about_unpaid(level, found))
 
-    def _together(self, wanted: Sequence[Tuple[Member, str]]) -> None:
+    def _together(self, wanted: Sequence[tuple[Member, str]]) -> None:
         """Runs with looser tolerances last, where another run has yet to tell which tolerances count."""
         late = [(member, driver) for member, driver in wanted if member.looser and self.requests.awaits_scheme(driver)]
         self._run([pair for pair in wanted if pair not in late])
         self._run(late)
 
-    def _run(self, wanted: Sequence[Tuple[Member, str]]) -> None:
+    def _run(self, wanted: Sequence[tuple[Member, str]]) -> None:
         runs = self.runner.run([self.requests.of(member, driver) for member, driver in wanted])
         for (member, driver), run in zip(wanted, runs):
             self.families[driver].runs[member] = run
@@ -144,7 +142,7 @@ class Maker:
             self.families[driver].runs[member] = StudyRun(request, place, REFUSED, problem, 0.0, "")
         return not problem
 
-    def nodes(self, size: float) -> Optional[int]:
+    def nodes(self, size: float) -> int | None:
         """Number of nodes of the mesh of a size relative to the case's; None: there is none."""
         try:
             mesh = self.runner.mesh_file(self.requests.mesh(Member(round(size, 9), 1.0)))

@@ -12,7 +12,7 @@ import math
 import shlex
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
 from ..base.files import is_file, replacing
@@ -33,11 +33,11 @@ class Recipe:
     """How a mesh is made, with the counts that must stay whole."""
 
     command: str
-    words: Tuple[str, ...]  # behind the command; a .geo by its full path
-    geo: Optional[GeoSizes] = None
+    words: tuple[str, ...]  # behind the command; a .geo by its full path
+    geo: GeoSizes | None = None
     given: Mapping[str, float] = None  # type: ignore[assignment]  # of --set
-    file: Optional[Path] = None  # of command "refine"
-    chain: Tuple[Command, ...] = ()  # of command "chain"
+    file: Path | None = None  # of command "refine"
+    chain: tuple[Command, ...] = ()  # of command "chain"
 
     @property
     def coarsens(self) -> bool:
@@ -53,14 +53,14 @@ class Recipe:
         return ratio_for(self.counts, levels) if self.coarsens else HALVES
 
     @property
-    def counts(self) -> List[float]:
+    def counts(self) -> list[float]:
         if self.geo is not None:
             return [self.given.get(name, value) for name, value in self.geo.counts.items()]
         if self.chain:
             return [count for command in self.chain for count in command.counts]
         return cells_of(self.words)
 
-    def mesh(self, factor: float, folder: Path, case: str) -> Optional[StudyMesh]:
+    def mesh(self, factor: float, folder: Path, case: str) -> StudyMesh | None:
         """The mesh finer by `factor`; None: the case's own file as it stands."""
         name = f"{case[:40]}-x{factor:.4g}"
         if self.chain:
@@ -73,17 +73,17 @@ class Recipe:
             return None if factor == 1 else StudyMesh(name, f"{factor:.3g} times as fine", halves, "refine")
         return StudyMesh(name, f"{factor:.3g} times as fine", tuple(artery_words(self.words, factor)), "artery")
 
-    def unrefined(self, sizes: Sequence[float], folder: Path) -> Dict[str, int]:
+    def unrefined(self, sizes: Sequence[float], folder: Path) -> dict[str, int]:
         """Layers of a wall with as many elements in meshes of all these sizes, relative to the case's, by name."""
         layers = [sized(command.finer(1 / size, folder), "").elements for command in self.chain for size in sizes]
-        kept: Dict[str, int] = {}
+        kept: dict[str, int] = {}
         for command in self.chain:
             for name, number in command.elements.items():
                 if all(one.get(name, number) == number for one in layers):
                     kept[name] = number
         return kept
 
-    def geo_words(self, factor: float, folder: Path) -> List[str]:
+    def geo_words(self, factor: float, folder: Path) -> list[str]:
         assert self.geo is not None
         script = self.geo.script
         if self.geo.graded and factor != 1:
@@ -105,14 +105,14 @@ class Script(Command):
     recipe: Recipe
 
     @property
-    def counts(self) -> List[float]:
+    def counts(self) -> list[float]:
         return self.recipe.counts
 
-    def finer(self, factor: float, folder: Path) -> List[str]:
+    def finer(self, factor: float, folder: Path) -> list[str]:
         return ["geo", *self.recipe.geo_words(factor, folder)]
 
 
-def chained(commands: Sequence[Sequence[str]]) -> List[str]:
+def chained(commands: Sequence[Sequence[str]]) -> list[str]:
     """Their words, with marks between."""
     return [word for number, words in enumerate(commands) for word in ([MARK] if number else []) + list(words)]
 
@@ -128,7 +128,7 @@ def ratio_for(counts: Sequence[float], levels: Sequence[int]) -> float:
     return min(RATIOS, key=lambda ratio: (round(rounding(ratio), 2), RATIOS.index(ratio)))
 
 
-def find_recipe(case: Path, entries: Mapping[str, Any], named: Optional[str], mesh_maker: Path) -> Recipe:
+def find_recipe(case: Path, entries: Mapping[str, Any], named: str | None, mesh_maker: Path) -> Recipe:
     """The recipe by --mesh, the gallery's scene, the case's level or error, or its mesh file. Raises InputError."""
     element, geometry = str(entries.get("element", "p2p1")), str(entries.get("geometry", "3d"))
     section = entries.get("mesh", {})
@@ -155,7 +155,7 @@ def find_recipe(case: Path, entries: Mapping[str, Any], named: Optional[str], me
     return Recipe("refine", (), file=file)
 
 
-def _split(text: str) -> List[str]:
+def _split(text: str) -> list[str]:
     try:
         return shlex.split(text)
     except ValueError as error:
@@ -182,7 +182,7 @@ def _recipe(words: Sequence[str], folder: Path, source: str, mesh_maker: Path) -
 def _chain(words: Sequence[str], folder: Path, source: str) -> Recipe:
     links(words, Path("mesh.msh"), source)  # raises where the order is wrong
     named = [apart(command) for command in commands_of(words)]
-    found: List[Command] = []
+    found: list[Command] = []
     for number, command in enumerate(named):
         for word in command:
             if word in ("-o", "--output"):
@@ -225,7 +225,7 @@ def _geo(words: Sequence[str], folder: Path, source: str) -> Recipe:
     return Recipe("geo", tuple(others), read_sizes(script), _given(others))
 
 
-def _given(words: Sequence[str]) -> Dict[str, float]:
+def _given(words: Sequence[str]) -> dict[str, float]:
     """name=number of each --set."""
     found = {}
     for i, word in enumerate(words):
@@ -236,7 +236,7 @@ def _given(words: Sequence[str]) -> Dict[str, float]:
     return found
 
 
-def _without_set(words: Sequence[str]) -> List[str]:
+def _without_set(words: Sequence[str]) -> list[str]:
     kept, skip = [], False
     for word in words:
         if not skip and word != "--set" and not word.startswith("--set="):

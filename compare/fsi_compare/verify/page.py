@@ -2,7 +2,7 @@
 
 import re
 from pathlib import Path
-from typing import List, Sequence
+from typing import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -59,7 +59,7 @@ def write_page(
     return report
 
 
-def _groups(waves: Sequence[Band]) -> List[List[Band]]:
+def _groups(waves: Sequence[Band]) -> list[list[Band]]:
     """Curves of one column share a picture."""
     groups: dict = {}
     for band in waves:

@@ -2,7 +2,7 @@
 
 import argparse
 from pathlib import Path
-from typing import List, Sequence
+from typing import Sequence
 
 from ..base.errors import InputError
 from ..gallery.mesh_chain import READ
@@ -28,7 +28,7 @@ TRIED = 0.25  # of the budget, that a member may take before the family is known
 PRINTED = (SHAPE, ADAPTED, SURFACE)  # with the bars, not only in the report
 
 
-def plan(recipe: Recipe, facts: CaseFacts, options: argparse.Namespace) -> List[Member]:
+def plan(recipe: Recipe, facts: CaseFacts, options: argparse.Namespace) -> list[Member]:
     ratio = mesh_ratio(recipe, options.levels, not options.coarser)
     if recipe.adapts and options.coarser:
         raise InputError("", "--adapt", "makes finer meshes only", "leave --coarser out")

@@ -15,7 +15,7 @@ it is of, which its error is relative to.
 import functools
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
+from typing import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -68,8 +68,8 @@ class Quantity:
     scale: float
     of: Callable[[Curve], float]
     is_extreme: bool = False
-    whole: Optional[Stretch] = None  # the curve itself, whose error has a norm; `of` is then that of the curve
-    held_by: Optional[Stretch] = None  # the curve's error that this number's cannot exceed
+    whole: Stretch | None = None  # the curve itself, whose error has a norm; `of` is then that of the curve
+    held_by: Stretch | None = None  # the curve's error that this number's cannot exceed
     is_norm: bool = False
 
 
@@ -77,14 +77,14 @@ class Quantity:
 class Asked:
     """What is asked for in addition to the usual numbers."""
 
-    times: Tuple[float, ...] = ()  # ms
-    period: Optional[float] = None  # ms
+    times: tuple[float, ...] = ()  # ms
+    period: float | None = None  # ms
     static: bool = False  # no curve over time: the last level alone counts
 
 
-def curves_of(folder: Path) -> Dict[str, Curve]:
+def curves_of(folder: Path) -> dict[str, Curve]:
     """Curves of a finished run, by name. Raises InputError for tables that cannot be read."""
-    found: Dict[str, Curve] = {}
+    found: dict[str, Curve] = {}
     tables = list(TABLES) + ([] if is_file(folder / "openings.csv") else ["flow.csv"])
     for table in tables:
         if is_file(folder / table):
@@ -126,12 +126,12 @@ def _derived(folder: Path) -> Iterator[Curve]:
             )
 
 
-def quantities_of(curves: Mapping[str, Curve], asked: Asked) -> List[Quantity]:
+def quantities_of(curves: Mapping[str, Curve], asked: Asked) -> list[Quantity]:
     """Quantities of the user's own run, which decides which extremes there are."""
-    sizes: Dict[str, float] = {}
+    sizes: dict[str, float] = {}
     for curve in curves.values():
         sizes[curve.unit] = max(sizes.get(curve.unit, 0.0), curve.largest)
-    found: List[Quantity] = []
+    found: list[Quantity] = []
     for curve in curves.values():
         if curve.largest > SEEN * sizes[curve.unit] and curve.largest > 0:
             found += _of_curve(curve, asked)
@@ -148,7 +148,7 @@ def on(grid: Curve, curve: Curve, stretch: Stretch) -> np.ndarray:
     return stretch_of(curve.times, curve.s, curve.values, (grid.times, grid.s), stretch)
 
 
-def _of_curve(curve: Curve, asked: Asked) -> List[Quantity]:
+def _of_curve(curve: Curve, asked: Asked) -> list[Quantity]:
     line = curve.values.shape[1] > 1
     end = float(curve.times[-1])
     if asked.static or len(curve.times) < 3:
@@ -187,7 +187,7 @@ def size_of(curve: Curve, stretch: Stretch) -> float:
     return max(norm_of(curve, stretch)(on(curve, curve, stretch)), AT_REST * curve.largest)
 
 
-def _whole(curve: Curve, time: Optional[float] = None, when: str = "") -> List[Quantity]:
+def _whole(curve: Curve, time: float | None = None, when: str = "") -> list[Quantity]:
     """The error of the curve itself: its norm, and the largest. A point has none at a single time."""
     line = curve.values.shape[1] > 1
     if time is not None and not line:
@@ -219,7 +219,7 @@ def _extremes(curve: Curve) -> Iterator[Quantity]:
         yield _number(curve, "smallest", lambda c: _extreme(c, -1.0), Stretch(True), extreme=True)
 
 
-def _at_end(curve: Curve) -> List[Quantity]:
+def _at_end(curve: Curve) -> list[Quantity]:
     end = float(curve.times[-1])
     if curve.values.shape[1] > 1:
         norm = _number(curve, "L2 norm at the end", lambda c: _at(c, end), Stretch(False, end), True)
@@ -280,7 +280,7 @@ def _l2(curve: Curve) -> float:
     return _norm(curve.times, curve.values[:, 0])
 
 
-def _window(curve: Curve, begin: float) -> Tuple[np.ndarray, np.ndarray]:
+def _window(curve: Curve, begin: float) -> tuple[np.ndarray, np.ndarray]:
     """Times and values from `begin` on, which gets a level of its own."""
     after = curve.times > begin + 1e-9 * abs(curve.times[-1])
     start = np.interp(begin, curve.times, curve.values[:, 0])
@@ -298,6 +298,6 @@ def _swing(curve: Curve, begin: float) -> float:
     return 0.5 * (peak(t, y) + peak(t, -y))
 
 
-def chosen(quantities: Sequence[Quantity], names: Sequence[str]) -> List[Quantity]:
+def chosen(quantities: Sequence[Quantity], names: Sequence[str]) -> list[Quantity]:
     """Quantities whose name holds one of `names`; all where none is given."""
     return [q for q in quantities if not names or any(name.lower() in q.name.lower() for name in names)]

@@ -1,7 +1,7 @@
 """What the runs of a family say: bars of all quantities by driver, and bands of curves."""
 
 from dataclasses import dataclass, replace
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -21,8 +21,8 @@ class Judged:
     driver: str
     quantity: Quantity
     bar: Bar
-    values: Tuple[Value, ...]  # of all members; of a curve how far each is from the user's own
-    own: Optional[Curve] = None  # that the value is of; of the coarsest mesh where the user's own is missing
+    values: tuple[Value, ...]  # of all members; of a curve how far each is from the user's own
+    own: Curve | None = None  # that the value is of; of the coarsest mesh where the user's own is missing
 
     def apart(self, other: Curve) -> float:
         """Difference of another run's value."""
@@ -50,22 +50,22 @@ class FamilyRuns:
     """One driver's finished members, and why others are missing."""
 
     driver: str
-    runs: Dict[Member, StudyRun]
+    runs: dict[Member, StudyRun]
 
     @property
-    def done(self) -> Dict[Member, StudyRun]:
+    def done(self) -> dict[Member, StudyRun]:
         return {member: run for member, run in self.runs.items() if run.done}
 
     @property
-    def failures(self) -> Dict[Member, StudyRun]:
+    def failures(self) -> dict[Member, StudyRun]:
         return {member: run for member, run in self.runs.items() if not run.done}
 
     @property
-    def own(self) -> Optional[StudyRun]:
+    def own(self) -> StudyRun | None:
         """The run that the bars are of; None: it is missing."""
         return next((run for member, run in self.done.items() if member.is_own), None)
 
-    def read(self) -> Dict[Member, Dict[str, Curve]]:
+    def read(self) -> dict[Member, dict[str, Curve]]:
         return {member: curves_of(run.folder) for member, run in self.done.items()}
 
 
@@ -92,11 +92,11 @@ def _same(size: float) -> float:
     return 1.0 if abs(size - 1) < 1e-6 else round(size, 9)
 
 
-def sizes(runs: Mapping[Member, StudyRun]) -> Dict[float, float]:
+def sizes(runs: Mapping[Member, StudyRun]) -> dict[float, float]:
     """Real sizes of elements relative to the user's own by their planned ones, from the numbers of cells: counts are
     whole, and a mesh generator makes of a size what it can. Cells go with size^-d; d, the number of directions that are
     refined, is that of all meshes together."""
-    counts: Dict[float, float] = {}
+    counts: dict[float, float] = {}
     for member, run in runs.items():
         mesh = run.summary.get("mesh", {})
         cells = mesh.get("tetrahedra", mesh.get("triangles", mesh.get("nodes")))
@@ -136,7 +136,7 @@ def judge(
     times: Sequence[float],
     names: Sequence[str],
     additive: bool = False,
-) -> List[Judged]:
+) -> list[Judged]:
     """Bars of all quantities of the user's own run. `additive`: it may be missing where column and row tell it
     (verdict.py); the quantities are then those of the coarsest mesh by the own step."""
     own = next((member for member in curves if member.is_own), None)
@@ -173,9 +173,9 @@ class _Judging:
             additive,
         )
         self.missed = ""  # what forbids all bars
-        self._whole: Dict[Tuple[str, Stretch], Optional[Bar]] = {}
+        self._whole: dict[tuple[str, Stretch], Bar | None] = {}
 
-    def judged(self, quantity: Quantity) -> Optional[Judged]:
+    def judged(self, quantity: Quantity) -> Judged | None:
         """The quantity's bar; None where nothing can be said of the user's own run."""
         if quantity.whole is not None:
             bar = self._of_curve(quantity, quantity.whole)
@@ -195,17 +195,17 @@ class _Judging:
             bar = inherited(bar, whole)
         return None if bar is None else self._doubted(quantity, bar, values)
 
-    def _orders(self, quantity: Quantity) -> Tuple[float, float]:
+    def _orders(self, quantity: Quantity) -> tuple[float, float]:
         return self.facts.space_order(quantity.is_pressure), self.facts.time_order
 
-    def _values(self, name: str, of: Callable[[Curve], Any]) -> Tuple[Value, ...]:
+    def _values(self, name: str, of: Callable[[Curve], Any]) -> tuple[Value, ...]:
         return tuple(
             Value(self.real.get(m.mesh, m.mesh), m.step, of(found[name]), m.looser, m.other)
             for m, found in self.curves.items()
             if name in found
         )
 
-    def _of_curve(self, quantity: Quantity, stretch: Stretch) -> Optional[Bar]:
+    def _of_curve(self, quantity: Quantity, stretch: Stretch) -> Bar | None:
         """The bar of the curve's error itself."""
         key = quantity.curve, stretch
         if key not in self._whole:
@@ -216,14 +216,14 @@ class _Judging:
             self._whole[key] = bar_of(values, size_of(grid, stretch), *orders, self.facts.element, self.additive, norm)
         return self._whole[key]
 
-    def _distances(self, quantity: Quantity) -> Tuple[Value, ...]:
+    def _distances(self, quantity: Quantity) -> tuple[Value, ...]:
         """Distances of all members' curves from the user's own, or from what stands for it."""
         assert quantity.whole is not None
         grid, stretch = self.own[quantity.curve], quantity.whole
         norm, own = norm_of(grid, stretch), on(grid, grid, stretch)
         return self._values(quantity.curve, lambda curve: norm(on(grid, curve, stretch) - own))
 
-    def _doubted(self, quantity: Quantity, bar: Bar, values: Tuple[Value, ...]) -> Judged:
+    def _doubted(self, quantity: Quantity, bar: Bar, values: tuple[Value, ...]) -> Judged:
         curves = [of[quantity.curve] for of in self.curves.values() if quantity.curve in of]
         advice = self.missed or doubt(quantity, curves, self.facts)
         if advice:
@@ -231,13 +231,13 @@ class _Judging:
         return Judged(self.driver, quantity, bar, values, self.own[quantity.curve])
 
 
-def bands(family: FamilyRuns, curves: Mapping[Member, Mapping[str, Curve]], judged: Sequence[Judged]) -> List[Band]:
+def bands(family: FamilyRuns, curves: Mapping[Member, Mapping[str, Curve]], judged: Sequence[Judged]) -> list[Band]:
     """Bands of curves whose error has a bar: of points over time, of lines along them at the end and at the times asked
     for. At each place the own curve's distance from the finest in each direction, and what that direction's order says
     is left beyond it; the largest of the neighbourhood, since a wave that comes at another moment crosses the own curve
     where the distance is zero."""
     own = next((member for member in curves if member.is_own), None)
-    found: List[Band] = []
+    found: list[Band] = []
     if own is None:
         return found
     curves = on_common_points(curves)

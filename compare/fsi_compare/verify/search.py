@@ -5,7 +5,7 @@ import shlex
 import shutil
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Sequence
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError, printable
 from ..gallery.mesh_chain import MARK, as_typed
@@ -31,17 +31,17 @@ FURTHEST = 2  # powers of a ratio, of settings beyond the family's centre
 
 @dataclass
 class Outcome:
-    judged: List[Judged]  # of the last run
+    judged: list[Judged]  # of the last run
     reached: bool
-    lines: List[str] = field(default_factory=list)  # what to say, in sentences
-    final: Optional[Member] = None
+    lines: list[str] = field(default_factory=list)  # what to say, in sentences
+    final: Member | None = None
     settings: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Demand:
     error: float  # relative to the largest of each curve
-    budget: Optional[float]  # s
+    budget: float | None  # s
     names: Sequence[str]
     times: Sequence[float]
 
@@ -54,13 +54,13 @@ class Search:
         self.driver = next(iter(maker.families))
         self.centre = start
         self.corner = self._corner(start)  # where the cross has its coarsest mesh and longest step
-        self.curves: Dict[Member, Dict[str, Curve]] = {}  # of the family
-        self.sets: Dict[Path, BarsOfRun] = {}  # of each run that bars were made for, by its folder
+        self.curves: dict[Member, dict[str, Curve]] = {}  # of the family
+        self.sets: dict[Path, BarsOfRun] = {}  # of each run that bars were made for, by its folder
 
     def go(self) -> Outcome:
         """Searches. Raises InputError where the user's own run fails or nothing is sampled."""
         judged = self._family()
-        lines: List[str] = []
+        lines: list[str] = []
         for move in range(MOST_MOVES + 1):
             asked = [one for one in judged if one.bar.given]
             lacking = refinable(judged) and (move < MOVES_FOR_BARS or not asked)
@@ -99,7 +99,7 @@ class Search:
     def _corner(self, centre: Member) -> Member:
         return Member(self._size(centre.mesh * self.ratio ** (self.levels - 1)), _round(centre.step * STEP_RATIO**2))
 
-    def _members(self) -> List[Member]:
+    def _members(self) -> list[Member]:
         recipe, facts, centre = self.maker.requests.recipe, self.maker.requests.facts, self.centre
         if self.crosses:
             meshes = between(self.corner.mesh, centre.mesh, self.ratio)
@@ -116,7 +116,7 @@ class Search:
             relative = members(recipe, facts, self.ratio, self.levels, True)
         return [replace(m, mesh=self._size(m.mesh * centre.mesh), step=_round(m.step * centre.step)) for m in relative]
 
-    def _family(self) -> List[Judged]:
+    def _family(self) -> list[Judged]:
         """Its bars, after its members have run."""
         self.maker.run(self._members())
         self.curves = self._kept().read()
@@ -136,7 +136,7 @@ class Search:
         runs = self.maker.families[self.driver].runs
         return FamilyRuns(self.driver, {m: runs[m] for m in self._members()} if self.crosses else runs)
 
-    def _judged(self, centre: Member, additive: bool = False) -> List[Judged]:
+    def _judged(self, centre: Member, additive: bool = False) -> list[Judged]:
         """Bars of any member, from all of the family."""
         family = about(self._kept(), centre)
         curves = {relative(member, centre): of for member, of in self.curves.items()}
@@ -144,7 +144,7 @@ class Search:
         self._keep(family.own, found)
         return found
 
-    def _proved(self, judged: List[Judged]) -> List[Judged]:
+    def _proved(self, judged: list[Judged]) -> list[Judged]:
         """Bars by a run of the centre itself, unless a cheaper one that has run is good enough."""
         if all(not one.bar.given for one in judged) or self.centre in self.curves:
             return judged
@@ -153,12 +153,12 @@ class Search:
         self.maker.run([self.centre])
         return self._family()
 
-    def _keep(self, run: Optional[StudyRun], judged: Sequence[Judged]) -> None:
+    def _keep(self, run: StudyRun | None, judged: Sequence[Judged]) -> None:
         """The last family to have a run tells most of it."""
         if run is not None:
             self.sets[run.folder] = BarsOfRun(self.driver, run, judged)
 
-    def _best(self, judged: Sequence[Judged], demand: float) -> Optional[Settings]:
+    def _best(self, judged: Sequence[Judged], demand: float) -> Settings | None:
         family = about(self.maker.families[self.driver], self.centre)
         costs = learn(family.runs, self.maker.dimension, self.maker.requests.facts.element)
         requests = self.maker.requests
@@ -186,7 +186,7 @@ class Search:
         """The power of the ratio that it is but for round-off, so that a mesh has one size whatever way leads to it."""
         return _round(self.ratio ** round(math.log(mesh) / math.log(self.ratio)))
 
-    def _towards(self, asked: Sequence[Judged]) -> Optional[Member]:
+    def _towards(self, asked: Sequence[Judged]) -> Member | None:
         """The cheapest settings that are predicted to reach the demand, but no further from the centre than FURTHEST
         ratios: the family's orders tell little beyond."""
         best = self._best(asked, self.demand.error)
@@ -202,7 +202,7 @@ class Search:
     def _words(self, mesh: float, step: float) -> str:
         return f"elements of {mesh * self.centre.mesh:.3g} and steps of {step * self.centre.step:.3g} of the case's"
 
-    def _move(self, target: Member, lines: List[str]) -> bool:
+    def _move(self, target: Member, lines: list[str]) -> bool:
         """Moves the family's centre; False where adaptation has stopped before it, or where that does not fit the
         budget."""
         if not self.maker.reaches(target):
@@ -250,7 +250,7 @@ class Search:
                 break
         return outcome
 
-    def _good_enough(self) -> List[Member]:
+    def _good_enough(self) -> list[Member]:
         """The cheapest member whose own bars are within the demand; empty: none."""
         done = self._kept().done
         for member, _ in sorted(done.items(), key=lambda pair: pair[1].seconds):
@@ -272,7 +272,7 @@ class Search:
         return Outcome(judged, reached(judged, self.demand.error), [line], final, settings)
 
 
-def _shown(asked: Sequence[Judged], run: StudyRun) -> List[Judged]:
+def _shown(asked: Sequence[Judged], run: StudyRun) -> list[Judged]:
     """Bars of a run by those of another."""
     curves = curves_of(run.folder)
     return [shown_by(one, curves[one.quantity.curve]) for one in asked if one.quantity.curve in curves]
@@ -282,13 +282,13 @@ def _round(size: float) -> float:
     return 1.0 if abs(size - 1) < 1e-9 else round(size, 9)
 
 
-def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[str, StudyRun]) -> List[Path]:
+def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[str, StudyRun]) -> list[Path]:
     """`found.toml` with its mesh beside it; none where nothing was found."""
     if outcome.final is None:
         return []
     requests = maker.requests
     facts = requests.facts
-    settings: Dict[str, Any] = dict(requests.of(outcome.final, next(iter(maker.families))).settings)
+    settings: dict[str, Any] = dict(requests.of(outcome.final, next(iter(maker.families))).settings)
     settings.pop(INDICATOR, None)  # of a family of adapted meshes; the case's own entry stays
     settings.update(outcome.settings)
     made = requests.mesh(outcome.final)
@@ -309,7 +309,7 @@ def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[s
     return written
 
 
-def _as_made(mesh: StudyMesh) -> List[str]:
+def _as_made(mesh: StudyMesh) -> list[str]:
     """The commands of a mesh, as comments."""
     words = [mesh.command, *mesh.options]
     if MARK not in words:
@@ -317,7 +317,7 @@ def _as_made(mesh: StudyMesh) -> List[str]:
     return [f"{MESH}:", *(f"  {line}" for line in as_typed(words, Path(MESH), MESH))]
 
 
-def by_each_driver(maker: Maker, outcome: Outcome, drivers: Sequence[str]) -> Dict[str, StudyRun]:
+def by_each_driver(maker: Maker, outcome: Outcome, drivers: Sequence[str]) -> dict[str, StudyRun]:
     """The settings found, as `found.toml` has them, run by each. Where another driver stops by tolerances that are not
     among them a line says so."""
     if outcome.final is None:

@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Sequence
 
 from ..base.files import replacing
 from ..reporting.column import Column
@@ -19,15 +19,15 @@ def _number(value: float) -> str:
     return f"{value:.6g}"
 
 
-def _bar(judged: Judged) -> Optional[float]:
+def _bar(judged: Judged) -> float | None:
     return judged.bar.total if judged.bar.given else None
 
 
-def _percent(judged: Judged) -> Optional[float]:
+def _percent(judged: Judged) -> float | None:
     return 100 * judged.bar.relative if judged.bar.given else None
 
 
-def _part(judged: Judged, part: Part) -> Optional[float]:
+def _part(judged: Judged, part: Part) -> float | None:
     return part.bar if judged.bar.given else None
 
 
@@ -55,7 +55,7 @@ BARS: Sequence[Column[Judged]] = (
     Column(csv="estimated_error", value=lambda j: j.bar.off if j.bar.given else None),
 )
 
-Row = Tuple[str, Member, Any]
+Row = tuple[str, Member, Any]
 MEMBERS: Sequence[Column[Row]] = (
     Column("driver", "driver", lambda r: r[0], left=True),
     Column("member", "member", lambda r: r[1].name, left=True),
@@ -91,7 +91,7 @@ def members_table(families: Sequence[FamilyRuns]) -> Table:
     return Table("members", "The family", MEMBERS, rows, notes=notes)
 
 
-def counts(judged: Sequence[Judged]) -> List[str]:
+def counts(judged: Sequence[Judged]) -> list[str]:
     """How many have which verdict, in sentences."""
     found = []
     for verdict in (CONVERGES, BAR_WIDENED, NOT_IN_RANGE):
@@ -101,7 +101,7 @@ def counts(judged: Sequence[Judged]) -> List[str]:
     return found
 
 
-def in_short(judged: Sequence[Judged], families: Sequence[FamilyRuns]) -> List[str]:
+def in_short(judged: Sequence[Judged], families: Sequence[FamilyRuns]) -> list[str]:
     """The answer."""
     lines = counts(judged)
     given = [one for one in judged if one.bar.given]
@@ -122,7 +122,7 @@ def in_short(judged: Sequence[Judged], families: Sequence[FamilyRuns]) -> List[s
     return lines
 
 
-def write_json(folder: Path, about: Dict[str, Any], sets: Sequence[BarsOfRun], families: Sequence[FamilyRuns]) -> Path:
+def write_json(folder: Path, about: dict[str, Any], sets: Sequence[BarsOfRun], families: Sequence[FamilyRuns]) -> Path:
     """`verification.json`: about the case, all bars with what tells the run that they are of, all members."""
     data = {
         **about,
@@ -134,7 +134,7 @@ def write_json(folder: Path, about: Dict[str, Any], sets: Sequence[BarsOfRun], f
     return folder / FILE
 
 
-def _set(bars: BarsOfRun) -> Dict[str, Any]:
+def _set(bars: BarsOfRun) -> dict[str, Any]:
     quantities = [{**dict(_fields(BARS, one)), "values": [vars(value) for value in one.values]} for one in bars.judged]
     return {
         "driver": bars.driver,
@@ -144,5 +144,5 @@ def _set(bars: BarsOfRun) -> Dict[str, Any]:
     }
 
 
-def _fields(columns: Sequence[Column[Any]], record: Any) -> List[Tuple[str, Any]]:
+def _fields(columns: Sequence[Column[Any]], record: Any) -> list[tuple[str, Any]]:
     return [(column.name, column.value(record)) for column in columns if column.csv]

@@ -10,7 +10,7 @@ difference of meshes changes when the step does. The parts are added up, not the
 independent."""
 
 from dataclasses import dataclass, replace
-from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Mapping, Sequence
 
 from .curve_norms import CurveNorm
 from .direction import NOTHING, OUTSIDE, SILENT, WIDENED, Part, by_elements, part_of, part_of_curves
@@ -78,9 +78,9 @@ def bar_of(
     time_order: float,
     element: str = "p2p1",
     additive: bool = False,
-    norm: Optional[CurveNorm] = None,
-    curve: Optional[Bar] = None,
-) -> Optional[Bar]:
+    norm: CurveNorm | None = None,
+    curve: Bar | None = None,
+) -> Bar | None:
     """The bar; None where the user's own member is missing. `scale`: the largest of the curve that the value is of.
     `additive`: that member may be missing; the value is then made of column and row, y(1, column) + y(row, 1) - y(row,
     column), which leaves out c (1 - row^p) (1 - column^q). `norm`: of values that are curves. `curve`: the bar of the
@@ -118,7 +118,7 @@ def _size(number: Any) -> float:
 
 
 def _along(
-    points: Sequence[Tuple[float, Any]], expected: float, noise: float, norm: Optional[CurveNorm], curve: Optional[Part]
+    points: Sequence[tuple[float, Any]], expected: float, noise: float, norm: CurveNorm | None, curve: Part | None
 ) -> Part:
     if len(points) < 2:
         return NOTHING
@@ -128,13 +128,13 @@ def _along(
     return part_of(sizes, values, expected, noise, curve)
 
 
-def _mesh_of_steps(table: Mapping[Tuple[float, float], Any]) -> float:
+def _mesh_of_steps(table: Mapping[tuple[float, float], Any]) -> float:
     """Mesh of the row, whose members tell the error of the step: the user's own, or that with the most steps."""
     numbers = {m: sum(1 for other, _ in table if other == m) for m, s in table if s == 1.0}
     return _most(numbers)
 
 
-def _step_of_meshes(table: Mapping[Tuple[float, float], Any]) -> float:
+def _step_of_meshes(table: Mapping[tuple[float, float], Any]) -> float:
     """Step of the column, whose members tell the error of the mesh: the user's own, or that with the most meshes."""
     numbers = {s: sum(1 for _, other in table if other == s) for m, s in table if m == 1.0}
     return _most(numbers)
@@ -145,7 +145,7 @@ def _most(numbers: Mapping[float, int]) -> float:
 
 
 def _together(
-    table: Mapping[Tuple[float, float], Any],
+    table: Mapping[tuple[float, float], Any],
     row: float,
     column: float,
     mesh: Part,
@@ -170,7 +170,7 @@ def _together(
     return TOGETHER_FACTOR * mixed * max(1.0, row**mesh.used + column**step.used - 1) / max(share, 0.25)
 
 
-def _judged(mesh: Part, step: Part, together: float, solver: float, negligible: float) -> Tuple[str, str]:
+def _judged(mesh: Part, step: Part, together: float, solver: float, negligible: float) -> tuple[str, str]:
     total = mesh.bar + step.bar + together + solver
     named = (("mesh", mesh), ("step", step))
     counting = [(name, part) for name, part in named if part.bar > SMALL * total]
@@ -193,7 +193,7 @@ def _advice(what: Sequence[str], lacking: Sequence[str] = ()) -> str:
         return " and ".join(
             {"mesh": "a third mesh is missing", "step": "a third step is missing"}[name] for name in lacking
         )
-    words: List[str] = [{"mesh": "refine the mesh", "step": "shorten the step"}[name] for name in what]
+    words: list[str] = [{"mesh": "refine the mesh", "step": "shorten the step"}[name] for name in what]
     return " and ".join(words) + (", both together" if len(words) > 1 else "")
 
 
