@@ -11,15 +11,8 @@ As a library (docs/guide/reports.md#python):
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .base.errors import InputError as InputError
+    from .library import *
     from .reporting.plots import plot_energy as plot_energy, plot_line as plot_line, plot_openings as plot_openings
-    from .results.comparison import LineDifference as LineDifference, difference as difference
-    from .results.fields import MediumFields as MediumFields
-    from .results.line import Line as Line
-    from .results.openings import Opening as Opening
-    from .results.run import RunResults as RunResults, open_run as open_run
-    from .results.surfaces import Surface as Surface
-    from .results.table import MissingColumn as MissingColumn, Table as Table
 
 __all__ = [
     "InputError",

@@ -45,7 +45,8 @@ def _guarded_main(arguments: Sequence[str], version: str, load: Callable[[], Run
         print(f"{PROGRAM}: interrupted by {signal}{_what_stays(arguments)}", file=sys.stderr)
         return signal.code
     except MemoryError:
-        say_error(f"out of memory; {_less(arguments)}, or take a larger machine")
+        less = LESS.get(arguments[0] if arguments else "", "compare fewer or smaller runs")
+        say_error(f"out of memory; {less}, or take a larger machine")
         return 1
     except ReaderLeft:
         return 0  # the reader, e.g. `head`, has seen enough
@@ -72,12 +73,11 @@ def _loaded(load: Callable[[], Run]) -> Run:
         return load()
     except EOFError:  # what Python says of byte code that was cut by a full disk; none is written today
         folder = Path(__file__).parent
-        raise InputError(
-            str(folder), "", "byte code beside the sources is damaged", f"remove the folders __pycache__ in {folder}"
-        ) from None
+        remedy = f"remove the folders __pycache__ in {folder}"
+        raise InputError(folder, "", "byte code beside the sources is damaged", remedy) from None
 
 
-LESS = {  # by command; others compare runs
+LESS = {  # advice for a command that ran out of memory: what to give it less of; others compare runs
     "report": "give fewer runs, or fewer times by --frames",
     "picture": "take a run with fewer nodes",
     "watch": "leave --page out",
@@ -91,11 +91,6 @@ LESS = {  # by command; others compare runs
     "verify": "give --coarser, sample fewer points, or take a coarser case; finished runs are kept",
     "tune": "take a coarser case; finished runs are kept",
 }
-
-
-def _less(arguments: Sequence[str]) -> str:
-    """Advice for a command that ran out of memory: what to give it less of."""
-    return LESS.get(arguments[0] if arguments else "", "compare fewer or smaller runs")
 
 
 def _what_stays(arguments: Sequence[str]) -> str:

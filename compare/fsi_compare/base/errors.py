@@ -17,12 +17,7 @@ class InputError(Exception):
     """
 
     def __init__(self, file: str | Path, key: str, problem: str, remedy: str = "") -> None:
-        parts = (
-            shortened_path(str(file), FILE_LIMIT),
-            shortened(key, KEY_LIMIT),
-            shortened(" ".join(problem.split()), PROBLEM_LIMIT),
-        )
-        text = ": ".join(part for part in parts if part)
+        text = _joined(file, key, shortened(" ".join(problem.split()), PROBLEM_LIMIT))
         super().__init__(f"{text}; {shortened(' '.join(remedy.split()), REMEDY_LIMIT)}" if remedy else text)
 
 
@@ -30,13 +25,14 @@ class ProgramError(InputError):
     """Carries the message of a program, which has parts of its own, in the place of the problem."""
 
     def __init__(self, file: str | Path, key: str, message: str, remedy: str = "") -> None:
-        parts = (
-            shortened_path(str(file), FILE_LIMIT),
-            shortened(key, KEY_LIMIT),
-            shortened(message, FILE_LIMIT + KEY_LIMIT + PROBLEM_LIMIT + REMEDY_LIMIT),
-        )
-        text = ": ".join(part for part in parts if part)
+        text = _joined(file, key, shortened(message, FILE_LIMIT + KEY_LIMIT + PROBLEM_LIMIT + REMEDY_LIMIT))
         Exception.__init__(self, f"{text}; {remedy}" if remedy else text)
+
+
+def _joined(file: str | Path, key: str, problem: str) -> str:
+    return ": ".join(
+        part for part in (shortened_path(str(file), FILE_LIMIT), shortened(key, KEY_LIMIT), problem) if part
+    )
 
 
 def printable(text: str) -> str:

@@ -6,7 +6,7 @@ import sys
 from ..base.errors import InputError, printable, say_error
 from ..base.files import folder, make_folder
 from ..base.options import Commands, add_command, add_drivers, add_output, add_usual, positive
-from ..starting.folder_lock import locked
+from ..base.folder_lock import locked
 from ..starting.programs import find_mesh_maker, find_program
 from .running import Programs, make_runs
 from .scene import BOTH, PEERS, READY, Number, find_scenes

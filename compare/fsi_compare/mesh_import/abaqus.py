@@ -13,15 +13,9 @@ import numpy as np
 
 from ..base.errors import InputError
 from ..base.files import read_bytes
-from .raw_mesh import RawMesh
+from .raw_mesh import RawMesh, sides_in_order
 
-# Nodes of faces S1, S2, ...: corners, then middles of edges.
-FACES: dict[str, tuple[str, tuple[tuple[int, ...], ...]]] = {
-    "tetra": ("triangle", ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))),
-    "tetra10": ("triangle6", ((0, 1, 2, 4, 5, 6), (0, 3, 1, 7, 8, 4), (1, 3, 2, 8, 9, 5), (2, 3, 0, 9, 7, 6))),
-    "triangle": ("line", ((0, 1), (1, 2), (2, 0))),
-    "triangle6": ("line3", ((0, 1, 3), (1, 2, 4), (2, 0, 5))),
-}
+FACES = sides_in_order((3, 2, 0, 1))  # S1, S2, ...
 # Types of elements begin with one of these, by dimension; the number of nodes follows, then letters of the formulation.
 FAMILIES = {
     3: ("DC3D", "AC3D", "C3D"),
@@ -180,13 +174,9 @@ class _Deck:
                 for block, there in entries:
                     places[order[block]] += there
                 name = _shown(key, table)
-                sets[name + (word if name in sets else "")] = [np.unique(np.array(p, dtype=np.int64)) for p in places]
-        points = {
-            _shown(key, self.point_sets): np.unique(np.array(p, dtype=np.int64)) for key, p in self.point_sets.items()
-        }
-        return RawMesh(
-            np.array(self.points), blocks, cell_sets=sets, point_sets=points, passed_over=list(self.passed_over)
-        )
+                sets[name + (word if name in sets else "")] = list(map(_places, places))
+        at = {_shown(key, self.point_sets): _places(places) for key, places in self.point_sets.items()}
+        return RawMesh(np.array(self.points), blocks, cell_sets=sets, point_sets=at, passed_over=list(self.passed_over))
 
     def _section(self, key: Line | None, data: list[Line]) -> None:
         """A keyword and the lines behind it. Those that say no mesh are left."""
@@ -200,18 +190,8 @@ class _Deck:
             self.current = self.parts.setdefault(name, Part(name))
         elif word in ("END PART", "ASSEMBLY", "END ASSEMBLY"):
             self.current = self.parts[""]
-        elif word == "INSTANCE":
-            self._instance(key, options, data)
-        elif word == "NODE":
-            self._nodes(key, options, data)
-        elif word == "ELEMENT":
-            self._elements(key, options, data)
-        elif word == "NSET":
-            self._node_set(key, options, data)
-        elif word == "ELSET":
-            self._element_set(key, options, data)
-        elif word == "SURFACE":
-            self._surface(key, options, data)
+        elif word in self._TAKING:
+            self._TAKING[word](self, key, options, data)
         elif word in MOVING:
             _refuse(key, f"*{word} makes or moves nodes or elements, which is not read", "write the mesh itself out")
 
@@ -254,9 +234,7 @@ class _Deck:
         kind = OF_COUNT[dimension][count]
         rows = self.blocks.setdefault(kind, [])
         numbers, nodes = self._element_rows(data, said, count)
-        self.current.elements.update(
-            zip(numbers, ((kind, place) for place in range(len(rows), len(rows) + len(nodes))))
-        )
+        self.current.elements.update((number, (kind, place)) for place, number in enumerate(numbers, len(rows)))
         rows += nodes
         if options.get("ELSET"):
             self._take_elements(self.current, options["ELSET"], numbers)
@@ -301,9 +279,8 @@ class _Deck:
 
     def _node_set(self, key: Line, options: dict[str, str], data: list[Line]) -> None:
         name, part = _wanted(key, options, "NSET"), self._owner(key, options)
-        numbers = _set_numbers(
-            options, data, part.nodes, self._known(part, part.node_sets), f"the set {name} has the node"
-        )
+        known = self._known(part, part.node_sets)
+        numbers = _set_numbers(options, data, part.nodes, known, f"the set {name} has the node")
         if options.get("ELSET"):  # the nodes of a set of elements
             elements = self._known(part, part.element_sets).get(options["ELSET"].upper())
             if elements is None:
@@ -320,17 +297,13 @@ class _Deck:
         # Sets that Abaqus/CAE makes for surfaces are marked so.
         self._take_elements(part, name, numbers, "INTERNAL" not in options)
 
-    def _spelled(self, name: str) -> str:
-        return self.spelling.setdefault(name.upper(), name)
-
     def _key(self, name: str) -> tuple[str, str]:
         """Scope and name of a set or surface of the current part or assembly; another part may use the same name."""
-        return self.current.name, self._spelled(name)
+        return self.current.name, self.spelling.setdefault(name.upper(), name)
 
     def _known(self, part: Part, sets: dict[tuple[str, str], list[int]]) -> dict[str, list[int]]:
         """A part's sets by the names that hold here: its own, overridden by those that the assembly made of it."""
-        own = {name: numbers for (scope, name), numbers in sets.items() if scope == part.name}
-        return own | {name: numbers for (scope, name), numbers in sets.items() if scope == self.current.name}
+        return _of_scope(part.name, sets) | _of_scope(self.current.name, sets)
 
     def _take_nodes(self, part: Part, name: str, numbers: list[int]) -> None:
         part.node_sets.setdefault((self.current.name, name.upper()), []).extend(numbers)
@@ -385,19 +358,30 @@ class _Deck:
         for part in parts:
             sets = part.node_sets if nodes else part.element_sets
             # INSTANCE.SET is the part's own.
-            known = (
-                {name: n for (scope, name), n in sets.items() if scope == part.name}
-                if whole
-                else self._known(part, sets)
-            )
-            there: Mapping[int, object] = part.nodes
-            if not nodes:
-                there = part.elements
+            known = _of_scope(part.name, sets) if whole else self._known(part, sets)
+            there = part.nodes.keys() if nodes else part.elements.keys()
             if entry.upper() in known:
                 return part, known[entry.upper()]
             if entry.isdigit() and int(entry) in there:
                 return part, [int(entry)]
         _refuse(line, f"there is no set of {'nodes' if nodes else 'elements'} {entry}")
+
+    _TAKING = {  # by keyword
+        "INSTANCE": _instance,
+        "NODE": _nodes,
+        "ELEMENT": _elements,
+        "NSET": _node_set,
+        "ELSET": _element_set,
+        "SURFACE": _surface,
+    }
+
+
+def _of_scope(scope: str, sets: Mapping[tuple[str, str], list[int]]) -> dict[str, list[int]]:
+    return {name: numbers for (of, name), numbers in sets.items() if of == scope}
+
+
+def _places(places: Sequence[int]) -> np.ndarray:
+    return np.unique(np.array(places, dtype=np.int64))
 
 
 def _set_numbers(

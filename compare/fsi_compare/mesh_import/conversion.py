@@ -73,8 +73,7 @@ def write_gmsh(out: TextIO, mesh: FoundMesh, groups: list[Group]) -> None:
     names: dict = {}
     for group in groups:
         names.setdefault((group.dimension, group.name), len(names) + 1)
-    out.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n")
-    out.write(f"{len(names)}\n")
+    out.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(names)}\n")
     for (dimension, name), tag in names.items():
         out.write(f'{dimension} {tag} "{name}"\n')
     out.write(f"$EndPhysicalNames\n$Nodes\n{len(used)}\n")

@@ -8,7 +8,7 @@ import numpy as np
 from ..base.errors import InputError
 from ..base.suggestions import nearest
 from .parts import FoundMesh, dimensions_of, known_parts
-from .raw_mesh import CORNERS, Block
+from .raw_mesh import CORNERS, SIDES, Block
 
 
 @dataclass
@@ -34,16 +34,12 @@ def choose_groups(file: str, mesh: FoundMesh, wanted: Sequence[tuple[str, str]])
         elif part in mesh.points_of:
             blocks = facets_between(mesh, mesh.points_of[part])
             if not blocks:
-                raise InputError(
-                    file, f"--group {name}", f"no side of the mesh has all its points in {part}", known_parts(mesh)
-                )
+                problem = f"no side of the mesh has all its points in {part}"
+                raise InputError(file, f"--group {name}", problem, known_parts(mesh))
             groups.append(Group(name, mesh.dimension - 1, blocks))
         else:
-            names = [*mesh.cells, *mesh.points_of]
-            problem = f"the file has no part {part}"
-            raise InputError(
-                file, f"--group {name}", problem, f"did you mean {nearest(part, names)}? {known_parts(mesh)}"
-            )
+            remedy = f"did you mean {nearest(part, [*mesh.cells, *mesh.points_of])}? {known_parts(mesh)}"
+            raise InputError(file, f"--group {name}", f"the file has no part {part}", remedy)
     if not any(group.dimension == mesh.dimension for group in groups):
         what = "volume" if mesh.dimension == 3 else "surface"
         raise InputError(file, "--group", f"names no {what}", f"give fluid=PART; {known_parts(mesh)}")
@@ -77,9 +73,8 @@ def _of_cells(
         what = "cells or sides" if any(len(p) for p in places) else "elements"
         raise InputError(file, f"--group {name}", f"the part {part} has no {what}", known_parts(mesh))
     for other, (others_part, has) in taken.items():
-        shared = sum(
-            int(h[p].sum()) for block, p, h in zip(mesh.blocks, places, has) if block.dimension == mesh.dimension
-        )
+        cells = [h[p] for block, p, h in zip(mesh.blocks, places, has) if block.dimension == mesh.dimension]
+        shared = sum(int(there.sum()) for there in cells)
         if other != name and shared:
             problem = f"{part} shares {shared} cells with {others_part}, which is {other}"
             remedy = "name parts by --group that have no cell in common, as the command of --list does"
@@ -99,15 +94,6 @@ def _of_cells(
         if blocks:
             groups.append(Group(name, dimension, blocks))
     return groups
-
-
-# Vertices of a cell's sides, and the nodes in the middles of their edges behind them, in meshio's (VTK's) numbers.
-SIDES: dict[str, tuple[str, tuple[tuple[int, ...], ...]]] = {
-    "triangle": ("line", ((0, 1), (1, 2), (2, 0))),
-    "triangle6": ("line3", ((0, 1, 3), (1, 2, 4), (2, 0, 5))),
-    "tetra": ("triangle", ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))),
-    "tetra10": ("triangle6", ((1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6), (0, 1, 3, 4, 8, 7), (0, 2, 1, 6, 5, 4))),
-}
 
 
 def sides_of(blocks: Sequence[Block], dimension: int) -> list[Block]:
@@ -150,10 +136,8 @@ def facets_between(mesh: FoundMesh, points: np.ndarray) -> list[Block]:
     blocks = []
     for block in boundary_of(mesh.blocks, mesh.dimension):
         corners = CORNERS[block.kind]
-        if not mask[block.nodes[:, corners:]].any():
-            inside = block.nodes[mask[block.nodes[:, :corners]].all(axis=1)]
-        else:
-            inside = block.nodes[mask[block.nodes].all(axis=1)]
+        count = block.nodes.shape[1] if mask[block.nodes[:, corners:]].any() else corners
+        inside = block.nodes[mask[block.nodes[:, :count]].all(axis=1)]
         if len(inside):
             blocks.append(Block(block.kind, inside))
     return blocks

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import InputError
-from .raw_mesh import RawMesh
+from .raw_mesh import RawMesh, nothing
 
 # Tetrahedra of MED turn the other way round than VTK's; middles of edges are in VTK's order.
 KINDS = {
@@ -53,12 +53,10 @@ def _read(path: Path, file: Any) -> RawMesh:
         problem = f"holds {len(meshes)} meshes{': ' if meshes else ''}{', '.join(meshes)}"
         raise InputError(path, "ENS_MAA", problem, "write one mesh into a file of its own")
     whole = file["ENS_MAA"][meshes[0]]
-    step = whole
-    if "NOE" not in whole:
-        steps = list(whole)
-        if len(steps) != 1:
-            raise InputError(path, meshes[0], f"has {len(steps)} states of the mesh in time", "write one of them")
-        step = whole[steps[0]]
+    steps = [] if "NOE" in whole else list(whole)
+    if len(steps) > 1 or ("NOE" not in whole and not steps):
+        raise InputError(path, meshes[0], f"has {len(steps)} states of the mesh in time", "write one of them")
+    step = whole[steps[0]] if steps else whole
     coordinates = step["NOE"]["COO"]
     count = int(coordinates.attrs["NBR"])
     mesh = RawMesh(np.asarray(coordinates[()], dtype=float).reshape(-1, count).T, [])
@@ -74,7 +72,7 @@ def _read(path: Path, file: Any) -> RawMesh:
         mesh.blocks.append((kind, there))
         numbers.append(np.asarray(group["FAM"][()], dtype=np.int64) if "FAM" in group else None)
     for text, unnamed, wanted in _families(families, "ELEME"):
-        places = [np.zeros(0, np.int64) if n is None else np.flatnonzero(n == wanted) for n in numbers]
+        places = [nothing() if n is None else np.flatnonzero(n == wanted) for n in numbers]
         if not any(len(p) for p in places):
             continue
         known = mesh.cell_sets.get(text)
@@ -86,7 +84,7 @@ def _read(path: Path, file: Any) -> RawMesh:
         sets: dict[str, np.ndarray] = {}
         for text, unnamed, wanted in _families(families, "NOEUD"):
             if not unnamed:
-                sets[text] = np.union1d(sets.get(text, np.zeros(0, np.int64)), np.flatnonzero(of_points == wanted))
+                sets[text] = np.union1d(sets.get(text, nothing()), np.flatnonzero(of_points == wanted))
         mesh.point_sets = {text: points for text, points in sets.items() if len(points)}
     mesh.passed_over += [f"{name} (a field)" for name in file.get("CHA", ())]
     return mesh
@@ -101,8 +99,7 @@ def _families(families: Any, place: str) -> list[tuple[str, bool, int]]:
         if number == 0:
             continue  # what is in no family
         names = content["GRO"]["NOM"][()] if "GRO" in content else ()
-        texts = [
-            bytes(np.asarray(name, dtype=np.int8)).split(b"\0")[0].decode("utf-8", "replace").strip() for name in names
-        ]
-        found += [(text, False, number) for text in texts] or [(f"family:{family}", True, number)]
+        texts = [bytes(np.asarray(name, dtype=np.int8)).split(b"\0")[0] for name in names]
+        named = [(text.decode("utf-8", "replace").strip(), False, number) for text in texts]
+        found += named or [(f"family:{family}", True, number)]
     return found

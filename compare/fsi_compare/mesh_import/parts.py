@@ -10,7 +10,7 @@ from typing import Iterable, Sequence
 import numpy as np
 
 from ..base.errors import InputError
-from .raw_mesh import ELEMENTS, KINDS, Block, RawMesh
+from .raw_mesh import ELEMENTS, KINDS, Block, RawMesh, nothing
 
 WHOLE = "all"  # the part that every mesh has
 # Arrays that number elements or nodes, in lower case: of SimVascular, VTK and ParaView, Exodus.
@@ -22,6 +22,7 @@ IDENTITIES = frozenset(
 REGIONS = frozenset(("modelregionid", "modelfaceid", "gmsh:physical", "gmsh:geometrical", "medit:ref"))
 MOST_VALUES = 1000  # of an array that says parts
 SHOWN = 12  # names in one line
+SOLIDS = ("hexahedron", "wedge", "pyramid", "quad", "polyhedron", "polygon")  # begin names of kinds
 
 
 @dataclass
@@ -47,7 +48,7 @@ def found_mesh(file: str, mesh: RawMesh, scale: float) -> FoundMesh:
     kept = [i for i, (kind, nodes) in enumerate(mesh.blocks) if kind in KINDS and len(nodes)]
     others = sorted({kind for i, (kind, _) in enumerate(mesh.blocks) if i not in kept and kind != "vertex"})
     blocks = [Block(mesh.blocks[i][0], np.asarray(mesh.blocks[i][1], dtype=np.int64)) for i in kept]
-    if not blocks or max(block.dimension for block in blocks) < 2 or any(_is_solid(name) for name in others):
+    if not blocks or max(block.dimension for block in blocks) < 2 or any(name.startswith(SOLIDS) for name in others):
         problem = f"holds {', '.join(others) or 'no elements'} in place of tetrahedra or triangles"
         raise InputError(file, "", problem, "mesh it by tetrahedra, or by triangles in two dimensions")
     for block in blocks:
@@ -61,33 +62,22 @@ def found_mesh(file: str, mesh: RawMesh, scale: float) -> FoundMesh:
     for name, entries in mesh.cell_sets.items():
         if any(np.any((e < 0) | (e >= len(n))) for e, (_, n) in zip(entries, mesh.blocks)):
             raise InputError(file, name, "names a cell that is not there", "write the mesh anew")
-    found = FoundMesh(points, blocks, passed_over=list(mesh.passed_over))
-    for name, entries in mesh.cell_sets.items():
-        found.cells[name] = [entries[i] for i in kept]
+    cells = {name: [entries[i] for i in kept] for name, entries in mesh.cell_sets.items()}
+    found = FoundMesh(points, blocks, cells, passed_over=list(mesh.passed_over))
     numbered = set(mesh.unnamed)
     for name, data in mesh.cell_data.items():
-        values = _numbers([data[i] for i in kept])
-        reason = _no_parts(name, values, "cell")
-        if values is None or reason:
-            found.passed_over.append(f"{name} ({reason})")
-            continue
-        for text, places in _by_value(name, values, blocks):
+        values = _saying_parts(found, name, [data[i] for i in kept], "cell")
+        for text, places in _by_value(name, values, blocks) if values else ():
             found.cells.setdefault(text, places)
             numbered.add(text)
-    top = found.dimension
-    whole = [np.arange(len(b.nodes)) if b.dimension == top else np.zeros(0, dtype=np.int64) for b in blocks]
     if WHOLE not in found.cells:
-        found.cells[WHOLE] = whole
+        found.cells[WHOLE] = whole_of(found)
         numbered.add(WHOLE)
     for name, at in mesh.point_sets.items():
         found.points_of[_of_points(found, name)] = at
     for name, at_points in mesh.point_data.items():
-        values = _numbers([at_points])
-        reason = _no_parts(name, values, "point")
-        if values is None or reason:
-            found.passed_over.append(f"{name} ({reason})")
-            continue
-        for value, places in _places_of_values(values):
+        values = _saying_parts(found, name, [at_points], "point")
+        for value, places in _places_of_values(values) if values else ():
             part = _of_points(found, f"{name}:{value}")
             found.points_of[part] = places[0]
             numbered.add(part)
@@ -95,13 +85,14 @@ def found_mesh(file: str, mesh: RawMesh, scale: float) -> FoundMesh:
     return found
 
 
+def whole_of(mesh: FoundMesh) -> list[np.ndarray]:
+    """Places of all its cells, in each block."""
+    return [np.arange(len(b.nodes) if b.dimension == mesh.dimension else 0) for b in mesh.blocks]
+
+
 def _of_points(found: FoundMesh, name: str) -> str:
     """Name for a set of points whose name cells or sides have, too: decks name both alike."""
     return f"{name}:points" if name in found.cells else name
-
-
-def _is_solid(name: str) -> bool:
-    return name.startswith(("hexahedron", "wedge", "pyramid", "quad", "polyhedron", "polygon"))
 
 
 def _numbers(arrays: Sequence[np.ndarray]) -> list[np.ndarray] | None:
@@ -120,6 +111,15 @@ def _numbers(arrays: Sequence[np.ndarray]) -> list[np.ndarray] | None:
                 return None
         found.append(values)
     return found
+
+
+def _saying_parts(found: FoundMesh, name: str, arrays: Sequence[np.ndarray], what: str) -> list[np.ndarray] | None:
+    """Numbers of an array that says parts; of another one None, and `found` gets a word on it."""
+    values = _numbers(arrays)
+    reason = _no_parts(name, values, what)
+    if reason:
+        found.passed_over.append(f"{name} ({reason})")
+    return None if reason else values
 
 
 def _no_parts(name: str, values: list[np.ndarray] | None, what: str) -> str:
@@ -154,16 +154,20 @@ def _by_value(
 ) -> Iterable[tuple[str, list[np.ndarray]]]:
     """Parts of an array. A number that elements of several dimensions have is a part for each: gmsh and dolfinx count
     volumes and surfaces apart, so that the same number means nothing."""
-    nothing = np.zeros(0, dtype=np.int64)
     for value, places in _places_of_values(values):
         dimensions = sorted({b.dimension for b, p in zip(blocks, places) if len(p)}, reverse=True)
         for dimension in dimensions:
             text = f"{name}:{value}" + (f":{ELEMENTS[dimension]}" if dimension < dimensions[0] else "")
-            yield text, [p if b.dimension == dimension else nothing for b, p in zip(blocks, places)]
+            yield text, [p if b.dimension == dimension else nothing() for b, p in zip(blocks, places)]
 
 
 def dimensions_of(mesh: FoundMesh, places: Sequence[np.ndarray]) -> list[int]:
     return sorted({block.dimension for block, p in zip(mesh.blocks, places) if len(p)})
+
+
+def is_surface(mesh: FoundMesh, part: str) -> bool:
+    """Whether it has facets alone."""
+    return dimensions_of(mesh, mesh.cells[part]) == [mesh.dimension - 1]
 
 
 def count_in(mesh: FoundMesh, places: Sequence[np.ndarray], dimension: int) -> int:

@@ -1,7 +1,7 @@
 """What a file of a mesh holds, before any of it is called a part."""
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Sequence
 
 import numpy as np
 
@@ -13,6 +13,13 @@ KINDS: dict[str, tuple[int, int, int, tuple[int, ...]]] = {
     "triangle6": (2, 2, 9, (0, 1, 2, 3, 4, 5)),
     "tetra": (3, 1, 4, (0, 1, 2, 3)),
     "tetra10": (3, 2, 11, (0, 1, 2, 3, 4, 5, 6, 7, 9, 8)),
+}
+# Vertices of a cell's sides, and the nodes in the middles of their edges behind them, in meshio's (VTK's) numbers.
+SIDES: dict[str, tuple[str, tuple[tuple[int, ...], ...]]] = {
+    "triangle": ("line", ((0, 1), (1, 2), (2, 0))),
+    "triangle6": ("line3", ((0, 1, 3), (1, 2, 4), (2, 0, 5))),
+    "tetra": ("triangle", ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))),
+    "tetra10": ("triangle6", ((1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6), (0, 1, 3, 4, 8, 7), (0, 2, 1, 6, 5, 4))),
 }
 CORNERS = {kind: dimension + 1 for kind, (dimension, _, _, _) in KINDS.items()}
 ELEMENTS = {1: "lines", 2: "triangles", 3: "tetrahedra"}  # by dimension, for messages
@@ -44,23 +51,31 @@ class RawMesh:
     passed_over: list[str] = field(default_factory=list)  # what the reader left out, for messages
 
 
+def sides_in_order(order: Sequence[int]) -> dict[str, tuple[str, tuple[tuple[int, ...], ...]]]:
+    """SIDES as another format numbers those of tetrahedra, by our numbers; those of triangles are numbered alike."""
+    return {
+        kind: (facet, tuple(sides[i] for i in order) if kind.startswith("tetra") else sides)
+        for kind, (facet, sides) in SIDES.items()
+    }
+
+
+def nothing() -> np.ndarray:
+    """No places."""
+    return np.zeros(0, dtype=np.int64)
+
+
 def of_meshio(mesh: Any) -> RawMesh:
     """A mesh as meshio has read it, without the names that some of its formats keep elsewhere."""
     blocks = [(block.type, np.asarray(block.data)) for block in mesh.cells]
-    nothing = np.zeros(0, dtype=np.int64)
     sets = {
-        name: [nothing if entry is None else np.asarray(entry, dtype=np.int64) for entry in entries]
+        name: [nothing() if entry is None else np.asarray(entry, dtype=np.int64) for entry in entries]
         for name, entries in mesh.cell_sets.items()
         if name != "gmsh:bounding_entities"  # of meshio 5.0.0: tags of gmsh's entities, no places of elements
     }
-    found = RawMesh(
-        np.asarray(mesh.points, dtype=float),
-        blocks,
-        {name: [np.asarray(values) for values in data] for name, data in mesh.cell_data.items()},
-        {name: np.asarray(values) for name, values in mesh.point_data.items()},
-        sets,
-        {name: np.asarray(entries, dtype=np.int64) for name, entries in mesh.point_sets.items()},
-    )
+    cell_data = {name: [np.asarray(values) for values in data] for name, data in mesh.cell_data.items()}
+    point_data = {name: np.asarray(values) for name, values in mesh.point_data.items()}
+    point_sets = {name: np.asarray(entries, dtype=np.int64) for name, entries in mesh.point_sets.items()}
+    found = RawMesh(np.asarray(mesh.points, dtype=float), blocks, cell_data, point_data, sets, point_sets)
     _name_physical_groups(found, getattr(mesh, "field_data", None) or {})
     return found
 

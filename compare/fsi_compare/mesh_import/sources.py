@@ -9,8 +9,8 @@ import numpy as np
 from ..base.errors import InputError
 from ..base.files import exists
 from .joining import TooMany, first_of_cluster, near_pairs
-from .parts import WHOLE, FoundMesh, found_mesh
-from .raw_mesh import Block
+from .parts import WHOLE, FoundMesh, found_mesh, whole_of
+from .raw_mesh import Block, nothing
 from .readers import read_mesh, read_surface
 
 # Points of two files are one where their places agree in single precision, in which VTK and others write.
@@ -61,8 +61,7 @@ def read_sources(sources: Sequence[Source], scale: float) -> tuple[FoundMesh, li
         whole.blocks += [Block(block.kind, block.nodes + first) for block in mesh.blocks]
 
         def spread(places: list[np.ndarray]) -> list[np.ndarray]:
-            nothing = np.zeros(0, dtype=np.int64)
-            return [places[i - start] if start <= i < start + len(places) else nothing for i in range(count)]
+            return [places[i - start] if start <= i < start + len(places) else nothing() for i in range(count)]
 
         def take(known: str) -> str:
             if known in whole.cells or known in whole.points_of or (known in names and known != source.name):
@@ -85,8 +84,7 @@ def read_sources(sources: Sequence[Source], scale: float) -> tuple[FoundMesh, li
             whole.points_of[take(known)] = points + first
         whole.passed_over += [f"{source.path.name}: {text}" for text in mesh.passed_over]
     if WHOLE not in whole.cells:
-        top = whole.dimension
-        whole.cells[WHOLE] = [np.arange(len(b.nodes) if b.dimension == top else 0) for b in whole.blocks]
+        whole.cells[WHOLE] = whole_of(whole)
         numbered.add(WHOLE)
     whole.numbered = frozenset(numbered)
     return whole, ends

@@ -17,6 +17,7 @@ class Contact:
 
     first: str
     second: str
+    dimension: int  # of the mesh
     sides: int  # that both have
     points: int  # that both have, on the surfaces
     distance: float  # mm between the nearest points where no side is shared, infinite beyond a tenth of the mesh
@@ -48,7 +49,7 @@ def contacts(
             near = apart <= span / 10
             distance = nearest_distance(points[nodes[a]], points[nodes[b]], span / 10) if near else float("inf")
         edge = float("inf") if shared else min(shortest_edge(volumes[name], points) for name in (a, b))
-        found.append(Contact(a, b, shared, common, distance, edge))
+        found.append(Contact(a, b, dimension, shared, common, distance, edge))
     return found
 
 
@@ -69,18 +70,22 @@ def lonely(volumes: Mapping[str, Sequence[Block]], found: Sequence[Contact]) -> 
     return [name for name in volumes if name not in touching] if len(volumes) > 1 else []
 
 
+def touch_words(contact: Contact) -> str:
+    sides = "triangles" if contact.dimension == 3 else "edges"
+    return f"{contact.first} and {contact.second} touch: {contact.sides} {sides}, {contact.points} points"
+
+
 def gap_words(contact: Contact) -> str:
     """The gap between two volumes without a side in common, in words."""
     what = f"{contact.first} and {contact.second} share {contact.points or 'no'} points and no side"
     if contact.distance == float("inf"):
         return f"{what}, and are far apart"
     if contact.distance == 0 and contact.points:
-        return f"{what}"
+        return what
+    near = f"their nearest points are {contact.distance:.3g} mm apart"
     if join_for(contact.distance) > contact.edge / 2:
-        return f"{what}, their nearest points are {contact.distance:.3g} mm apart, as far as points of one of them"
-    return (
-        f"{what}, their nearest points are {contact.distance:.3g} mm apart: try --join {join_for(contact.distance):.2g}"
-    )
+        return f"{what}, {near}, as far as points of one of them"
+    return f"{what}, {near}: try --join {join_for(contact.distance):.2g}"
 
 
 def join_for(distance: float) -> float:

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..base.errors import InputError
 from .raw_mesh import RawMesh
-from .vtk_xml import VtkFile, pieces, read_by, scalars_of
+from .vtk_xml import VtkFile, pieces, read_by, require_points, scalars_of
 
 
 @dataclass
@@ -63,12 +63,11 @@ def _read_faces(file: VtkFile) -> RawMesh:
             nodes, ends = file.array(arrays["connectivity"]).astype(np.int64), file.array(arrays["offsets"])
             if np.any(np.diff(ends.astype(np.int64), prepend=0) != 3) or len(nodes) != 3 * len(ends):
                 raise InputError(file.path, "Polys", "holds polygons that are no triangles", "triangulate the surface")
-            if np.any((nodes < 0) | (nodes >= len(points[-1]))):
-                raise InputError(file.path, "connectivity", "names a point that is not there", "write the mesh anew")
+            require_points(file, nodes, len(there))
             triangles.append(nodes.reshape(-1, 3) + first)
             for name, values in scalars_of(file, piece, "CellData", len(ends), passed_over).items():
                 cell_data.setdefault(name, []).append(values)
-        first += len(points[-1])
+        first += len(there)
     if not triangles:
         raise InputError(file.path, "", "holds no polygons", "write the surface anew as .vtp")
     whole = {name: [np.concatenate(parts)] for name, parts in cell_data.items() if len(parts) == len(triangles)}
@@ -80,6 +79,6 @@ def scalar_field(surface: Surface, name: str, path: Path) -> np.ndarray:
     """A field of one number a point. Raises InputError that lists those there are."""
     scalars = [n for n, values in surface.fields.items() if values.ndim == 1 and len(values) == len(surface.points)]
     if name not in scalars:
-        there: str | None = ", ".join(scalars)
-        raise InputError(path, name, "is no field of one number at each point", f"those there are: {there or 'none'}")
+        remedy = f"those there are: {', '.join(scalars) or 'none'}"
+        raise InputError(path, name, "is no field of one number at each point", remedy)
     return surface.fields[name]

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..base.errors import InputError
 from .raw_mesh import RawMesh
-from .vtk_xml import VtkFile, pieces, read_by, scalars_of
+from .vtk_xml import VtkFile, pieces, read_by, require_points, scalars_of
 
 # VTK's numbers of cells: meshio's name and how many nodes.
 CELLS = {
@@ -49,18 +49,17 @@ def _read(file: VtkFile) -> RawMesh:
     first = 0
     for piece, there in pieces(file):
         points.append(there)
-        for name, values in scalars_of(file, piece, "PointData", len(points[-1]), passed_over).items():
+        for name, values in scalars_of(file, piece, "PointData", len(there), passed_over).items():
             point_data.setdefault(name, []).append(values)
         cells = _cells(file, piece)
         count = sum(len(which) for _, which, _ in cells)
         fields = scalars_of(file, piece, "CellData", count, passed_over)
         for kind, which, nodes in cells:
-            if np.any((nodes < 0) | (nodes >= len(points[-1]))):
-                raise InputError(file.path, "connectivity", "names a point that is not there", "write the mesh anew")
+            require_points(file, nodes, len(there))
             blocks.setdefault(kind, []).append(nodes + first)
             for name, values in fields.items():
                 cell_data.setdefault(name, {}).setdefault(kind, []).append(values[which])
-        first += len(points[-1])
+        first += len(there)
     # A field that some piece does not have is none of the mesh.
     whole = {
         name: [np.concatenate(of_kinds.get(kind, [])) for kind in blocks]
@@ -91,14 +90,12 @@ def _cells(file: VtkFile, piece: Any) -> list[tuple[int, np.ndarray, np.ndarray]
     found = []
     for kind in np.unique(kinds):
         if int(kind) not in CELLS:
-            raise InputError(
-                file.path, "types", f"has a cell of VTK's kind {kind}", "mesh it by tetrahedra, or by triangles"
-            )
+            problem = f"has a cell of VTK's kind {kind}"
+            raise InputError(file.path, "types", problem, "mesh it by tetrahedra, or by triangles")
         which = np.flatnonzero(kinds == kind)
         count = CELLS[int(kind)][1]
         if np.any(lengths[which] != count):
-            raise InputError(
-                file.path, "offsets", f"a cell of VTK's kind {kind} has not {count} nodes", "write the mesh anew"
-            )
+            problem = f"a cell of VTK's kind {kind} has not {count} nodes"
+            raise InputError(file.path, "offsets", problem, "write the mesh anew")
         found.append((int(kind), which, corners[(ends[which] - count)[:, None] + np.arange(count)]))
     return found

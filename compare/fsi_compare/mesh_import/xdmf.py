@@ -36,12 +36,12 @@ TOPOLOGIES = {
     "wedge": ("wedge", 6),
     "pyramid": ("pyramid", 5),
 }
-# Kinds in a topology "Mixed" by number: those of one size, then those whose size stands behind the number.
+# Kinds in a topology "Mixed" by number.
 MIXED = {4: "triangle", 5: "quadrilateral", 6: "tetrahedron", 7: "pyramid", 8: "wedge", 9: "hexahedron"}
-MIXED |= {34: "edge3", 36: "triangle6", 38: "tetrahedron10"}
-MIXED_WITH_SIZE = {1: "polyvertex", 2: "polyline"}
+MIXED |= {34: "edge3", 36: "triangle6", 38: "tetrahedron10", 1: "polyvertex", 2: "polyline"}
+WITH_SIZE = (1, 2)  # those whose size stands behind the number
 TYPES = {"float": "f", "int": "i", "uint": "u", "char": "i", "uchar": "u"}
-DAMAGES = (OSError, ValueError, KeyError, IndexError, TypeError, OverflowError)
+DAMAGES = (OSError, ValueError, LookupError, TypeError, OverflowError)
 REMEDY = "write the mesh anew, for one as .vtu"
 
 
@@ -79,9 +79,8 @@ class _Document:
                 points = own
             elif own is not None and not np.array_equal(own, points):
                 problem = f"has grids of several geometries, of which '{grid.get('Name', '')}' is one"
-                raise InputError(
-                    self.path, "Geometry", problem, "give each a file: fsi-mesh import ONE.xdmf OTHER.xdmf"
-                )
+                remedy = "give each a file: fsi-mesh import ONE.xdmf OTHER.xdmf"
+                raise InputError(self.path, "Geometry", problem, remedy)
             where, count = [], 0  # block, places in it, places in the grid
             for kind, nodes, places in self._elements(grid):
                 block, at = _placed(blocks, kind, nodes)
@@ -103,24 +102,15 @@ class _Document:
                     self.passed_over[f"{name} ({len(values)} values at {centre}s)"] = None
         if points is None:
             raise InputError(self.path, "Geometry", "is missing", REMEDY)
-        return RawMesh(
-            points,
-            blocks,
-            {name: _spread(blocks, entries) for name, entries in data.items()},
-            point_data,
-            passed_over=list(self.passed_over),
-        )
+        cell_data = {name: _spread(blocks, entries) for name, entries in data.items()}
+        return RawMesh(points, blocks, cell_data, point_data, passed_over=list(self.passed_over))
 
     def _uniform(self, parent: ElementTree.Element) -> list[ElementTree.Element]:
         found = []
         for grid in parent.findall("Grid"):
             kind = grid.get("GridType", "Uniform").lower()
-            if kind == "uniform":
-                found.append(grid)
-            elif kind == "collection" and grid.get("CollectionType", "").lower() == "temporal":
-                found += self._uniform(grid)[:1]
-            else:
-                found += self._uniform(grid)
+            temporal = kind == "collection" and grid.get("CollectionType", "").lower() == "temporal"
+            found += [grid] if kind == "uniform" else self._uniform(grid)[: 1 if temporal else None]
         return found
 
     def _points(self, grid: ElementTree.Element) -> np.ndarray | None:
@@ -160,13 +150,10 @@ class _Document:
         while at < len(codes):
             code = codes[at]
             at += 1
-            if code in MIXED_WITH_SIZE:
-                name = MIXED_WITH_SIZE[code]
-                at += 1
-            elif code in MIXED:
-                name = MIXED[code]
-            else:
+            if code not in MIXED:
                 raise InputError(self.path, "Topology", f"has an element of XDMF's kind {code}", REMEDY)
+            at += code in WITH_SIZE
+            name = MIXED[code]
             starts, places = found.setdefault(name, ([], []))
             starts.append(at)
             places.append(place)

@@ -10,6 +10,7 @@ from ..base.files import LARGEST, read_text
 from .units import SYSTEMS
 
 SI = SYSTEMS["si"]
+Card = tuple[int, str, list[str]]  # line, keyword line, and lines of data
 
 
 @dataclass
@@ -29,16 +30,14 @@ def deck_beside(folder: Path) -> Path | None:
 
 def read_deck(path: Path) -> Deck:
     """Reads a deck. Raises InputError."""
-    cards = _cards(path)
-    by_name: dict[str, list[tuple[int, str, list[str]]]] = {}
-    for card in cards:
+    by_name: dict[str, list[Card]] = {}
+    for card in _cards(path):
         by_name.setdefault(card[1].split(",")[0].strip().upper(), []).append(card)
     materials = by_name.get("*MATERIAL", [])
     if len(materials) != 1:
         raise InputError(path, "*MATERIAL", f"is there {len(materials)} times", "read is a deck with one")
-    large = any(
-        "NLGEOM" in card[1].upper() for name in ("*STEP", "*DYNAMIC", "*STATIC") for card in by_name.get(name, [])
-    )
+    steps = [card for name in ("*STEP", "*DYNAMIC", "*STATIC") for card in by_name.get(name, [])]
+    large = any("NLGEOM" in card[1].upper() for card in steps)
     words = []
     if "*ELASTIC" in by_name:
         young, poisson = _numbers(path, by_name["*ELASTIC"][0], 2)
@@ -54,9 +53,8 @@ def read_deck(path: Path) -> Deck:
     return Deck(path, words)
 
 
-def _cards(path: Path) -> list[tuple[int, str, list[str]]]:
-    """Line, keyword line, and lines of data of each."""
-    cards: list[tuple[int, str, list[str]]] = []
+def _cards(path: Path) -> list[Card]:
+    cards: list[Card] = []
     text = read_text(path, "give the deck", "write the deck as text", LARGEST)
     for number, line in enumerate(text.splitlines(), 1):
         line = line.strip()
@@ -69,7 +67,7 @@ def _cards(path: Path) -> list[tuple[int, str, list[str]]]:
     return cards
 
 
-def _numbers(path: Path, card: tuple[int, str, list[str]], count: int) -> list[float]:
+def _numbers(path: Path, card: Card, count: int) -> list[float]:
     line, keyword, data = card
     words = data[0].split(",") if data else []
     try:

@@ -11,11 +11,10 @@ from ..base.errors import InputError
 from ..mesh_import.conversion import require_sides, turn, write_gmsh
 from ..mesh_import.groups import Group, choose_groups, corner_keys
 from ..mesh_import.parts import FoundMesh
-from ..mesh_import.raw_mesh import Block
+from ..mesh_import.raw_mesh import SIDES, Block
 from ..mesh_import.sources import Source, join, read_sources
 
 FLAT = np.cos(np.radians(5.0))  # a facet's normal along the face's mean one, of a flat face
-OPPOSITE = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # sides of a tetrahedron, by the corner that each has not
 
 
 @dataclass
@@ -82,12 +81,11 @@ def read_case_mesh(
     turned = turn(mesh, groups)
     if turned:
         said.append(f"{turned} cells were turned inside out and are turned back")
-    order = 2 if any(block.kind == "tetra10" for name in media for g in volumes[name] for block in g.parts) else 1
     made = []
     kept = [group for name in media for group in volumes[name]]
-    tetrahedra = {
-        name: np.concatenate([block.nodes[:, :4] for g in volumes[name] for block in g.parts]) for name in media
-    }
+    blocks = {name: [block for group in volumes[name] for block in group.parts] for name in media}
+    tetrahedra = {name: np.concatenate([block.nodes[:, :4] for block in parts]) for name, parts in blocks.items()}
+    order = 2 if any(block.kind == "tetra10" for parts in blocks.values() for block in parts) else 1
     for name, given, medium, path in faces:
         (group,) = [g for g in groups if g.name == name]
         face, rest = _face(mesh, group, given, medium, tetrahedra, path)
@@ -129,8 +127,9 @@ def _face(
 
 
 def _owners(tetrahedra: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The corner of a cell that lies behind each triangle, and of how many cells it is a side."""
-    sides = np.concatenate([tetrahedra[:, list(side)] for side in OPPOSITE])
+    """The corner of a cell that lies behind each triangle, and of how many cells it is a side. The k-th side of a
+    tetrahedron has not its k-th corner."""
+    sides = np.concatenate([tetrahedra[:, list(side)] for side in SIDES["tetra"][1]])
     behind = np.concatenate([tetrahedra[:, k] for k in range(4)])
     keys = corner_keys("triangle", np.concatenate([sides, triangles]))
     cells, wanted = keys[: len(sides)], keys[len(sides) :]

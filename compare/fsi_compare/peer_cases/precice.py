@@ -34,9 +34,6 @@ def read_case(root: Entry, units: Units, fibre_angle: float | None = None, toler
         wall = str(deck)
         said.append(f"of the wall {deck} says {', '.join(read_deck(deck).words)}")
     words = f" (in SI {'; '.join(said)})" if said else ""
-    remedy = (
-        f"import the meshes of both, the fluid's from its program: fsi-mesh import fluid=FILE wall={wall} -o FILE.msh; "
-    )
-    raise root.refuse(
-        f"a preCICE configuration does not hold the fluid's mesh{words}", remedy + "then write the case file by hand"
-    )
+    command = f"fsi-mesh import fluid=FILE wall={wall} -o FILE.msh"
+    remedy = f"import the meshes of both, the fluid's from its program: {command}; then write the case file by hand"
+    raise root.refuse(f"a preCICE configuration does not hold the fluid's mesh{words}", remedy)

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ..base.errors import InputError
+from ..base.errors import InputError, printable
 from ..base.files import absolute
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from .geometry import CaseMesh, Face, plain_names, read_case_mesh
 from .model import PeerCase, Table
 from .svmultiphysics_laws import Layer, layer_of, viscosity_of
@@ -56,16 +56,16 @@ INSTEAD = {
     "Explicit_geometric_coupling": "the mesh moves with the step's own displacement",
     "Quadrature_modifier_TET4": "integration is exact for the element",
     "Linear_algebra": "linear solvers are chosen by the drivers",
-    **{
-        name: "results are in the folder given with -o, their times by output.every"
-        for name in ("Save_results_to_VTK_format", "Name_prefix_of_saved_VTK_files", "Save_results_in_folder")
+    **dict.fromkeys(
+        ("Save_results_to_VTK_format", "Name_prefix_of_saved_VTK_files", "Save_results_in_folder")
         + ("Start_saving_after_time_step", "Save_averaged_results", "Start_averaging_from_zero")
-        + ("Convert_BIN_to_VTK_format",)
-    },
-    **{
-        name: "checkpoints are written by time, output.checkpoint_every"
-        for name in ("Increment_in_saving_restart_files", "Overwrite_restart_file", "Restart_file_name")
-    },
+        + ("Convert_BIN_to_VTK_format",),
+        "results are in the folder given with -o, their times by output.every",
+    ),
+    **dict.fromkeys(
+        ("Increment_in_saving_restart_files", "Overwrite_restart_file", "Restart_file_name"),
+        "checkpoints are written by time, output.checkpoint_every",
+    ),
     "Searched_file_name_to_trigger_stop": "a signal stops a run, which --restart continues",
     **{name: "the drivers' own messages" for name in ("Verbose", "Warning", "Debug")},
     "Check_IEN_order": "cells are turned as they must be",
@@ -135,13 +135,21 @@ class _Reader:
         domains = self._domains(equation, kind)
         media = self._media(domains, kind)
         mesh = self._mesh(media)
-        layers = self._domain_values(media, domains, kind)
-        self._conditions(equation, kind)
+        layers = self._domain_values(media, domains)
+        self._conditions(equation)
         if self.closed:
             self.fluid["closed"] = self.closed
         self._assemble(mesh, time, layers, kind)
         self._name_the_rest()
         return self.case
+
+    def _note_all(self, notes: list[tuple[Entry, str, bool]]) -> None:
+        for entry, words, matters in notes:
+            self._note(entry, words, matters)
+
+    def _note(self, entry: Entry, words: str, matters: bool = False, what: str = "") -> None:
+        """`what`: the entry's name in the note, its key unless it is given."""
+        self.case.note(what or entry.key, f"line {entry.line}", words, matters)
 
     def _time(self, general: Entry) -> dict[str, Any]:
         if general.number("Number_of_spatial_dimensions", 3) != 3:
@@ -171,19 +179,15 @@ class _Reader:
             if given == "mesh":
                 self._mesh_motion(entry)
             elif given in SIDE_EQUATIONS:
-                for below in entry.every():
-                    below.taken = True
-                where = f"line {entry.line}"
-                self.case.note(f"Add_equation {given}", where, f"left out: {SIDE_EQUATIONS[given]}", True)
+                entry.take_all()
+                self._note(entry, f"left out: {SIDE_EQUATIONS[given]}", True, f"Add_equation {given}")
             elif given not in EQUATIONS:
-                remedy = f"did you mean {nearest(given, list(EQUATIONS))}? There are {', '.join(EQUATIONS)} and mesh"
-                raise entry.refuse(f"'{given}' is no equation", remedy)
+                raise entry.refuse(f"'{given}' is no equation", hint(given, EQUATIONS, "There are") + " and mesh")
             else:
                 found.append(entry)
         if len(found) != 1:
-            raise self.root.refuse(
-                f"has {len(found)} equations of fluid or wall", "give one: FSI, fluid, struct, ustruct or lElas"
-            )
+            problem = f"has {len(found)} equations of fluid or wall"
+            raise self.root.refuse(problem, "give one: FSI, fluid, struct, ustruct or lElas")
         equation = found[0]
         if equation.yes("Prestress", False):
             remedy = (
@@ -191,9 +195,8 @@ class _Reader:
             )
             raise equation.need("Prestress").refuse("computes a prestress, which ours finds in another way", remedy)
         if equation.all("Add_BF"):
-            raise equation.all("Add_BF")[0].refuse(
-                "is a force on volumes, which ours has not", "take it out; of a wall's weight see structure.gravity"
-            )
+            remedy = "take it out; of a wall's weight see structure.gravity"
+            raise equation.all("Add_BF")[0].refuse("is a force on volumes, which ours has not", remedy)
         return equation
 
     def _refuse_membrane(self, entry: Entry) -> None:
@@ -207,16 +210,14 @@ class _Reader:
         raise entry.refuse(words, remedy)
 
     def _mesh_motion(self, entry: Entry) -> None:
-        self.moves = True
         ratio = entry.find("Poisson_ratio")
-        for below in entry.every():
-            below.taken = True
-        where = f"line {entry.line}"
+        entry.take_all()
         words = (
             "mesh_motion.method = stiffened: small cells deform least, as in its elastic mesh; openings move with the "
         )
         words += "ends of the wall that meet them, and not where these are clamped"
-        self.case.note("Add_equation mesh", where, words + (f" (Poisson_ratio {ratio.text})" if ratio else ""))
+        words += f" (Poisson_ratio {ratio.text})" if ratio else ""
+        self._note(entry, words, what="Add_equation mesh")
 
     def _domains(self, equation: Entry, kind: str) -> dict[int, tuple[Entry, str]]:
         """By number: the entry with the domain's values, and its equation."""
@@ -267,9 +268,8 @@ class _Reader:
         if len(fluids) > 1:
             raise fluids[1].entry.refuse("is a second mesh of the fluid", "make one mesh of both")
         if kind == "FSI" and not (fluids and len(media) > 1):
-            raise self.root.refuse(
-                "has FSI without a mesh of the fluid and one of a wall", "give both, each with its Domain"
-            )
+            problem = "has FSI without a mesh of the fluid and one of a wall"
+            raise self.root.refuse(problem, "give both, each with its Domain")
         walls = [medium for medium in media if medium.kind == "wall"]
         for medium, name in zip(walls, plain_names([wall.given for wall in walls], ["fluid"])):
             medium.name = name
@@ -283,7 +283,7 @@ class _Reader:
             raise media[-1].entry.refuse("has a Mesh_scale_factor of its own", "give all meshes one unit of length")
         (scale,) = scales
         if scale <= 0:
-            raise media[0].entry.need("Mesh_scale_factor").refuse(f"{scale:g} is not positive", "give one above 0")
+            media[0].entry.positive("Mesh_scale_factor")
         faces: list[tuple[Entry, Medium, str]] = []
         for medium in media:
             for entry in medium.entry.all("Add_face"):
@@ -300,18 +300,16 @@ class _Reader:
                 raise entry.need("Face_file_path").refuse(f"{path.name} is no .vtp", "give the face as .vtp")
             rows.append((name, given, medium.name, path))
             if name != given:
-                self.case.note(f"Add_face {given}", f"line {entry.line}", f"called {name} here")
+                self._note(entry, f"called {name} here", what=f"Add_face {given}")
         for medium in media:
             if medium.name != medium.given and medium.kind == "wall":
-                self.case.note(f"Add_mesh {medium.given}", f"line {medium.entry.line}", f"called {medium.name} here")
+                self._note(medium.entry, f"called {medium.name} here", what=f"Add_mesh {medium.given}")
         for entry in self.root.all("Add_projection"):
             entry.all("Project_from_face")
-        mesh, self.case.faces = read_case_mesh(
-            str(self.root.file), files, rows, scale * self.units.length, self.tolerance
-        )
+        to_mm = scale * self.units.length
+        mesh, self.case.faces = read_case_mesh(str(self.root.file), files, rows, to_mm, self.tolerance)
         if "fluid" in files and len(files) > 1 and not any(face.on_interface for face in self.case.faces):
-            for_face = self.root.all("Add_projection")
-            at = for_face[0] if for_face else self.root
+            at = self.root.find("Add_projection") or self.root
             raise at.refuse("fluid and wall share no face: their nodes differ", "mesh both together, or give --join MM")
         return mesh
 
@@ -323,7 +321,7 @@ class _Reader:
             raise entry.refuse(f"there is no file {path}", "give its path, from the folder of the case")
         return path
 
-    def _domain_values(self, media: list[Medium], domains: dict[int, tuple[Entry, str]], kind: str) -> dict[str, Layer]:
+    def _domain_values(self, media: list[Medium], domains: dict[int, tuple[Entry, str]]) -> dict[str, Layer]:
         layers: dict[str, Layer] = {}
         for medium in media:
             entry, own = domains[medium.domain]
@@ -332,18 +330,15 @@ class _Reader:
                 continue
             layer = layer_of(entry, own, self.units, self.fibre_angle)
             layers[medium.name] = layer
-            for at, words, matters in layer.notes:
-                self.case.note(at.key, f"line {at.line}", words, matters)
+            self._note_all(layer.notes)
             forces = [entry.number(f"Force_{axis}", 0.0) * self.units.of(1, 0, -2) for axis in "xyz"]
             if any(forces):
                 self.structure["gravity"] = forces
-        first = next(iter(layers.values()), None)
         for name, layer in layers.items():
-            for value, other, what in (
-                (layer.density, first.density if first else 0.0, "density"),
-                (layer.bulk_modulus, first.bulk_modulus if first else None, "bulk modulus"),
-            ):
-                if value != other:
+            first = next(iter(layers.values()))
+            for what in ("density", "bulk modulus"):
+                key = what.replace(" ", "_")
+                if getattr(layer, key) != getattr(first, key):
                     problem = f"the wall {name} has another {what} than the first, ours has one for all"
                     raise InputError(self.root.file, name, problem, "give both the same")
         return layers
@@ -351,36 +346,31 @@ class _Reader:
     def _fluid(self, entry: Entry) -> None:
         density = entry.number("Density", 0.5) * self.units.density
         if not entry.all("Density"):
-            self.case.note(entry.key, f"line {entry.line}", "has no Density: 0.5, its program's default", True)
+            self._note(entry, "has no Density: 0.5, its program's default", True)
         if density <= 0:
-            raise entry.need("Density").refuse(f"{density:g} is not positive", "give one above 0")
+            entry.positive("Density")
         if not 0.5 <= density <= 2:
             words = (
                 f"a density of {density:g} mg/mm^3, water has 1: are the case's units {self.units.name}? see --units"
             )
-            self.case.note("Density", f"line {entry.need('Density').line}", words, True)
+            self._note(entry.need("Density"), words, True, "Density")
         viscosity, notes = viscosity_of(entry, self.units)
         self.fluid = {"density": density, **viscosity}
-        for at, words, matters in notes:
-            self.case.note(at.key, f"line {at.line}", words, matters)
+        self._note_all(notes)
         self.backflow = entry.number("Backflow_stabilization_coefficient", 0.2)
         for axis in "xyz":
             if entry.number(f"Force_{axis}", 0.0):
                 raise entry.need(f"Force_{axis}").refuse("is a force on the fluid, which ours has not", "take it out")
-        if entry.number("Inverse_darcy_permeability", 0.0):
-            raise entry.need("Inverse_darcy_permeability").refuse(
-                "is a porous fluid, which ours has not", "take it out"
-            )
+        porous = entry.find("Inverse_darcy_permeability")
+        if porous is not None and porous.as_number():
+            raise porous.refuse("is a porous fluid, which ours has not", "take it out")
 
-    def _conditions(self, equation: Entry, kind: str) -> None:
+    def _conditions(self, equation: Entry) -> None:
         by_face: dict[str, list[Entry]] = {face.given: [] for face in self.case.faces}
         for entry in equation.all("Add_BC"):
             given = entry.attribute("name")
             if given not in by_face:
-                known = list(by_face)
-                raise entry.refuse(
-                    f"there is no face '{given}'", f"did you mean {nearest(given, known)}? There are {', '.join(known)}"
-                )
+                raise entry.refuse(f"there is no face '{given}'", hint(given, by_face, "There are"))
             by_face[given].append(entry)
         for face in self.case.faces:
             entries = by_face[face.given]
@@ -402,9 +392,8 @@ class _Reader:
         if not entries:
             if not face.flat:
                 problem = "has no Add_BC, and is not flat: svMultiPhysics would let fluid through it"
-                raise InputError(
-                    self.root.file, f"Add_face {face.given}", problem, "give it one: of a wall Dir with Value 0"
-                )
+                remedy = "give it one: of a wall Dir with Value 0"
+                raise InputError(self.root.file, f"Add_face {face.given}", problem, remedy)
             self.openings.append({"surface": face.name, "backflow": 0.0})
             self.case.note(f"Add_face {face.given}", "no Add_BC", "an opening free of traction, as there")
             return
@@ -442,7 +431,7 @@ class _Reader:
             words = (
                 f"a velocity (no Impose_flux): a flow_rate of it times {share:g} times the area, {face.area:.6g} mm^2"
             )
-            self.case.note(entry.key, f"line {entry.line}", words, True)
+            self._note(entry, words, True)
         opening: dict[str, Any] = {"surface": face.name}
         if dependence == "Steady":
             opening["flow_rate"] = factor * value
@@ -463,36 +452,27 @@ class _Reader:
         elif dependence == "Unsteady":
             opening |= self._table(face, entry, "pressure", ("time_ms", "pressure_kPa"), pressure)
         elif dependence == "Resistance":
-            opening["resistance"] = self._positive(entry.need("Value")) * self.units.resistance
+            opening["resistance"] = entry.positive("Value") * self.units.resistance
         elif dependence in ("RCR", "Windkessel"):
             opening["windkessel"] = self._windkessel(entry.need("RCR_values"))
         else:
-            remedy = (
-                "Steady, Unsteady, Resistance and RCR; lumped models of svZeroDSolver or genBC are [network] of ours"
-            )
-            raise self._time_dependence(entry, dependence, remedy)
+            there_are = "Steady, Unsteady, Resistance and RCR"
+            words = f"{there_are}; lumped models of svZeroDSolver or genBC are [network] of ours"
+            raise self._time_dependence(entry, dependence, words)
+        given = ", ".join(key for key in opening if key != "surface")
+        self.case.said.append(f"{face.given}: {given or 'free of traction'}")
         opening["backflow"] = self.backflow
         self.openings.append(opening)
-        self.case.said.append(
-            f"{face.given}: {', '.join(k for k in opening if k not in ('surface', 'backflow')) or 'free of traction'}"
-        )
 
     def _windkessel(self, values: Entry) -> dict[str, Any]:
         resistance, pressure = self.units.resistance, self.units.pressure
         return {
-            "proximal": self._positive(values.need("Proximal_resistance")) * resistance,
-            "compliance": self._positive(values.need("Capacitance")) * self.units.compliance,
-            "distal": self._positive(values.need("Distal_resistance")) * resistance,
+            "proximal": values.positive("Proximal_resistance") * resistance,
+            "compliance": values.positive("Capacitance") * self.units.compliance,
+            "distal": values.positive("Distal_resistance") * resistance,
             "initial_pressure": values.number("Initial_pressure", 0.0) * pressure,
             "distal_pressure": values.number("Distal_pressure", 0.0) * pressure,
         }
-
-    @staticmethod
-    def _positive(entry: Entry) -> float:
-        value = entry.as_number()
-        if value <= 0:
-            raise entry.refuse(f"{entry.text} is not positive", "give one above 0")
-        return value
 
     @staticmethod
     def _time_dependence(entry: Entry, given: str, there_are: str) -> InputError:
@@ -518,12 +498,8 @@ class _Reader:
             wave, error = read_series(self._file(series), entry.yes("Ramp_function", False))
             largest = float(np.abs(wave(np.linspace(0, wave.period, 257))).max())
             share = f"{100 * error / largest:.2g} % of its largest value" if largest else "0"
-            words = (
-                "a ramp from its first value to its last"
-                if wave.ramp
-                else (f"its Fourier series of {len(wave.real)} modes, as there; off its points by {share}")
-            )
-            return wave, words
+            series_words = f"its Fourier series of {len(wave.real)} modes, as there; off its points by {share}"
+            return wave, "a ramp from its first value to its last" if wave.ramp else series_words
         if coefficients is not None:
             wave = read_coefficients(self._file(coefficients))
             return wave, f"its Fourier series of {len(wave.real)} modes"
@@ -538,7 +514,7 @@ class _Reader:
         made: dict[str, Any] = {key: {"file": name}}
         if not wave.ramp:
             made["period"] = wave.period * self.units.time
-        self.case.note(entry.key, f"line {entry.line}", f"{name}: {words}, in {len(rows)} rows")
+        self._note(entry, f"{name}: {words}, in {len(rows)} rows")
         return made
 
     def _support(self, face: Face, entry: Entry) -> None:
@@ -562,9 +538,8 @@ class _Reader:
                 self.case.said.append(f"{face.given}: {normal}spring and {normal}damper")
             self._wall_load(face, entry, dependence, support)
         else:
-            raise entry.refuse(
-                f"Type '{given}' of a face of the wall has no counterpart", "there are Dir, Neu and Robin"
-            )
+            problem = f"Type '{given}' of a face of the wall has no counterpart"
+            raise entry.refuse(problem, "there are Dir, Neu and Robin")
         if len(support) == 1:
             del self.supports[face.name]
 
@@ -588,12 +563,13 @@ class _Reader:
             support |= self._table(face, entry, "pressure", ("time_ms", "pressure_kPa"), pressure)
         if not follows:
             words = "a pressure that follows the face; in svMultiPhysics it keeps the face's normal at rest"
-            self.case.note(entry.key, f"line {entry.line}", words, True)
+            self._note(entry, words, True)
         self.case.said.append(f"{face.given}: a pressure on the wall")
 
     def _assemble(self, mesh: CaseMesh, time: dict[str, Any], layers: dict[str, Layer], kind: str) -> None:
         sections = self.case.sections
-        sections["title"] = f"{absolute(self.root.file).parent.name or self.root.file.stem}, from {PROGRAM}"
+        folder = absolute(self.root.file).parent.name
+        sections["title"] = printable(f"{folder or self.root.file.stem}, from {PROGRAM}")
         sections["element"] = "p1" if mesh.order == 1 else "p2p1"
         sections["mesh"] = {"file": "mesh.msh"}
         if self.fluid:

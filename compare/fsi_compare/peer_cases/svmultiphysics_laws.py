@@ -62,6 +62,23 @@ class Layer:
     notes: list[tuple[Entry, str, bool]] = field(default_factory=list)
 
 
+@dataclass
+class Wall:
+    """What a law is made of: its entry, the moduli in kPa, and how the case's fibres lie."""
+
+    at: Entry
+    mu: float
+    bulk: float
+    nu: float
+    units: Units
+    fibre_angle: float | None
+
+    def require_bulk(self) -> None:
+        if self.bulk <= 0:
+            problem = "has no bulk modulus: svMultiPhysics adds no volumetric stress then"
+            raise self.at.refuse(problem, "give Poisson_ratio below 0.5 or a Penalty_parameter")
+
+
 def young_and_poisson(mu: float, bulk: float) -> tuple[float, float]:
     """Young's modulus and Poisson's ratio of a shear and a bulk modulus."""
     return 9 * bulk * mu / (3 * bulk + mu), (3 * bulk - 2 * mu) / (2 * (3 * bulk + mu))
@@ -71,9 +88,8 @@ def layer_of(domain: Entry, equation: str, units: Units, fibre_angle: float | No
     """A layer from the domain of a wall. Raises InputError for what has no counterpart."""
     density = domain.number("Density", 0.5) * units.density
     if density <= 0:
-        raise domain.refuse(
-            f"has the density {density:g}", "give one above 0; a wall without inertia is [static] of ours"
-        )
+        remedy = "give one above 0; a wall without inertia is [static] of ours"
+        raise domain.refuse(f"has the density {density:g}", remedy)
     young, nu = domain.number("Elasticity_modulus", 1e7), domain.number("Poisson_ratio", 0.3)
     layer = Layer({}, density)
     for name, value in (("Elasticity_modulus", 1e7), ("Poisson_ratio", 0.3), ("Density", 0.5)):
@@ -98,7 +114,7 @@ def layer_of(domain: Entry, equation: str, units: Units, fibre_angle: float | No
         raise at.refuse(f"'{given}' is no constitutive model", f"there are {', '.join(LAWS)}")
     mu = young / (2 * (1 + nu))
     bulk = _bulk_modulus(domain, equation, young, mu, nu, units, layer)
-    MAKERS[LAWS[given]](at, mu, bulk, nu, units, layer, fibre_angle)
+    MAKERS[LAWS[given]](Wall(at, mu, bulk, nu, units, fibre_angle), layer)
     if LAWS[given] == "neoHookean" and not domain.all("Penalty_parameter") and nu < 0.5:
         layer.constants |= {"young": young, "poisson": nu}
     _penalty(domain, at, layer)
@@ -124,26 +140,21 @@ def _bulk_modulus(
     return 0.0
 
 
-def _solid(at: Entry, bulk: float) -> None:
-    if bulk <= 0:
-        problem = "has no bulk modulus: svMultiPhysics adds no volumetric stress then"
-        raise at.refuse(problem, "give Poisson_ratio below 0.5 or a Penalty_parameter")
-
-
-def _neo_hookean(at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, _: float | None) -> None:
-    _solid(at, bulk)
-    young, poisson = young_and_poisson(mu, bulk)
+def _neo_hookean(wall: Wall, layer: Layer) -> None:
+    wall.require_bulk()
+    young, poisson = young_and_poisson(wall.mu, wall.bulk)
     layer.constants = {"material": "neo-hookean", "young": young, "poisson": poisson}
 
 
-def _mooney_rivlin(at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, _: float | None) -> None:
-    _solid(at, bulk)
-    c1, c2 = (2 * at.number(name) * units.pressure for name in ("c1", "c2"))
+def _mooney_rivlin(wall: Wall, layer: Layer) -> None:
+    wall.require_bulk()
+    c1, c2 = (2 * wall.at.number(name) * wall.units.pressure for name in ("c1", "c2"))
     layer.constants = {"material": "mooney-rivlin", "c10": c1, "c01": c2}
-    layer.bulk_modulus = bulk
+    layer.bulk_modulus = wall.bulk
 
 
-def _saint_venant(at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, _: float | None) -> None:
+def _saint_venant(wall: Wall, layer: Layer) -> None:
+    at, mu, bulk, nu = wall.at, wall.mu, wall.bulk, wall.nu
     if nu >= 0.5:
         raise at.refuse("stVK is incompressible, Poisson_ratio 0.5", "give less than 0.5")
     lame = 2 * mu * nu / (1 - 2 * nu)
@@ -156,32 +167,26 @@ def _saint_venant(at: Entry, mu: float, bulk: float, nu: float, units: Units, la
         layer.notes.append((at, words, True))
 
 
-def _two_families(
-    at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, angle: float | None
-) -> None:
-    _solid(at, bulk)
+def _two_families(wall: Wall, layer: Layer) -> None:
+    wall.require_bulk()
+    at, angle, pressure = wall.at, wall.fibre_angle, wall.units.pressure
     a4, b4, a6, b6, kappa = (at.number(name) for name in ("a4", "b4", "a6", "b6", "kappa"))
     if angle is None:
         problem = "gives fibres by vectors, holzapfel-gasser-ogden of ours by their angle to the circumference"
         raise at.refuse(problem, "give --fibre-angle DEGREES")
-    layer.constants = {
-        "material": "holzapfel-gasser-ogden",
-        "c10": mu,
-        "k1": a4 * units.pressure,
-        "k2": b4,
-        "alpha": angle,
-    }
+    fibres = {"k1": a4 * pressure, "k2": b4, "alpha": angle}
+    layer.constants = {"material": "holzapfel-gasser-ogden", "c10": wall.mu, **fibres}
     if a4 != a6 or b4 != b6:
-        layer.constants.update({"k1_second": a6 * units.pressure, "k2_second": b6})
+        layer.constants |= {"k1_second": a6 * pressure, "k2_second": b6}
     if kappa:
         layer.constants["kappa"] = kappa
-    layer.bulk_modulus = bulk
+    layer.bulk_modulus = wall.bulk
     words = f"fibres lie at {angle:g} degrees to the circumference (--fibre-angle), not by the vectors of the case; "
     words += "the first family at plus, the second at minus that angle"
     layer.notes.append((at, words, True))
 
 
-MAKERS: dict[str, Callable[[Entry, float, float, float, Units, Layer, float | None], None]] = {
+MAKERS: dict[str, Callable[[Wall, Layer], None]] = {
     "neoHookean": _neo_hookean,
     "MR": _mooney_rivlin,
     "stVK": _saint_venant,
@@ -223,35 +228,24 @@ def viscosity_of(domain: Entry, units: Units) -> tuple[dict[str, Any], list[tupl
     model = entry.attribute("model")
     mu = units.viscosity
     seconds = units.time
-
-    def positive(name: str, factor: float) -> float:
-        value = entry.number(name)
-        if value <= 0:
-            raise entry.refuse(f"{name} {value:g} is not positive", "give one above 0")
-        return value * factor
-
     kind = model.lower()
     if kind in ("const", "constant", "newtonian"):
-        return {"viscosity": positive("Value", mu)}, []
+        return {"viscosity": entry.positive("Value") * mu}, []
     if kind in ("cy", "carreau-yasuda"):
         # The program's list of keys has "multiplier"; older files "multipler".
-        at_rest, high = positive("Limiting_low_shear_rate_viscosity", mu), positive(
-            "Limiting_high_shear_rate_viscosity", mu
-        )
+        at_rest = entry.positive("Limiting_low_shear_rate_viscosity") * mu
+        high = entry.positive("Limiting_high_shear_rate_viscosity") * mu
         law: dict[str, Any] = {"name": "carreau-yasuda", "mu0": at_rest, "mu_inf": high}
-        law["lambda"] = positive("Shear_rate_tensor_multiplier", seconds)
-        law["a"], law["n"] = positive("Shear_rate_tensor_exponent", 1.0), entry.number("Power_law_index")
+        law["lambda"] = entry.positive("Shear_rate_tensor_multiplier") * seconds
+        law["a"], law["n"] = entry.positive("Shear_rate_tensor_exponent"), entry.number("Power_law_index")
         return {"viscosity_model": law}, []
     if kind in ("cass", "cassons"):
-        root = mu**0.5
-        plastic, stress = positive("Asymptotic_viscosity_parameter", root), positive("Yield_stress_parameter", 1.0)
-        lowest = entry.number("Low_shear_rate_threshold", 0.5)
-        if lowest <= 0:
-            raise entry.refuse(f"Low_shear_rate_threshold {lowest:g} is not positive", "give one above 0")
+        plastic = entry.positive("Asymptotic_viscosity_parameter") * mu**0.5
+        stress, threshold = entry.positive("Yield_stress_parameter"), entry.find("Low_shear_rate_threshold")
+        lowest = 0.5 if threshold is None else threshold.positive()
         law = {"name": "casson", "yield_stress": stress**2 * units.pressure, "plastic_viscosity": plastic**2}
         law["regularisation"] = seconds / lowest
         words = f"below {lowest:g} per unit of time its viscosity is constant; here it goes to the same value smoothly "
-        return {"viscosity_model": law}, [
-            (entry, words + "(regularisation), 1 - exp(-sqrt(m g)) in place of a corner", True)
-        ]
+        words += "(regularisation), 1 - exp(-sqrt(m g)) in place of a corner"
+        return {"viscosity_model": law}, [(entry, words, True)]
     raise entry.refuse(f"'{model}' is no viscosity model", "there are Constant, Carreau-Yasuda and Cassons")

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from ..base.errors import InputError
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 
 
 @dataclass(frozen=True)
@@ -65,12 +65,7 @@ SYSTEMS: dict[str, Units] = {
 def units_of(name: str) -> Units:
     """Units by name. Raises InputError."""
     if name not in SYSTEMS:
-        raise InputError(
-            "",
-            "--units",
-            f"'{name}' is no system of units",
-            f"did you mean {nearest(name, list(SYSTEMS))}? There are {', '.join(SYSTEMS)}",
-        )
+        raise InputError("", "--units", f"'{name}' is no system of units", hint(name, SYSTEMS, "There are"))
     return SYSTEMS[name]
 
 

@@ -28,9 +28,8 @@ class Entry:
     @property
     def key(self) -> str:
         """Its place, for messages: Add_equation FSI/Add_BC inlet/Value."""
-        own = " ".join(
-            [self.name] + [self.attributes[k] for k in ("type", "name", "id", "model") if k in self.attributes]
-        )
+        known = [self.attributes[key] for key in ("type", "name", "id", "model") if key in self.attributes]
+        own = " ".join([self.name, *known])
         return own if self.parent is None or self.parent.parent is None else f"{self.parent.key}/{own}"
 
     def refuse(self, problem: str, remedy: str) -> InputError:
@@ -81,6 +80,14 @@ class Entry:
             raise self.refuse(f"'{self.text}' is no finite number", "give a number")
         return value
 
+    def positive(self, name: str = "") -> float:
+        """The number of this entry, or of the one of this name in it. Raises InputError unless it is above 0."""
+        entry = self.need(name) if name else self
+        value = entry.as_number()
+        if value <= 0:
+            raise entry.refuse(f"{entry.text} is not positive", "give one above 0")
+        return value
+
     def yes(self, name: str, default: bool) -> bool:
         found = self.find(name)
         if found is None:
@@ -89,6 +96,11 @@ class Entry:
         if found.text.lower() not in known:
             raise found.refuse(f"'{found.text}' is neither true nor false", "write true or false")
         return known[found.text.lower()]
+
+    def take_all(self) -> None:
+        """Marks what is below it as read."""
+        for entry in self.every():
+            entry.taken = True
 
     def every(self) -> Iterator["Entry"]:
         """The entries below, in the file's order."""
@@ -121,9 +133,8 @@ def read_xml(path: Path) -> Entry:
             open_entries[-1].text += text
 
     def doctype(name: str, *_: object) -> None:
-        raise InputError(
-            path, f"line {parser.CurrentLineNumber}", f"has a document type ({name})", "cases need none: take it out"
-        )
+        line, problem = f"line {parser.CurrentLineNumber}", f"has a document type ({name})"
+        raise InputError(path, line, problem, "cases need none: take it out")
 
     parser.StartElementHandler, parser.EndElementHandler = start, end
     parser.CharacterDataHandler, parser.StartDoctypeDeclHandler = characters, doctype

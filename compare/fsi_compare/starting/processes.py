@@ -111,7 +111,7 @@ def _start(job: Job) -> _Running:
 
 
 def _process(command: Sequence, **streams: Any) -> subprocess.Popen:
-    """Starts a process in a group of its own: Ctrl-C comes to fsi-compare alone, which passes it on."""
+    """Starts a process in a group of its own (Python 3.11): Ctrl-C comes to fsi-compare alone, which passes it on."""
     words = [str(word) for word in command]
     ended_with_us = _die_with(os.getpid())
     return subprocess.Popen(words, stdin=subprocess.DEVNULL, process_group=0, preexec_fn=ended_with_us, **streams)

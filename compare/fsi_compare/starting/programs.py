@@ -38,7 +38,8 @@ def find_program(name: str, named: Path | None = None, option: str = "--program"
     said = VERSION.fullmatch(answer_to(path, "--version").strip())
     if said is None or said["name"] != name:
         raise InputError(path, option, f"is not {name}", BUILD)
-    return Program(path, said["version"], _digest(_executable(path, said["level"])))
+    executable = read_bytes(_executable(path, said["level"]), BUILD, BUILD)
+    return Program(path, said["version"], hashlib.sha256(executable).hexdigest())
 
 
 def _executable(path: Path, level: str | None) -> Path:
@@ -49,12 +50,21 @@ def _executable(path: Path, level: str | None) -> Path:
     return build if is_file(build) else path
 
 
-def _digest(path: Path) -> str:
-    return hashlib.sha256(read_bytes(path, BUILD, BUILD)).hexdigest()
-
-
 def find_mesh_maker(monolithic: Program) -> Path | None:
     return find_beside(monolithic, "fsi-mesh")
+
+
+def need_mesh_maker(driver: Program) -> Path:
+    """Raises InputError where it is not there."""
+    found = find_mesh_maker(driver)
+    if found is None:
+        raise no_mesh_maker()
+    return found
+
+
+def no_mesh_maker() -> InputError:
+    remedy = "build it with cmake --build --preset release"
+    return InputError("fsi-mesh", "", "is not beside the drivers", remedy)
 
 
 def find_beside(program: Program, name: str) -> Path | None:

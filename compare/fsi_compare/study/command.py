@@ -9,7 +9,7 @@ from typing import Any, TYPE_CHECKING
 from ..base.errors import InputError, ProgramError, printable, say_note, say_warning
 from ..base.files import absolute, folder, output_folder, together
 from ..base.options import Commands, add_command, add_drivers, add_usual, positive
-from ..starting.folder_lock import locked
+from ..base.folder_lock import locked
 from ..starting.duration import duration
 from ..starting.programs import Program, find_mesh_maker, find_program
 from .catalogue import OWN, Catalogue

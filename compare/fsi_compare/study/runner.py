@@ -12,22 +12,13 @@ from typing import Any, Mapping, Sequence
 
 from ..base import interruption
 from ..base.errors import InputError, ProgramError
-from ..base.files import (
-    TEMPORARY,
-    absolute,
-    is_file,
-    listed,
-    make_folder,
-    read_bytes,
-    read_json,
-    read_object,
-    remove_tree,
-    replacing,
-)
+from ..base.files import TEMPORARY, absolute, is_file, listed, make_folder, read_bytes, read_json, read_object
+from ..base.files import remove_tree, replacing
+from ..base.toml import toml_value
 from ..starting.launch import launched
 from ..gallery.mesh_chain import contents, make_mesh
 from ..starting.processes import End, Job, run_jobs
-from ..starting.programs import Program
+from ..starting.programs import Program, no_mesh_maker
 from ..runs.summary import FILE, read_summary
 from ..runs.work_units import about_machines
 from . import repeats
@@ -94,9 +85,8 @@ class Runner:
                 progress.known(request, known)
             else:
                 wanted[key] = request
-        order = sorted(
-            wanted.items(), key=lambda item: progress.weight(item[1])
-        )  # small ones first: they tell the time left
+        # Small ones first: they tell the time left.
+        order = sorted(wanted.items(), key=lambda item: progress.weight(item[1]))
         progress.plan([request for _, request in order])
         for i, (key, request) in enumerate(order):
             folder = self._place(key, request)
@@ -112,20 +102,16 @@ class Runner:
         run_jobs(jobs, self.jobs, ended, lambda running: progress.tick([order[i][1] for i in running]))
         self._repeat(dict(zip(keys, requests)), progress)
         # What is known may have been asked for under another name: the run is the same, its place in the study is not.
-        return [self._as(self._known[key], request) for key, request in zip(keys, requests)]
+        return [replace(self._known[key], request=request) for key, request in zip(keys, requests)]
 
     def _repeat(self, requests: Mapping[str, Request], progress: StudyProgress) -> None:
         """Times the short runs again, one round after the other, so that a disturbance does not meet all of a run's."""
         study = self.study
-        known = self._known
-        short = {
-            key: request
-            for key, request in requests.items()
-            if study.repeats > 1
-            and known[key].done
-            and known[key].seconds < study.repeat_below
-            and len(known[key].timings) < study.repeats
-        }
+
+        def is_short(run: StudyRun) -> bool:
+            return run.done and run.seconds < study.repeat_below and len(run.timings) < study.repeats
+
+        short = {k: request for k, request in requests.items() if study.repeats > 1 and is_short(self._known[k])}
         again = [
             (key, request, repeats.place_of(self._place(key, request), n))
             for n in range(2, study.repeats + 1)
@@ -145,12 +131,8 @@ class Runner:
             if len(places[key]) == study.repeats - 1:
                 self._settle(key, request, places[key])
 
-        run_jobs(
-            [Job(i, self._command(request, place), request.time_limit) for i, (_, request, place) in enumerate(again)],
-            self.jobs,
-            ended,
-            lambda running: progress.tick([again[i][1] for i in running]),
-        )
+        jobs = [Job(i, self._command(r, place), r.time_limit) for i, (_, r, place) in enumerate(again)]
+        run_jobs(jobs, self.jobs, ended, lambda running: progress.tick([again[i][1] for i in running]))
 
     def _settle(self, key: str, request: Request, places: Sequence[Path]) -> None:
         """Keeps the median of all repetitions, if they had the same results."""
@@ -161,9 +143,8 @@ class Runner:
         else:
             record.update(status=CRASHED, message=repeats.NOT_THE_SAME)
         write_record(folder, record)
-        self._known[key] = replace(
-            run, status=record["status"], message=record["message"], timings=tuple(record.get("timings", ()))
-        )
+        told = {name: record[name] for name in ("status", "message")}
+        self._known[key] = replace(run, **told, timings=tuple(record.get("timings", ())))
 
     @property
     def machines(self) -> str:
@@ -178,10 +159,6 @@ class Runner:
     def _take(self, key: str, run: StudyRun) -> None:
         self._known[key] = run
         self.seconds += max(run.seconds, sum(run.timings))
-
-    @staticmethod
-    def _as(run: StudyRun, request: Request) -> StudyRun:
-        return replace(run, request=request)
 
     def _what_decides(self, request: Request) -> tuple[Request, Program, Path | None, int, int]:
         mesh_file = self.mesh_file(request.mesh)
@@ -201,9 +178,7 @@ class Runner:
         if self._mesh_is_made(mesh):
             return path
         if self.mesh_maker is None:
-            raise InputError(
-                "fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release"
-            )
+            raise no_mesh_maker()
         make_folder(path.parent)
         unfinished = path.with_name(f".{path.stem}{TEMPORARY}.msh")
         place = f"{self.study.path}: meshes.{mesh.name}"
@@ -246,15 +221,8 @@ class Runner:
         return self.folder / "runs" / f"{name}-{key[:12]}"
 
     def _command(self, request: Request, folder: Path) -> list[str]:
-        words = [
-            str(self._program(request).path),
-            str(request.case_file),
-            "-o",
-            str(folder),
-            "-q",
-            "--threads",
-            str(self.threads),
-        ]
+        words = [str(self._program(request).path), str(request.case_file), "-o", str(folder), "-q"]
+        words += ["--threads", str(self.threads)]
         mesh = self.mesh_file(request.mesh)
         settings = dict(request.settings)
         if mesh is not None:
@@ -262,7 +230,8 @@ class Runner:
         elif request.mesh is not None:
             settings["mesh.level"] = request.mesh.name
         for name, value in settings.items():
-            words += ["--set", f"{name}={toml_value(value)}"]
+            # A text by itself stands without quotation marks.
+            words += ["--set", f"{name}={value if isinstance(value, str) else toml_value(value)}"]
         return launched(words, self.processes_of(request))
 
     def _finished(self, key: str, request: Request) -> StudyRun | None:
@@ -274,15 +243,8 @@ class Runner:
                 return None
             if record["status"] == DONE:
                 read_summary(folder / FILE)
-            run = StudyRun(
-                request,
-                folder,
-                record["status"],
-                record["message"],
-                float(record["seconds"]),
-                record["command"],
-                tuple(record.get("timings", ())),
-            )
+            told = record["status"], record["message"], float(record["seconds"]), record["command"]
+            run = StudyRun(request, folder, *told, tuple(record.get("timings", ())))
             self._taken_up.count(self._program(request), record.get("executable", ""))
             return run
         except (OSError, ValueError, OverflowError, KeyError, TypeError, InputError):
@@ -293,20 +255,18 @@ class Runner:
         status, message = judge(folder, end)
         command = shlex.join(self._command(request, folder))
         make_folder(folder)
-        write_record(
-            folder,
-            {
-                "fingerprint": key,
-                "status": status,
-                "message": message,
-                "seconds": end.seconds,
-                "command": command,
-                "run": request.label,
-                "ended": time.strftime("%Y-%m-%d %H:%M:%S"),
-                "executable": self._program(request).digest,
-                "interrupted": is_interrupted(end.code) and not end.out_of_time,
-            },
-        )
+        record = {
+            "fingerprint": key,
+            "status": status,
+            "message": message,
+            "seconds": end.seconds,
+            "command": command,
+            "run": request.label,
+            "ended": time.strftime("%Y-%m-%d %H:%M:%S"),
+            "executable": self._program(request).digest,
+            "interrupted": is_interrupted(end.code) and not end.out_of_time,
+        }
+        write_record(folder, record)
         return StudyRun(request, folder, status, message, end.seconds, command)
 
 
@@ -334,13 +294,8 @@ def remove_runs(folder: Path) -> None:
 
 def sweep_study(folder: Path) -> None:
     """Removes the temporary files of calls that were killed. The folder must be locked: whose are they else?"""
-    for place in (
-        folder,
-        folder / "runs",
-        folder / "meshes",
-        folder / "meshes" / PARTS,
-        *(folder / "runs" / run for run in listed(folder / "runs")),
-    ):
+    runs, meshes = folder / "runs", folder / "meshes"
+    for place in (folder, runs, meshes, meshes / PARTS, *(runs / run for run in listed(runs))):
         for name in listed(place):
             if name.startswith(".") and TEMPORARY in name:
                 remove_tree(place / name)
@@ -350,23 +305,16 @@ def judge(folder: Path, end: End) -> tuple[str, str]:
     """(status, message) of a run that has ended."""
     if end.out_of_time:
         return OUT_OF_TIME, end.message
-    if end.code == 0:
-        bad = first_not_finite(folder)
-        if bad:
-            return WRONG, bad
-        try:
-            read_summary(folder / FILE)
-        except InputError as error:
-            return CRASHED, f"exit code 0, but {error}"
-        return DONE, ""
     bad = first_not_finite(folder)
     if bad:
         return WRONG, bad
-    if end.code == 1:
-        return REFUSED, end.message
-    if end.code == 2:
-        return NOT_CONVERGED, end.message
-    return CRASHED, end.message
+    if end.code:
+        return {1: REFUSED, 2: NOT_CONVERGED}.get(end.code, CRASHED), end.message
+    try:
+        read_summary(folder / FILE)
+    except InputError as error:
+        return CRASHED, f"exit code 0, but {error}"
+    return DONE, ""
 
 
 def first_not_finite(folder: Path) -> str:
@@ -382,19 +330,6 @@ def first_not_finite(folder: Path) -> str:
 
 
 def _finite(value: Any) -> bool:
-    if isinstance(value, dict):
-        return all(_finite(entry) for entry in value.values())
-    if isinstance(value, list):
-        return all(_finite(entry) for entry in value)
+    if isinstance(value, (dict, list)):
+        return all(map(_finite, value.values() if isinstance(value, dict) else value))
     return not isinstance(value, float) or math.isfinite(value)
-
-
-def toml_value(value: Any) -> str:
-    """The value as the drivers read it behind --set key=."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, list):
-        return "[" + ", ".join(f'"{v}"' if isinstance(v, str) else toml_value(v) for v in value) + "]"
-    if isinstance(value, float):
-        return repr(value) if math.isfinite(value) else str(value)
-    return str(value)

@@ -13,7 +13,7 @@ from ..gallery.mesh_chain import with_places
 from ..gallery.scene import read_scene as read_gallery_scene
 from ..study.runner import Runner, sweep_study
 from ..study.study_file import Method, Request, Study, StudyMesh, mesh_of_scene
-from ..starting.folder_lock import locked
+from ..base.folder_lock import locked
 from ..starting.programs import find_mesh_maker, find_program
 from ..verify.found_case import write_case
 from ..verify.mesh_family import find_recipe

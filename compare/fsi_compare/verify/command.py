@@ -11,7 +11,7 @@ from ..reporting.layout import say_written
 from ..reporting.matplotlib_loader import load_matplotlib
 from ..reporting.pressure import read_times
 from ..study.runner import Runner, sweep_study
-from ..starting.folder_lock import locked
+from ..base.folder_lock import locked
 from ..starting.duration import duration
 from ..starting.programs import Program, find_mesh_maker, find_program
 from .adapting import adapted
