@@ -56,11 +56,6 @@ class Number:
         return abs(self.value - self.reference) / (self.scale or abs(self.reference))
 
     @property
-    def of_other_driver(self) -> bool:
-        """Whether the reference is no more than what the other driver gives."""
-        return self.source in ("the other driver", "the monolithic driver", "the partitioned driver")
-
-    @property
     def holds(self) -> bool:
         return self.error <= self.tolerance  # a NaN does not
 

@@ -39,22 +39,6 @@ def labels_that_say_so(labels: Sequence[str], panels: Sequence[Sequence[Line2D]]
     return [f"{label} (lies on {first(on[i])})" if i in on else label for i, label in enumerate(labels)]
 
 
-def note_coinciding(axes: Axes, lines: Sequence[Line2D], labels: Sequence[str]) -> str | None:
-    """Writes into a panel which of its curves lie on each other; for panels of a figure that differ in that."""
-    said = []
-    for group in coinciding([lines]):
-        names = [labels[i] for i in group]
-        if len(group) == len(lines):
-            said.append("all lines" if len(lines) > 2 else "both lines")
-        else:
-            said.append(f"{', '.join(names[:-1])} and {names[-1]}")
-    if not said:
-        return None
-    text = "\n".join(f"{names} lie on each other" for names in said)
-    axes.text(0.98, 0.03, text, transform=axes.transAxes, ha="right", va="bottom", fontsize=6.5, color="#444444")
-    return text
-
-
 def sentence_of_coinciding(figure: Figure) -> str:
     """A sentence for a caption: which curves with a name in a legend lie on each other in all panels that have them;
     empty where none do, or a legend or panel says it already."""

@@ -34,19 +34,6 @@ LINES = (
     {"linestyle": (0, (4, 1, 1, 1, 1, 1)), "color": "#6a4c93", "linewidth": 1.1},
 )
 
-# Points joined by lines, told apart without colour by marker, dash pattern and lightness.
-MARKED_LINES = (
-    {"linestyle": "-", "marker": "o", "color": "#000000"},
-    {"linestyle": "--", "marker": "s", "color": "#e8871e"},
-    {"linestyle": "-.", "marker": "^", "color": "#2c6fbb"},
-    {"linestyle": ":", "marker": "D", "color": "#b02a5b"},
-    {"linestyle": (0, (7, 2)), "marker": "v", "color": "#3d8338"},
-    {"linestyle": (0, (4, 1, 1, 1, 1, 1)), "marker": "P", "color": "#6a4c93"},
-    {"linestyle": (0, (1, 3)), "marker": "X", "color": "#555555"},
-    {"linestyle": (0, (9, 1, 1, 1)), "marker": "<", "color": "#00798c"},
-    {"linestyle": (0, (3, 3)), "marker": ">", "color": "#8a6d00"},
-)
-
 # Nothing of the day or the version of a program: the same data give the same file.
 METADATA: dict[str, dict[str, None]] = {
     ".png": {"Software": None},

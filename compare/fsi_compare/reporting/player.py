@@ -8,6 +8,7 @@ from typing import Any, Sequence
 
 import numpy as np
 
+from ..runs.levels import thinned
 from .pictures import LINES
 
 MOST_NUMBERS = 1_000_000  # of moving lines in a page; 2.7 bytes each
@@ -107,11 +108,6 @@ class Player:
             "yUnit": panel.y[1],
             "curves": curves,
         }
-
-
-def thinned(count: int, most: int) -> np.ndarray:
-    """Indices of at most `most` of `count` entries, evenly spread, the first and the last among them."""
-    return np.arange(count) if count <= most else np.unique(np.linspace(0, count - 1, most).round().astype(int))
 
 
 def packed(values: np.ndarray) -> dict[str, Any]:

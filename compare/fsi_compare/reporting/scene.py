@@ -12,7 +12,7 @@ from ..drawing.sweep import angles
 from ..results.picture import Scene
 from ..results.quantities import Quantity
 from ..results.scene_parts import Part, views_of
-from .player import thinned
+from ..runs.levels import thinned
 from .scene_packing import packed_counts, packed_numbers, plain_bytes
 from .scene_thinning import MOST_TRIANGLES, thinned_part
 

@@ -56,18 +56,13 @@ def _parts(face: tuple[int, ...], nodes: int) -> list[list[int]]:
     """Straight parts of a face of a cell, in the cell's own numbers."""
     if nodes not in MIDDLES:
         return [list(face)]
-    middle = [
-        MIDDLES[nodes][_sorted(face[i], face[(i + 1) % len(face)])] for i in range(len(face) if len(face) > 2 else 1)
-    ]
+    edges = zip(face, [*face[1:], face[0]])
+    middle = [MIDDLES[nodes][min(edge), max(edge)] for edge in edges]
     if len(face) == 2:
         return [[face[0], middle[0]], [middle[0], face[1]]]
     a, b, c = face
     ab, bc, ca = middle
     return [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
-
-
-def _sorted(a: int, b: int) -> tuple[int, int]:
-    return (a, b) if a < b else (b, a)
 
 
 def normals_of(points: np.ndarray, faces: np.ndarray, up: np.ndarray) -> np.ndarray:

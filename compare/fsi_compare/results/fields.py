@@ -7,7 +7,8 @@ import h5py
 import numpy as np
 
 from ..base.errors import InputError
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
+from ..runs.levels import between_levels
 
 FIRST = "fields.h5"
 AGAIN = "run it again"
@@ -88,17 +89,11 @@ class MediumFields:
         if not times[0] - tolerance <= time <= times[-1] + tolerance:
             remedy = f"give a time between {times[0]:g} and {times[-1]:g} ms"
             raise InputError(self._file, f"{self.name}/{field}", f"{time:g} ms is outside what was written", remedy)
-        nearest_entry = int(np.argmin(np.abs(times - time)))
-        if abs(times[nearest_entry] - time) <= tolerance:
-            return self._values(field, entries[nearest_entry])
-        after = int(np.searchsorted(times, time))
-        weight = (time - times[after - 1]) / (times[after] - times[after - 1])
-        return (1 - weight) * self._values(field, entries[after - 1]) + weight * self._values(field, entries[after])
+        return between_levels(times, time, tolerance, lambda level: self._values(field, entries[level]))
 
     def _of(self, field: str) -> list[_Entry]:
         if field not in self._entries:
-            remedy = f"did you mean '{nearest(field, self.names)}'? It has {', '.join(self.names)}"
-            raise InputError(self._file, self.name, f"has no field '{field}'", remedy)
+            raise InputError(self._file, self.name, f"has no field '{field}'", hint(field, self.names))
         return self._entries[field]
 
     def _values(self, field: str, entry: _Entry) -> np.ndarray:

@@ -7,7 +7,7 @@ from typing import Mapping
 import numpy as np
 
 from ..base.errors import InputError
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from ..runs.pressure_waves import PressureWaves
 from ..runs.samples import Samples, read_samples
 from .units import split_unit
@@ -27,9 +27,7 @@ class Line:
     def __getitem__(self, quantity: str) -> np.ndarray:
         """(levels, points). Raises InputError."""
         if quantity not in self.values:
-            known = list(self.values)
-            remedy = f"did you mean '{nearest(quantity, known)}'? It has {', '.join(known)}"
-            raise InputError("", f"line {self.name}", f"has no '{quantity}'", remedy)
+            raise InputError("", f"line {self.name}", f"has no '{quantity}'", hint(quantity, self.values))
         return self.values[quantity]
 
     def __repr__(self) -> str:
@@ -53,9 +51,7 @@ class Line:
     def at(self, time: float, quantity: str) -> np.ndarray:
         """(points,) at a time in ms; linear between levels. Raises InputError for a time outside of the run."""
         waves = self.waves(quantity)
-        if not waves.covers(time):
-            remedy = f"give a time between {self.times[0]:g} and {self.times[-1]:g} ms"
-            raise InputError("", f"line {self.name}", f"{time:g} ms is outside the run", remedy)
+        waves.require(time, "", f"line {self.name}")
         return waves.at(time)
 
 

@@ -5,6 +5,7 @@ from typing import Mapping
 
 import numpy as np
 
+from ..runs.levels import thinned
 from .boundary import Boundary, normals_of, smooth_pieces
 from .fields import MediumFields
 from .openings import Opening
@@ -66,7 +67,7 @@ def _levels(fluid: MediumFields, openings: Mapping[str, Opening]) -> np.ndarray:
     first = max(float(opening.time[0]) for opening in openings.values())
     last = min(float(opening.time[-1]) for opening in openings.values())
     times = fluid.times[(fluid.times >= first * (1 - 1e-9)) & (fluid.times <= last * (1 + 1e-9))]
-    return times[np.unique(np.linspace(0, len(times) - 1, LEVELS).round().astype(int))] if len(times) else times
+    return times[thinned(len(times), LEVELS)]
 
 
 def _given(opening: Opening, levels: np.ndarray) -> np.ndarray:

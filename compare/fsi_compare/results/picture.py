@@ -5,11 +5,12 @@ from typing import TYPE_CHECKING, Sequence
 import numpy as np
 
 from ..base.errors import InputError
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from ..drawing.camera import Camera
 from ..drawing.colours import PERCENTILE, Scale, round_ticks, scale_of, table
 from ..drawing.raster import Mesh, rendered
 from ..drawing.sweep import angles, swept, turned
+from ..runs.levels import thinned
 from .quantities import Quantity
 from .scene_parts import CutPlane, Part, camera_of, first_quantity, middle_plane, parts_of, scene_quantities, views_of
 from .surfaces import Surfaces, displaced
@@ -44,9 +45,7 @@ class Scene:
 
     def check(self, key: str) -> None:
         if key not in self.quantities:
-            known = list(self.quantities)
-            remedy = f"did you mean '{nearest(key, known)}'? It has {', '.join(known)}"
-            raise InputError(self.file, "", f"has no field '{key}'", remedy)
+            raise InputError(self.file, "", f"has no field '{key}'", hint(key, self.quantities))
 
     def times(self, key: str) -> np.ndarray:
         """Times of the entries that have the quantity, ms."""
@@ -85,12 +84,10 @@ class Scene:
     def _range(self, key: str) -> tuple[Scale, float]:
         if key not in self._ranges:
             times = self.times(key)
-            times = times[np.unique(np.linspace(0, len(times) - 1, MOST_LEVELS).round().astype(int))]
+            times = times[thinned(len(times), MOST_LEVELS)]
             levels = [self._level(key, float(time)) for time in times]
-            sizes = [
-                max((float(np.percentile(np.abs(v), PERCENTILE)) for v in level if len(v)), default=0.0)
-                for level in levels
-            ]
+            parts = [[np.abs(v) for v in level if len(v)] for level in levels]
+            sizes = [max((float(np.percentile(v, PERCENTILE)) for v in part), default=0.0) for part in parts]
             scale = scale_of((v for level in levels for v in level), self.quantity(key).signed)
             self._ranges[key] = scale, float(times[int(np.nanargmax(sizes))])
         return self._ranges[key]
@@ -115,15 +112,8 @@ class Scene:
             groups = {"cut", "lumen", "openings", "wall"}
             return [part for part in self.parts if part.group in groups]
         solid = [part for part in has if part.group != "cut"]
-        return (
-            [part for part in solid if not (part.group == "wall" and "fluid" in fields)]
-            if self._inside(fields)
-            else solid
-        )
-
-    def _inside(self, fields: dict[str, str]) -> bool:
-        """Whether it is a quantity of the fluid alone."""
-        return "fluid" in fields and "wall" not in fields
+        of_fluid_alone = "fluid" in fields and "wall" not in fields
+        return [part for part in solid if not (part.group == "wall" and of_fluid_alone)]
 
 
 def meshes_to_draw(
@@ -185,10 +175,9 @@ def picture(
     image, pixels = rendered(meshes, eye, size[0], size[1], table(scale.map))
     bar_unit = "" if shown_unit == "1" else shown_unit
     words = quantity.words + (f" in {bar_unit}" if bar_unit else "")
-    notes = [f"t = {at:g} ms"] + ([f"displacement x {factor:g}"] if factor != 1 and _moves(scene) else [])
-    return framed(
-        image, scale, times_unit, words, bar_unit, " · ".join(([title] if title else []) + notes), span is None
-    )
+    moves = any("displacement" in medium.names for medium in scene.meshes.media.values())
+    notes = [title, f"t = {at:g} ms", f"displacement x {factor:g}" if factor != 1 and moves else ""]
+    return framed(image, scale, times_unit, words, bar_unit, " · ".join(filter(None, notes)), span is None)
 
 
 def camera_named(scene: Scene, view: str | None) -> Camera | None:
@@ -197,17 +186,8 @@ def camera_named(scene: Scene, view: str | None) -> Camera | None:
         return None
     views = {name: camera for name, camera, _ in views_of(scene.meshes)}
     if view not in views:
-        raise InputError(
-            "",
-            "view",
-            f"'{view}' is unknown",
-            f"did you mean '{nearest(view, list(views))}'? It has {', '.join(views)}",
-        )
+        raise InputError("", "view", f"'{view}' is unknown", hint(view, views))
     return views[view]
-
-
-def _moves(scene: Scene) -> bool:
-    return any("displacement" in medium.names for medium in scene.meshes.media.values())
 
 
 def unit_of(own: str, wanted: str | None) -> tuple[str, float]:
@@ -215,9 +195,8 @@ def unit_of(own: str, wanted: str | None) -> tuple[str, float]:
     if wanted is None or wanted == own:
         return own, 1.0
     if wanted not in UNITS.get(own, ()):
-        raise InputError(
-            "", "unit", f"'{wanted}' does not fit a field in {own}", f"give {' or '.join(UNITS.get(own, (own,)))}"
-        )
+        remedy = f"give {' or '.join(UNITS.get(own, (own,)))}"
+        raise InputError("", "unit", f"'{wanted}' does not fit a field in {own}", remedy)
     return wanted, PER_KPA[wanted] / PER_KPA[own]
 
 
@@ -259,11 +238,8 @@ def framed(
     legend.ax.tick_params(labelsize=8)
     figure.text(0.885, 0.69 / height, unit, fontsize=8, va="center", parse_math=False)
     how = f"colours end at the {PERCENTILE:g}th percentile" if robust else "range as asked for"
-    occurs = (
-        f"{how}; {scale.least * per_own:.4g} to {scale.largest * per_own:.4g} occur"
-        if scale.least == scale.least
-        else ""
-    )
+    known = scale.least == scale.least
+    occurs = f"{how}; {scale.least * per_own:.4g} to {scale.largest * per_own:.4g} occur" if known else ""
     figure.text(0.5, 0.08 / height, f"{words} ({occurs})", fontsize=8, ha="center", va="bottom", parse_math=False)
     return figure
 

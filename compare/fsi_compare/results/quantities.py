@@ -35,10 +35,6 @@ def _component(i: int) -> Callable[[np.ndarray], np.ndarray]:
     return lambda values: values[:, i]
 
 
-def _itself(values: np.ndarray) -> np.ndarray:
-    return values
-
-
 def _magnitude(values: np.ndarray) -> np.ndarray:
     return np.sqrt(np.einsum("ij,ij->i", values, values))
 
@@ -57,7 +53,8 @@ def quantities_of_field(medium: MediumFields, field: str) -> list[Quantity]:
     words, unit = WORDS.get(field, field.replace("_", " ")), medium.units[field]
     width = medium.width(field)
     if width == 1:
-        return [Quantity(field, field, words, unit, field.endswith("pressure") or field.startswith("fibre"), _itself)]
+        signed = field.endswith("pressure") or field.startswith("fibre")
+        return [Quantity(field, field, words, unit, signed, lambda values: values)]
     if width == 6:
         made = Quantity(field, field, f"von Mises stress of the {words}", unit, False, _von_mises)
         return [made] if "von_mises_stress" not in medium.names else []
@@ -68,7 +65,6 @@ def quantities_of_field(medium: MediumFields, field: str) -> list[Quantity]:
             for i, name in enumerate(names)
         ]
     found = [Quantity(field, field, words, unit, False, _magnitude)]
-    parts = [
-        Quantity(f"{field}:{c}", field, f"{words}, {c}", unit, True, _component(i)) for i, c in enumerate(COMPONENTS)
-    ]
-    return found + parts
+    for i, c in enumerate(COMPONENTS):
+        found.append(Quantity(f"{field}:{c}", field, f"{words}, {c}", unit, True, _component(i)))
+    return found

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..base.errors import InputError, printable
-from ..base.files import exists, is_folder, read_object
-from ..base.suggestions import nearest
-from ..runs.run_folder import read_finished
+from ..base.files import read_object
+from ..base.suggestions import hint
+from ..runs.run_folder import read_finished, require_folder
 from ..runs.samples import LINES, read_samples
 from ..runs.summary import AGAIN, FILE, FINISHED, PROGRAMS, checked
 from .fields import MediumFields, read_fields
@@ -73,9 +73,8 @@ class RunResults:
         file = name if name.endswith(".csv") else name + ".csv"
         if file not in self._read:
             if file not in self.tables:
-                known = self.tables
-                hint = f"did you mean '{nearest(file, known)}'? It has {', '.join(known)}" if known else NOT_WRITTEN
-                raise InputError(self.folder, "", f"has no table '{file}'", hint)
+                remedy = hint(file, self.tables) if self.tables else NOT_WRITTEN
+                raise InputError(self.folder, "", f"has no table '{file}'", remedy)
             self._read[file] = read_table(self.folder / file, finished=self.status == "done")
         return self._read[file]
 
@@ -161,10 +160,8 @@ class RunResults:
     @property
     def has_samples(self) -> bool:
         """Whether there is any line, opening, plane or point."""
-        lines = (self.centre_line, self.wall_line)
-        return any(line is not None for line in lines) or bool(
-            self.lines or self.openings or self.planes or self.points
-        )
+        lines = self.centre_line is not None or self.wall_line is not None
+        return lines or bool(self.lines or self.openings or self.planes or self.points)
 
     @cached_property
     def fields(self) -> dict[str, MediumFields]:
@@ -224,9 +221,7 @@ def open_run(folder: "str | PathLike[str]", unfinished: bool = False) -> RunResu
     path = Path(folder)
     if not unfinished:
         return RunResults(path, read_finished(path))
-    if not is_folder(path):
-        problem = "is not a folder" if exists(path) else "no such folder"
-        raise InputError(path, "", problem, "give the folder that a run wrote with -o")
+    require_folder(path)
     summary = checked(path / FILE, read_object(path / FILE, FINISHED, AGAIN))
     if summary.get("program") not in PROGRAMS:
         raise InputError(path / FILE, "program", "is missing or unknown", "give the result folder of a driver")

@@ -8,7 +8,7 @@ from typing import Mapping
 import numpy as np
 
 from ..base.errors import InputError
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from .boundary import CORNERS, Boundary, boundary_of, straight_cells
 from .fields import MediumFields
 from .opening_faces import flat_pieces, named_openings
@@ -126,8 +126,7 @@ class Surfaces:
     def get(self, name: str) -> Surface:
         """The surface of this name. Raises InputError."""
         if name not in self.names:
-            hint = f"did you mean '{nearest(name, self.names)}'? It has {', '.join(self.names)}"
-            raise InputError(self._folder, "", f"has no surface '{name}'", hint)
+            raise InputError(self._folder, "", f"has no surface '{name}'", hint(name, self.names))
         if name not in self._boundaries:
             medium = self._fields[name.removesuffix(" section")]
             return made(name, medium, straight_cells(medium.cells))

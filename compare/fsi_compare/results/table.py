@@ -6,7 +6,7 @@ from typing import Any, Iterator, Mapping, Sequence
 import numpy as np
 
 from ..base.errors import InputError
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from ..runs.columns import number, numbers, read_fields
 from .units import split_unit
 
@@ -83,12 +83,7 @@ class Table(Mapping[str, np.ndarray]):
             return name
         if name in self._names:
             return self._names[name]
-        raise MissingColumn(
-            self.path,
-            "",
-            f"has no column '{name}'",
-            f"did you mean '{nearest(name, list(self._columns))}'? It has {', '.join(self._columns)}",
-        )
+        raise MissingColumn(self.path, "", f"has no column '{name}'", hint(name, self._columns))
 
 
 def read_table(path: Path, finished: bool = True) -> Table:

@@ -1,11 +1,33 @@
 """Values along a line over time, as tables hold them: a block of lines for each time level, the same points in each."""
 
 from pathlib import Path
+from typing import Callable
 
 import numpy as np
 
 from ..base.errors import InputError
 from .columns import INTERRUPTED, numbers, read_fields
+
+
+def between_levels(times: np.ndarray, time: float, tolerance: float, values: Callable[[int], np.ndarray]) -> np.ndarray:
+    """Values at a time between the first and the last, linear between neighbouring levels; those of a level that is
+    nearer than the tolerance as they are. `values`: of a level."""
+    nearest = int(np.argmin(np.abs(times - time)))
+    if abs(times[nearest] - time) <= tolerance:
+        return values(nearest)
+    after = int(np.searchsorted(times, time))
+    weight = (time - times[after - 1]) / (times[after] - times[after - 1])
+    return (1 - weight) * values(after - 1) + weight * values(after)
+
+
+def thinned(count: int, most: int) -> np.ndarray:
+    """Indices of at most `most` of `count` entries, evenly spread, the first and the last among them."""
+    return np.arange(count) if count <= most else np.unique(np.linspace(0, count - 1, most).round().astype(int))
+
+
+def integral(x: np.ndarray, y: np.ndarray) -> float:
+    """Over x, by the trapezoidal rule; of (rows, x) the sum over the rows."""
+    return float(np.sum(0.5 * (y[..., 1:] + y[..., :-1]) * np.diff(x)))
 
 
 def read_levels(path: Path, column: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

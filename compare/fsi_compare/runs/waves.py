@@ -7,7 +7,7 @@ from typing import Sequence
 
 import numpy as np
 
-from .levels import read_levels
+from .levels import between_levels, integral, read_levels
 
 
 @dataclass(frozen=True)
@@ -17,16 +17,14 @@ class Quantity:
     name: str
 
 
-WINDOW = (
-    0.7  # ms: takes most of the wall's thickness shear, of 0.4 and 0.9 ms, off the pressure (docs/evidence/evidence.md)
-)
+# ms: takes most of the wall's thickness shear, of 0.4 and 0.9 ms, off the pressure (docs/evidence/evidence.md).
+WINDOW = 0.7
 
 PRESSURE = Quantity("centerline_pressure.csv", "pressure_Pa", "centre-line pressure")
 AVERAGED = Quantity("averaged_pressure.csv", "averaged_pressure_Pa", f"centre-line pressure averaged over {WINDOW} ms")
 DISPLACEMENT = Quantity("wall_displacement.csv", "radial_mm", "wall displacement")
 WRITTEN = (PRESSURE, DISPLACEMENT)  # by the programs
 QUANTITIES = (PRESSURE, AVERAGED, DISPLACEMENT)  # in a reference's folder
-JUDGED = (AVERAGED, DISPLACEMENT)  # by which settings are chosen; the raw pressure is stated beside them
 
 
 @dataclass(frozen=True)
@@ -44,13 +42,7 @@ class Waves:
         for time in times:
             if not self.covers(time):
                 raise ValueError(f"{time} ms is not between {self.times[0]} and {self.times[-1]} ms")
-            nearest = int(np.argmin(np.abs(self.times - time)))
-            if abs(self.times[nearest] - time) <= 1e-6:
-                row = self.values[nearest]
-            else:
-                after = int(np.searchsorted(self.times, time))
-                weight = (time - self.times[after - 1]) / (self.times[after] - self.times[after - 1])
-                row = (1 - weight) * self.values[after - 1] + weight * self.values[after]
+            row = between_levels(self.times, time, 1e-6, self.values.__getitem__)
             rows.append(row if np.array_equal(z, self.z) else np.interp(z, self.z, row))
         return np.array(rows)
 
@@ -90,8 +82,7 @@ def read_run(folder: Path, times: Sequence[float]) -> dict[str, Waves]:
 def norm(z: np.ndarray, values: np.ndarray) -> float:
     """(sum over the levels of the integral of values^2 dz)^(1/2), by the trapezoidal rule. Relative norms of equally
     spaced levels are those over space and time."""
-    squares = values * values
-    return math.sqrt(float(np.sum(0.5 * (squares[:, 1:] + squares[:, :-1]) * np.diff(z))))
+    return math.sqrt(integral(z, values * values))
 
 
 def relative_difference(other: Waves, reference: Waves, times: Sequence[float]) -> float:
@@ -99,11 +90,3 @@ def relative_difference(other: Waves, reference: Waves, times: Sequence[float]) 
     expected = reference.at(times, reference.z)
     size = norm(reference.z, expected)
     return norm(reference.z, other.at(times, reference.z) - expected) / size if size > 0 else math.nan
-
-
-def extrapolated(fine: Waves, coarse: Waves, factor: float) -> Waves:
-    """fine + factor (fine - coarse), point by point, at the times of the coarse waves that both have; factor 1 removes
-    a first-order error between a step and its half, 1/3 a second-order one."""
-    times = np.array([t for t in coarse.times if np.min(np.abs(fine.times - t)) <= 1e-6])
-    values = fine.at(times, fine.z)
-    return Waves(times, fine.z, values + factor * (values - coarse.at(times, fine.z)))

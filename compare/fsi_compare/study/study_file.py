@@ -10,12 +10,12 @@ from typing import Any, Iterable, Mapping, Sequence
 from ..base.case_names import short_name
 from ..base.errors import InputError
 from ..base.files import absolute, exists, is_file, read_toml
-from . import source_tree
-from .mesh_levels import MESHES
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from ..gallery.mesh_chain import with_places
 from ..gallery.scene import READY, Scene, read_scene, ready_scenes
 from ..starting.launch import usable_cores
+from . import source_tree
+from .mesh_levels import MESHES
 from .section import LARGEST_COUNT, LARGEST_NUMBER, Section
 
 PROGRAMS = ("fsi-monolithic", "fsi-partitioned")
@@ -27,7 +27,7 @@ LONGEST_NAME = 200  # characters of a key
 MOST_RUNS = 100_000
 FILE_NAME = re.compile(r"[^/.][^/]{0,59}")
 
-TOP_KEYS = (
+TOP_KEYS: tuple[str, ...] = (
     "title",
     "kind",
     "threads",
@@ -37,12 +37,8 @@ TOP_KEYS = (
     "repeats",
     "repeat_below",
     "set",
-    "cases",
-    "methods",
-    "meshes",
-    "runs",
-    "report",
 )
+TOP_KEYS += ("cases", "methods", "meshes", "runs", "report")
 METHOD_KEYS = ("program", "label", "set")
 CASE_KEYS = ("file", "scene", "set")
 MESH_KEYS = ("options", "label")
@@ -120,31 +116,28 @@ class Study:
         """One more run, for kinds that decide on the next run from the last."""
         chosen = self.methods[method]
         merged = {**self.settings, **self.case_settings.get(case, {}), **chosen.settings, **settings}
-        return Request(
-            group,
-            case,
-            chosen,
-            dict(values),
-            self.cases[case],
-            self.meshes[mesh] if mesh else _mesh_of(self.scenes.get(case), self.quick),
-            merged,
-            self.time_limit,
-        )
+        made = self.meshes[mesh] if mesh else mesh_of_scene(self.scenes.get(case), self.quick)
+        return Request(group, case, chosen, dict(values), self.cases[case], made, merged, self.time_limit)
 
 
-def _mesh_of(scene: Scene | None, quick: bool) -> StudyMesh | None:
-    """The mesh of a scene; None where the case is no scene."""
-    return None if scene is None else mesh_of_scene(scene, quick)
+def method_of(driver: str) -> Method:
+    """A driver as it is: `monolithic` or `partitioned`."""
+    return Method(driver, driver, f"fsi-{driver}", {})
 
 
-def mesh_of_scene(scene: Scene, quick: bool) -> StudyMesh:
-    """Its files named by their full paths."""
+def study_of_case(
+    path: Path, kind: str, name: str, case: Path, methods: Mapping[str, Method], threads: int, time_limit: float
+) -> Study:
+    """The study of a command that decides on its runs itself, one at a time; `path`: the user's case."""
+    return Study(path, name, kind, threads, 1, time_limit, {name: case}, methods, {}, (), {}, False)
+
+
+def mesh_of_scene(scene: Scene | None, quick: bool) -> StudyMesh | None:
+    """Its files named by their full paths; None where a case is no scene."""
+    if scene is None:
+        return None
     command, *options = with_places(scene.mesh_words(quick), scene.folder)
     return StudyMesh(scene.name + ("-quick" if quick else ""), "", tuple(options), command)
-
-
-def report_of(study: Study, known: Sequence[str]) -> Section:
-    return Section(study.path, "report", study.report, known)
 
 
 def show(value: Any) -> str:
@@ -165,14 +158,12 @@ def _require_shown(path: Path, key: str, entry: Any) -> None:
     """Names and texts end in tables, reports and names of files: they must be such that people can read them."""
     if isinstance(entry, dict):
         for name, value in entry.items():
-            if not name.isprintable() or len(name) > LONGEST_NAME:
-                raise InputError(
-                    path,
-                    f"{key}.{name}".lstrip("."),
-                    f"has more than {LONGEST_NAME} characters" if name.isprintable() else "holds a control character",
-                    "choose another name",
-                )
-            _require_shown(path, f"{key}.{name}".lstrip("."), value)
+            full = f"{key}.{name}".lstrip(".")
+            if not name.isprintable():
+                raise InputError(path, full, "holds a control character", "choose another name")
+            if len(name) > LONGEST_NAME:
+                raise InputError(path, full, f"has more than {LONGEST_NAME} characters", "choose another name")
+            _require_shown(path, full, value)
     elif isinstance(entry, list):
         for value in entry:
             _require_shown(path, key, value)
@@ -280,9 +271,8 @@ class _Reader:
             raise self.wrong(key, "is a level's name already", "choose another name")
         options = entry.get("options")
         if not isinstance(options, list) or not options or not all(isinstance(word, str) for word in options):
-            raise self.wrong(
-                f"{key}.options", "is not a list of words", 'give options of fsi-mesh artery, e.g. ["--size", "0.5"]'
-            )
+            remedy = 'give options of fsi-mesh artery, e.g. ["--size", "0.5"]'
+            raise self.wrong(f"{key}.options", "is not a list of words", remedy)
         if not FILE_NAME.fullmatch(name):
             raise self.wrong(key, "is no name for a file", "choose a short one without '/'")
         return StudyMesh(name, section.text("label", name), tuple(options))
@@ -312,10 +302,7 @@ class _Reader:
         chosen = [methods[method] for method in self.names(group, "methods", methods, key)]
         section = self.section(key, group, GROUP_KEYS)
         own, vary = section.settings("set"), section.table("vary")
-        axes = [
-            [(quantity, self.value(f"{key}.vary.{quantity}", quantity, value, meshes)) for value in points]
-            for quantity, points in ((name, self.points(f"{key}.vary.{name}", name, vary[name])) for name in vary)
-        ]
+        axes = [self.axis(f"{key}.vary.{quantity}", quantity, vary[quantity], meshes) for quantity in vary]
         if len(names) * len(chosen) * math.prod(len(axis) for axis in axes) > MOST_RUNS:
             raise self.wrong(key, f"asks for more than {MOST_RUNS} runs", "vary less in one group")
         requests = []
@@ -324,7 +311,7 @@ class _Reader:
             if scene is not None and method.program not in scene.drivers:
                 continue
             merged = {**settings, **of_case.get(case, {}), **method.settings, **own}
-            values, mesh, processes = {}, _mesh_of(scene, self.quick), None
+            values, mesh, processes = {}, mesh_of_scene(scene, self.quick), None
             for quantity, value in point:
                 values[quantity] = value.shown
                 merged.update(value.settings)
@@ -333,13 +320,14 @@ class _Reader:
             requests.append(Request(name, case, method, values, cases[case], mesh, merged, limit, processes))
         return requests
 
-    def points(self, key: str, quantity: str, values: Any) -> list[Any]:
-        """The values of an axis as they are given, or those that "cores" stands for."""
+    def axis(self, key: str, quantity: str, values: Any, meshes: Mapping[str, StudyMesh]) -> "list[tuple[str, _Value]]":
+        """The quantity with each of its values, or with those that "cores" stands for."""
         if quantity == PROCESSES and values == CORES:
             most = usable_cores()
-            doubled = [2**power for power in range(most.bit_length()) if 2**power < most]
-            return [*doubled, most]
-        return self.list(key, values)
+            values = [*(2**power for power in range(most.bit_length()) if 2**power < most), most]
+        if not isinstance(values, list) or not values:
+            raise self.wrong(key, "is not a list of values", "write [a, b, ...]")
+        return [(quantity, self.value(key, quantity, value, meshes)) for value in values]
 
     def value(self, key: str, quantity: str, value: Any, meshes: Mapping[str, StudyMesh]) -> "_Value":
         """One value on an axis."""
@@ -352,12 +340,9 @@ class _Reader:
             if "label" not in value:
                 raise self.wrong(key, "a value with settings has no label", 'write { label = "...", set = { ... } }')
             self.scalar(f"{key}.label", value["label"])
-            return _Value(
-                value["label"],
-                section.settings("set"),
-                meshes[self.one_of(f"{key}.mesh", value["mesh"], meshes)] if "mesh" in value else None,
-                self.processes(f"{key}.processes", value["processes"]) if "processes" in value else None,
-            )
+            mesh = meshes[self.one_of(f"{key}.mesh", value["mesh"], meshes)] if "mesh" in value else None
+            processes = self.processes(f"{key}.processes", value["processes"]) if "processes" in value else None
+            return _Value(value["label"], section.settings("set"), mesh, processes)
         self.scalar(key, value)
         if "." not in quantity:
             problem = "is neither 'mesh', 'processes' nor a key of the case file"
@@ -375,8 +360,7 @@ class _Reader:
 
     def one_of(self, key: str, name: Any, names: Iterable[str]) -> str:
         if not isinstance(name, str) or name not in names:
-            remedy = f"did you mean '{nearest(str(name), list(names))}'? There are {', '.join(names)}"
-            raise self.wrong(key, f"'{name}' is unknown", remedy)
+            raise self.wrong(key, f"'{name}' is unknown", hint(str(name), names, "There are"))
         return name
 
     def names(self, group: dict[str, Any], name: str, known: Mapping[str, Any], section: str) -> list[str]:
@@ -389,11 +373,5 @@ class _Reader:
 
     def scalar(self, key: str, value: Any) -> None:
         if not isinstance(value, (str, int, float)) or (isinstance(value, int) and abs(value) > LARGEST_NUMBER):
-            raise self.wrong(
-                key, f"{show(value)} is no number or text", "write { label = ..., set = { ... } } for others"
-            )
-
-    def list(self, key: str, values: Any) -> list[Any]:
-        if not isinstance(values, list) or not values:
-            raise self.wrong(key, "is not a list of values", "write [a, b, ...]")
-        return values
+            remedy = "write { label = ..., set = { ... } } for others"
+            raise self.wrong(key, f"{show(value)} is no number or text", remedy)

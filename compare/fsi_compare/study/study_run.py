@@ -9,7 +9,7 @@ from ..base.files import is_file, read_object
 from ..runs.coupling import chosen_scheme, coupling_kind
 from ..runs.columns import Columns, read_columns
 from ..runs.pressure_waves import PressureWaves
-from ..runs.run_folder import has_pressure, read_pressure_line
+from ..runs.run_folder import read_pressure_line
 from ..runs.summary import FILE, checked
 from ..runs.work_units import in_all, per_step
 from .study_file import Request
@@ -20,14 +20,13 @@ REFUSED = "refused"  # exit code 1: bad input
 CRASHED = "crashed"  # a signal, or an exit code that no program of ours has
 OUT_OF_TIME = "out of time"
 WRONG = "not finite"  # it says done, and a result file holds NaN or infinity
-STATUSES = (DONE, NOT_CONVERGED, REFUSED, CRASHED, OUT_OF_TIME, WRONG)
 
 
 @dataclass(frozen=True)
 class StudyRun:
     request: Request
     folder: Path
-    status: str  # one of STATUSES
+    status: str  # one of the above
     message: str  # why it is not done
     seconds: float  # of the process, start to end
     command: str  # to repeat it by hand
@@ -36,6 +35,11 @@ class StudyRun:
     @property
     def done(self) -> bool:
         return self.status == DONE
+
+    @property
+    def end_words(self) -> str:
+        """How it ended, with what is known about a bad end."""
+        return self.status if self.done else f"{self.status}: {self.message}"
 
     def __hash__(self) -> int:
         return hash(self.folder)
@@ -55,11 +59,6 @@ class StudyRun:
     def pressure(self) -> PressureWaves:
         """Along the centre line, or the line that the case asks for. Raises InputError."""
         return read_pressure_line(self.folder)
-
-    @property
-    def has_pressure(self) -> bool:
-        """Whether there is a line of pressure. Raises InputError."""
-        return has_pressure(self.folder)
 
     def columns(self, file: str) -> Columns:
         """All columns of a CSV of the run, e.g. `iterations.csv`. Raises InputError when it is missing or broken."""

@@ -150,6 +150,38 @@ def _is_positive(text: str, whole: bool) -> bool:
 # ---- words ----
 
 
+def number_in(text: str, key: str, source: str) -> float:
+    """Reads a number of a mesh's commands. Raises InputError."""
+    try:
+        return float(text)
+    except ValueError:
+        raise InputError(source, key, f"'{text}' is no number", "give one") from None
+
+
+def options_of(words: Sequence[str]) -> dict[str, str]:
+    """Options by name, of --name value and --name=value; a flag has an empty value."""
+    found: dict[str, str] = {}
+    for word, following in zip(words, [*words[1:], ""]):
+        if word.startswith("--"):
+            name, mark, value = word.partition("=")
+            found[name] = value if mark else "" if following.startswith("--") else following
+    return found
+
+
+def without(words: Sequence[str], names: Sequence[str]) -> list[str]:
+    """The words without these options and their values."""
+    kept, skip = [], False
+    for word in words:
+        name = word.partition("=")[0]
+        if skip and not word.startswith("--"):
+            skip = False
+            continue
+        skip = name in names and "=" not in word
+        if name not in names:
+            kept.append(word)
+    return kept
+
+
 def apart(words: Sequence[str]) -> list[str]:
     """--name=value as two words; a value may hold more of the signs."""
     found: list[str] = []

@@ -16,10 +16,8 @@ RESERVE = 0.9  # of the demanded error, that a prediction is held to
 COARSEST, FINEST = -4, 12  # powers of a ratio
 STEPS_COARSEST, STEPS_FINEST = -3, 10  # powers of two
 SOLVER_SHARE = 0.1  # of the demanded error
-TOLERANCES = (
-    1e-4,
-    10.0,
-)  # factors by which a tolerance may be changed; looser ones than the family has tried are not taken
+# Factors by which a tolerance may be changed; looser ones than the family has tried are not taken.
+TOLERANCES = (1e-4, 10.0)
 
 
 @dataclass(frozen=True)

@@ -56,18 +56,15 @@ def part_of(
     `noise`: what differences may be by chance, of the solver or of a mesh's making. `curve`: the part of the curve that
     the values are norms of. A norm can fall faster than its curve converges, while the curve moves without growing: it
     is extrapolated by no larger order than the curve, and not at all where the curve's differences do not fall."""
-    order = np.argsort(-np.asarray(sizes, dtype=float))
-    x, y = np.asarray(sizes, dtype=float)[order], np.asarray(values, dtype=float)[order]
+    x, order = _falling(sizes)
+    y = np.asarray(values, dtype=float)[order]
     steps = y[:-1] - y[1:]
-    own = float(y[int(np.argmin(np.abs(x - 1.0)))])
-    known = abs(own - float(y[-1]))
+    known = abs(_own(x, y) - float(y[-1]))
     spread = float(np.max(y) - np.min(y)) if len(y) else 0.0
     if len(x) < 2 or np.any(x[:-1] <= x[1:]):
         return NOTHING
-    if spread <= 2 * noise:
-        return Part(SILENT, max(spread, noise), None, expected)
-    if len(x) < 3:
-        return Part(OUTSIDE, SWING * spread, lacking=True)
+    if spread <= 2 * noise or len(x) < 3:
+        return _silent_or_lacking(spread, noise, expected)
     if _swings(steps, noise):
         falls = abs(steps[-1]) <= 0.7 * float(np.max(np.abs(steps[:-1]))) or abs(steps[-1]) <= noise
         last = float(np.max(np.abs(steps[-2:])))
@@ -82,18 +79,16 @@ def part_of_curves(
 ) -> Part:
     """Like part_of() for whole curves, (levels * points,): the sum of the norms of the differences from each member to
     the finest one is a sequence that falls, and whose order is that of the curve."""
-    order = np.argsort(-np.asarray(sizes, dtype=float))
-    x, y = np.asarray(sizes, dtype=float)[order], [curves[i] for i in order]
+    x, order = _falling(sizes)
+    y = [curves[i] for i in order]
     if len(x) < 2 or np.any(x[:-1] <= x[1:]):
         return NOTHING
     steps = [one - other for one, other in zip(y, y[1:])]
     lengths = np.array([norm(step) for step in steps])
     own = y[int(np.argmin(np.abs(x - 1.0)))]
     known, spread = norm(own - y[-1]), float(np.max(lengths))
-    if spread <= 2 * noise:
-        return Part(SILENT, max(spread, noise), None, expected)
-    if len(x) < 3:
-        return Part(OUTSIDE, SWING * spread, lacking=True)
+    if spread <= 2 * noise or len(x) < 3:
+        return _silent_or_lacking(spread, noise, expected)
     falling = np.append(np.cumsum(lengths[::-1])[::-1], 0.0)
     part = _of_monotone(x, falling, expected, noise, known)
     if part.state == OUTSIDE:
@@ -116,6 +111,20 @@ def by_elements(
     if finer is not None and own_is_linear and norm(finer - other) > max(apart, noise):
         return Part(OUTSIDE, SWING * norm(finer - other))
     return Part(WIDENED, (2 if own_is_linear else 1) * apart + noise, error=own - other if own_is_linear else 0.0)
+
+
+def _falling(sizes: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
+    """The sizes from coarse to fine, and their places."""
+    x = np.asarray(sizes, dtype=float)
+    order = np.argsort(-x)
+    return x[order], order
+
+
+def _silent_or_lacking(spread: float, noise: float, expected: float) -> Part:
+    """The part of members that are too near to each other, else too few."""
+    if spread <= 2 * noise:
+        return Part(SILENT, max(spread, noise), None, expected)
+    return Part(OUTSIDE, SWING * spread, lacking=True)
 
 
 def _swings(steps: np.ndarray, noise: float) -> bool:

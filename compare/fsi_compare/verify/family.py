@@ -11,7 +11,8 @@ import numpy as np
 from ..base.case_names import with_present_names
 from ..base.errors import InputError
 from ..base.files import read_toml
-from ..study.study_file import Method, Request, Study, StudyMesh
+from ..base.numbers import is_number
+from ..study.study_file import Method, Request, Study, StudyMesh, method_of, study_of_case
 from .mesh_family import Recipe
 from .quantities import Asked
 from .tolerances import governing, names_scheme
@@ -97,17 +98,18 @@ def read_case(path: Path, settings: Mapping[str, Any] = MappingProxyType({})) ->
     time = entries.get("time", {})
     if not isinstance(time, dict) or not ("time" in entries or "static" in entries):
         raise InputError(path, "time", "is missing", "a case has a section [time] or [static]")
+    for name in ("end", "tolerance"):
+        if not is_number(time.get(name, 0.0)):
+            raise InputError(path, f"time.{name}", f"{time[name]} is no number", "give one")
     element = entries.get("element", "p2p1")
-    if element not in SPACE_ORDERS:
+    if not isinstance(element, str) or element not in SPACE_ORDERS:
         raise InputError(path, "element", f"'{element}' is unknown", f"choose {' or '.join(SPACE_ORDERS)}")
     step = time.get("step", 1.0)
     adaptive = step == "adaptive"
-    if not adaptive and (isinstance(step, bool) or not isinstance(step, (int, float)) or not step > 0):
+    if not adaptive and not (is_number(step) and step > 0):
         raise InputError(path, "time.step", f"{step} is no step", 'give a number of ms, or "adaptive"')
     openings = entries.get("opening", [])
-    periods = [
-        one["period"] for one in openings if isinstance(one, dict) and isinstance(one.get("period"), (int, float))
-    ]
+    periods = [one["period"] for one in openings if isinstance(one, dict) and is_number(one.get("period"))]
     return CaseFacts(
         path=path,
         entries=entries,
@@ -115,7 +117,7 @@ def read_case(path: Path, settings: Mapping[str, Any] = MappingProxyType({})) ->
         static="static" in entries,
         adaptive=adaptive,
         step=float(time.get("tolerance", 0.01)) if adaptive else float(step),
-        end=float(time.get("end", 0.0) or 0.0),
+        end=float(time.get("end", 0.0)),
         scheme=str(time.get("scheme", "midpoint")),
         period=float(max(periods)) if periods else None,
         flow_interval=_flow_interval(path, openings),
@@ -150,7 +152,7 @@ def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: 
     """Members from cheap to dear. `levels` meshes; `finer`: one is finer than the user's own. A mesh file has no
     coarser ones."""
     below = -1 if finer else 0
-    powers = [k for k in range(levels + below - 1, below - 1, -1)] if recipe.coarsens else list(range(0, -levels, -1))
+    powers = range(levels + below - 1, below - 1, -1) if recipe.coarsens else range(0, -levels, -1)
     meshes = [ratio**k if k else 1.0 for k in powers]
     beside = [] if recipe.coarsens or recipe.adapts else [Member(1.0, 1.0, False, True)]
     if facts.static:
@@ -166,10 +168,6 @@ def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: 
 def work(member: Member, dimensions: float) -> float:
     """Work of a member relative to the user's own, about."""
     return float(member.mesh**-dimensions / member.step)
-
-
-def _method(driver: str) -> Method:
-    return Method(driver, driver, f"fsi-{driver}", {})
 
 
 class Requests:
@@ -188,22 +186,20 @@ class Requests:
         self.name = name or facts.path.stem
         self.settings = dict(settings)  # of all members, over the case file's
         self.facts, self.recipe, self.folder = facts, recipe, folder
-        self.methods = {name: _method(name) for name in drivers}
+        self.methods = {name: method_of(name) for name in drivers}
         self.time_limit = time_limit
         self.scheme: str | None = None  # which fsi-partitioned took where the case names none, once a run has told
 
     def study(self, threads: int) -> Study:
         """The study of all runs, for the runner."""
         path = self.facts.path
-        return Study(
-            path, self.name, "verify", threads, 1, self.time_limit, {self.name: path}, self.methods, {}, (), {}, False
-        )
+        return study_of_case(path, "verify", self.name, path, self.methods, threads, self.time_limit)
 
     def mesh(self, member: Member) -> StudyMesh | None:
         return self.recipe.mesh(1 / member.mesh, self.folder, self.name)
 
     def of(self, member: Member, driver: str) -> Request:
-        method = self.methods.get(driver) or _method(driver)
+        method = self.methods.get(driver) or method_of(driver)
         settings = {**self.settings, **self._step(member)}
         if member.looser:
             settings.update(self.tolerances(method.program, LOOSER))

@@ -21,9 +21,7 @@ class Maker:
     """Keeps the outcome of each member, by driver. `names`: quantities that decide whether adaptation has paid; empty:
     all."""
 
-    def __init__(
-        self, runner: Runner, requests: Requests, dimension: int, quiet: bool, names: Sequence[str] = ()
-    ) -> None:
+    def __init__(self, runner: Runner, requests: Requests, dimension: int, quiet: bool, names: Sequence[str] = ()):
         self.runner, self.requests, self.dimension, self.quiet = runner, requests, dimension, quiet
         self.names = names
         self.last: int | None = None  # level of the adapted mesh that was none the better for it: there is no finer one
@@ -44,9 +42,8 @@ class Maker:
             self._together([pair for pair in self._wanted(members) if self._has_mesh(*pair)])
             return
         moved: list[Member] = []
-        for mesh in sorted(
-            {member.mesh for member, _ in self._wanted(members)}, reverse=True
-        ):  # each from its predecessor
+        wanted = {member.mesh for member, _ in self._wanted(members)}
+        for mesh in sorted(wanted, reverse=True):  # each from its predecessor
             level, here, plain = recipe.level(mesh), [m for m in members if m.mesh == mesh], Member(mesh, 1.0)
             for below in range(level):
                 self._climb(recipe, below)

@@ -22,6 +22,7 @@ import numpy as np
 from ..base.files import is_file
 from ..results.fields import read_fields
 from ..results.units import split_unit
+from ..runs.levels import integral
 from ..runs.samples import LINES, PLANES, POINTS, Samples, read_samples
 from .curve_norms import CurveNorm, Stretch, norm_on, stretch_of
 
@@ -120,10 +121,8 @@ def _derived(folder: Path) -> Iterator[Curve]:
                 values = np.asarray(fields.at(float(time), field), dtype=float)
                 flat = values if values.ndim == 1 else np.sqrt(np.sum(values.reshape(len(values), -1) ** 2, axis=1))
                 sizes.append(float(np.nanmax(np.abs(flat))) if np.isfinite(flat).any() else 0.0)
-            name = f"{medium}: largest {field.replace('_', ' ')}"
-            yield Curve(
-                name, fields.units.get(field, ""), np.asarray(times), np.asarray(sizes)[:, None], np.zeros(1), True
-            )
+            name, values = f"{medium}: largest {field.replace('_', ' ')}", np.asarray(sizes)[:, None]
+            yield Curve(name, fields.units.get(field, ""), np.asarray(times), values, np.zeros(1), True)
 
 
 def quantities_of(curves: Mapping[str, Curve], asked: Asked) -> list[Quantity]:
@@ -193,22 +192,15 @@ def _whole(curve: Curve, time: float | None = None, when: str = "") -> list[Quan
     if time is not None and not line:
         return []
     names = (f"line{when or ' over time'}", f"anywhere{when}") if line else ("curve", "at any time")
-    found = []
-    for name, largest in zip(names, (False, True)):
-        stretch = Stretch(largest, time)
-        found.append(
-            Quantity(
-                f"{curve.name}, {name}",
-                curve.name,
-                curve.unit,
-                curve.is_pressure,
-                size_of(curve, stretch),
-                lambda c, stretch=stretch: norm_of(c, stretch)(on(c, c, stretch)),  # type: ignore[misc]
-                largest and time is None,
-                stretch,
-            )
-        )
-    return found
+    return [_error(curve, name, Stretch(largest, time)) for name, largest in zip(names, (False, True))]
+
+
+def _error(curve: Curve, what: str, stretch: Stretch) -> Quantity:
+    def size(c: Curve) -> float:
+        return norm_of(c, stretch)(on(c, c, stretch))
+
+    name, scale, extreme = f"{curve.name}, {what}", size_of(curve, stretch), stretch.largest and stretch.time is None
+    return Quantity(name, curve.name, curve.unit, curve.is_pressure, scale, size, extreme, stretch)
 
 
 def _extremes(curve: Curve) -> Iterator[Quantity]:
@@ -269,9 +261,7 @@ def _largest_at_end(curve: Curve) -> float:
 def _norm(x: np.ndarray, y: np.ndarray) -> float:
     """(integral of y^2 over the length)^(1/2) by the trapezoidal rule, over the length's root: the unit stays."""
     length = float(x[-1] - x[0])
-    if length <= 0:
-        return float(np.sqrt(np.mean(y**2)))
-    return float(np.sqrt(np.sum(0.5 * (y[1:] ** 2 + y[:-1] ** 2) * np.diff(x)) / length))
+    return float(np.sqrt(integral(x, y**2) / length if length > 0 else np.mean(y**2)))
 
 
 def _l2(curve: Curve) -> float:
@@ -289,7 +279,7 @@ def _window(curve: Curve, begin: float) -> tuple[np.ndarray, np.ndarray]:
 
 def _mean(curve: Curve, begin: float) -> float:
     t, y = _window(curve, begin)
-    return float(np.sum(0.5 * (y[1:] + y[:-1]) * np.diff(t)) / (t[-1] - t[0]))
+    return integral(t, y) / float(t[-1] - t[0])
 
 
 def _swing(curve: Curve, begin: float) -> float:

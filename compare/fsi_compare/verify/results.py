@@ -1,6 +1,6 @@
 """What the runs of a family say: bars of all quantities by driver, and bands of curves."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
@@ -85,11 +85,13 @@ def about(family: FamilyRuns, centre: Member) -> FamilyRuns:
 
 def relative(member: Member, centre: Member) -> Member:
     """The member with sizes relative to another's."""
-    return Member(_same(member.mesh / centre.mesh), _same(member.step / centre.step), member.looser, member.other)
+    sizes_of = same_size(member.mesh / centre.mesh, 1e-6), same_size(member.step / centre.step, 1e-6)
+    return Member(*sizes_of, member.looser, member.other)
 
 
-def _same(size: float) -> float:
-    return 1.0 if abs(size - 1) < 1e-6 else round(size, 9)
+def same_size(size: float, near: float = 1e-9) -> float:
+    """The size without round-off, so that equal ones are the same."""
+    return 1.0 if abs(size - 1) < near else round(size, 9)
 
 
 def sizes(runs: Mapping[Member, StudyRun]) -> dict[float, float]:
@@ -146,34 +148,24 @@ def judge(
     if own is None:
         return []
     curves = on_common_points(curves)
-    judging = _Judging(family.driver, curves, curves[own], sizes(family.done), facts, additive)
-    judging.missed = missed_sizes(family.done)
+    real, missed = sizes(family.done), missed_sizes(family.done)
+    judging = _Judging(family.driver, curves, curves[own], real, facts, additive, missed)
     found = (judging.judged(quantity) for quantity in chosen(quantities_of(curves[own], facts.asked(times)), names))
     return [one for one in found if one is not None]
 
 
+@dataclass
 class _Judging:
     """Judges the quantities of one driver's family."""
 
-    def __init__(
-        self,
-        driver: str,
-        curves: Mapping[Member, Mapping[str, Curve]],
-        own: Mapping[str, Curve],
-        real: Mapping[float, float],
-        facts: CaseFacts,
-        additive: bool,
-    ) -> None:
-        self.driver, self.curves, self.own, self.real, self.facts, self.additive = (
-            driver,
-            curves,
-            own,
-            real,
-            facts,
-            additive,
-        )
-        self.missed = ""  # what forbids all bars
-        self._whole: dict[tuple[str, Stretch], Bar | None] = {}
+    driver: str
+    curves: Mapping[Member, Mapping[str, Curve]]
+    own: Mapping[str, Curve]
+    real: Mapping[float, float]
+    facts: CaseFacts
+    additive: bool
+    missed: str  # what forbids all bars
+    _whole: dict[tuple[str, Stretch], Bar | None] = field(default_factory=dict)
 
     def judged(self, quantity: Quantity) -> Judged | None:
         """The quantity's bar; None where nothing can be said of the user's own run."""
@@ -182,15 +174,8 @@ class _Judging:
             return None if bar is None else self._doubted(quantity, bar, self._distances(quantity))
         values = self._values(quantity.curve, quantity.of)
         whole = None if quantity.held_by is None else self._of_curve(quantity, quantity.held_by)
-        orders = self._orders(quantity)
-        bar = bar_of(
-            values,
-            quantity.scale,
-            *orders,
-            self.facts.element,
-            self.additive,
-            curve=whole if quantity.is_norm else None,
-        )
+        orders, held = self._orders(quantity), whole if quantity.is_norm else None
+        bar = bar_of(values, quantity.scale, *orders, self.facts.element, self.additive, curve=held)
         if bar is not None and whole is not None and not bar.given and whole.given:
             bar = inherited(bar, whole)
         return None if bar is None else self._doubted(quantity, bar, values)
@@ -251,9 +236,9 @@ def bands(family: FamilyRuns, curves: Mapping[Member, Mapping[str, Curve]], judg
         width = np.full(len(rows[own]), one.bar.solver + one.bar.together)
         width = width + _width(rows, own, one.bar.mesh, lambda m: m.mesh, lambda m: m.step)
         width = width + _width(rows, own, one.bar.step, lambda m: m.step, lambda m: m.mesh)
-        x = grid.times if stretch.time is None else grid.s
-        name = grid.name if stretch.time is None else one.quantity.name
-        found.append(Band(family.driver, name, grid.unit, x, rows[own], _widest(width), stretch.time is not None))
+        along = stretch.time is not None
+        name, x = (one.quantity.name, grid.s) if along else (grid.name, grid.times)
+        found.append(Band(family.driver, name, grid.unit, x, rows[own], _widest(width), along))
     return found
 
 

@@ -13,7 +13,7 @@ from ..study.study_file import StudyMesh
 from ..study.study_run import StudyRun
 from ..starting.duration import duration
 from .adapting import Adapted
-from .cost import learn
+from .cost import Costs, learn
 from .demand import Settings, cheapest, direction_of, outside, reached, refinable, shown_by, tolerance_factor, widest
 from .doubt import step_within
 from .family import INDICATOR, STEP_RATIO, Member, members, with_settings
@@ -21,7 +21,7 @@ from .found_case import write_case
 from .lean import between, cross, lean
 from .making import Maker
 from .quantities import Curve, curves_of
-from .results import BarsOfRun, FamilyRuns, Judged, about, judge, relative
+from .results import BarsOfRun, FamilyRuns, Judged, about, judge, relative, same_size
 
 FOUND, MESH = "found.toml", "found.msh"
 MOST_MOVES = 6  # of the family's centre
@@ -97,14 +97,16 @@ class Search:
         return recipe.coarsens and not isinstance(recipe, Adapted) and not facts.static
 
     def _corner(self, centre: Member) -> Member:
-        return Member(self._size(centre.mesh * self.ratio ** (self.levels - 1)), _round(centre.step * STEP_RATIO**2))
+        return Member(
+            self._size(centre.mesh * self.ratio ** (self.levels - 1)), same_size(centre.step * STEP_RATIO**2)
+        )
 
     def _members(self) -> list[Member]:
         recipe, facts, centre = self.maker.requests.recipe, self.maker.requests.facts, self.centre
         if self.crosses:
             meshes = between(self.corner.mesh, centre.mesh, self.ratio)
             steps = between(self.corner.step, centre.step, STEP_RATIO)
-            found = cross([self._size(mesh) for mesh in meshes], [_round(step) for step in steps])
+            found = cross([self._size(mesh) for mesh in meshes], [same_size(step) for step in steps])
             return [*found, centre] if centre in self.maker.families[self.driver].runs else found
         coarser = self.levels - 1 if recipe.coarsens else 0
         if isinstance(recipe, Adapted):
@@ -114,7 +116,9 @@ class Search:
             relative = lean(meshes, facts.static)
         else:
             relative = members(recipe, facts, self.ratio, self.levels, True)
-        return [replace(m, mesh=self._size(m.mesh * centre.mesh), step=_round(m.step * centre.step)) for m in relative]
+        return [
+            replace(m, mesh=self._size(m.mesh * centre.mesh), step=same_size(m.step * centre.step)) for m in relative
+        ]
 
     def _family(self) -> list[Judged]:
         """Its bars, after its members have run."""
@@ -123,12 +127,8 @@ class Search:
         found = self._judged(self.centre, self.crosses)
         if not found:
             names = " ".join(self.demand.names)
-            raise InputError(
-                self.maker.requests.facts.path,
-                f"--of {names}".strip(),
-                "no quantity to judge",
-                "see bars.csv of a call without --error",
-            )
+            where = self.maker.requests.facts.path, f"--of {names}".strip()
+            raise InputError(*where, "no quantity to judge", "see bars.csv of a call without --error")
         return found
 
     def _kept(self) -> FamilyRuns:
@@ -159,12 +159,14 @@ class Search:
             self.sets[run.folder] = BarsOfRun(self.driver, run, judged)
 
     def _best(self, judged: Sequence[Judged], demand: float) -> Settings | None:
-        family = about(self.maker.families[self.driver], self.centre)
-        costs = learn(family.runs, self.maker.dimension, self.maker.requests.facts.element)
-        requests = self.maker.requests
+        costs, requests = self._costs(self.centre), self.maker.requests
         if costs is None:
             return None
         return cheapest(judged, costs, demand, self.ratio, requests.facts.static, requests.recipe.coarsens)
+
+    def _costs(self, centre: Member) -> Costs | None:
+        family = about(self.maker.families[self.driver], centre)
+        return learn(family.runs, self.maker.dimension, self.maker.requests.facts.element)
 
     def _for_bars(self, judged: Sequence[Judged]) -> Member:
         """The centre refined by a ratio; where only its step is, at once to what the table of a flow needs."""
@@ -173,18 +175,18 @@ class Search:
         if target.mesh != self.centre.mesh or needed is None:
             return target
         while target.step > needed * (1 + 1e-9):
-            target = Member(target.mesh, _round(target.step / STEP_RATIO))
+            target = Member(target.mesh, same_size(target.step / STEP_RATIO))
         return target
 
     def _finer(self, what: str) -> Member:
         """The centre moved by one ratio."""
         mesh = self.centre.mesh / self.ratio if what != "step" else self.centre.mesh
         step = self.centre.step / STEP_RATIO if what != "mesh" else self.centre.step
-        return Member(self._size(mesh), _round(step))
+        return Member(self._size(mesh), same_size(step))
 
     def _size(self, mesh: float) -> float:
         """The power of the ratio that it is but for round-off, so that a mesh has one size whatever way leads to it."""
-        return _round(self.ratio ** round(math.log(mesh) / math.log(self.ratio)))
+        return same_size(self.ratio ** round(math.log(mesh) / math.log(self.ratio)))
 
     def _towards(self, asked: Sequence[Judged]) -> Member | None:
         """The cheapest settings that are predicted to reach the demand, but no further from the centre than FURTHEST
@@ -197,7 +199,7 @@ class Search:
         if mesh >= 1 and step >= 1:
             return None
         self.maker.tell(f"predicted for {self._words(best.mesh, best.step)}: {100 * best.error:.2g} %")
-        return Member(self._size(self.centre.mesh * min(mesh, 1.0)), _round(self.centre.step * min(step, 1.0)))
+        return Member(self._size(self.centre.mesh * min(mesh, 1.0)), same_size(self.centre.step * min(step, 1.0)))
 
     def _words(self, mesh: float, step: float) -> str:
         return f"elements of {mesh * self.centre.mesh:.3g} and steps of {step * self.centre.step:.3g} of the case's"
@@ -208,11 +210,7 @@ class Search:
         if not self.maker.reaches(target):
             lines.append("Adaptation has stopped: a finer mesh was none the better for what it is adapted to.")
             return False
-        costs = learn(
-            about(self.maker.families[self.driver], Member(1.0, 1.0)).runs,
-            self.maker.dimension,
-            self.maker.requests.facts.element,
-        )
+        costs = self._costs(Member(1.0, 1.0))
         before, self.centre = (self.centre, self.corner), target
         self._follow()
         seconds = self.maker.predicted(dict.fromkeys([*self._members(), target]))
@@ -276,10 +274,6 @@ def _shown(asked: Sequence[Judged], run: StudyRun) -> list[Judged]:
     """Bars of a run by those of another."""
     curves = curves_of(run.folder)
     return [shown_by(one, curves[one.quantity.curve]) for one in asked if one.quantity.curve in curves]
-
-
-def _round(size: float) -> float:
-    return 1.0 if abs(size - 1) < 1e-9 else round(size, 9)
 
 
 def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[str, StudyRun]) -> list[Path]:

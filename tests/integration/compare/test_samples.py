@@ -11,7 +11,7 @@ from folder_case import FolderCase
 
 from fsi_compare.base.errors import InputError
 from fsi_compare.results.line import lines_of
-from fsi_compare.runs.run_folder import read_run
+from fsi_compare.runs.run_folder import has_pressure, read_run
 from fsi_compare.runs.samples import differences_of_tables, read_samples
 from fsi_compare.study.study_run import StudyRun
 
@@ -96,17 +96,17 @@ class Samples(FolderCase):
         for lines, pressure in ((asked, [[10, 20], [30, 40]]), (LINE, [[1, 3], [5, 7]])):
             name = f"line{len(pressure)}{pressure[0][0]}"
             run = StudyRun(NO_REQUEST, self.finished(name, lines=lines), "done", "", 1.0, "")
-            self.assertTrue(run.has_pressure)
+            self.assertTrue(has_pressure(run.folder))
             np.testing.assert_array_equal(run.pressure.pressure, pressure)
         along = StudyRun(
             NO_REQUEST, synthetic.write_run(self.base / "along", synthetic.parabola(0.8)), "done", "", 1, ""
         )
-        self.assertTrue(along.has_pressure)
+        self.assertTrue(has_pressure(along.folder))
         np.testing.assert_array_equal(along.pressure.pressure, read_run(along.folder).pressure.pressure)
         # A line that leaves the fluid has no pressure all along it.
         for lines in ("", asked.replace(",10,", ",,").replace(",1,2\n", ",,2\n")):
             without = self.finished(f"without{len(lines)}", **({"lines": lines} if lines else {"flow": FLOW}))
-            self.assertFalse(StudyRun(NO_REQUEST, without, "done", "", 1.0, "").has_pressure)
+            self.assertFalse(has_pressure(without))
 
     def test_one_reader_serves_the_library_too(self):
         samples, lines = read_samples(self.table()), lines_of(self.table())
