@@ -17,6 +17,7 @@ and may hold
 """
 
 import shlex
+import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
@@ -156,6 +157,8 @@ def find_scenes(wanted: Sequence[str], folder: Path = READY) -> list[Scene]:
 
 def read_scene(folder: Path) -> Scene:
     """Reads a scene's folder. Raises InputError."""
+    if str(READY) not in sys.path:
+        sys.path.append(str(READY))  # scenes import from known_solutions
     path = folder / "scene.py"
     if not is_folder(folder) or not exists(path):
         raise InputError(path, "", "no such file", "a scene is a folder with scene.py and a case")

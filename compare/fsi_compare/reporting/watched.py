@@ -8,9 +8,11 @@ from typing import Sequence
 import numpy as np
 
 from ..base.errors import InputError, printable
+from ..base.folder_lock import is_left
 from ..results.run import open_run
 
-OVER = ("done", "interrupted", "not converged", "failed")  # how a run ends
+KILLED = "killed"  # it still says that it runs, and holds its folder no more
+OVER = ("done", "interrupted", "not converged", "failed", KILLED)  # how a run ends
 PLANNED = re.compile(r", (\d+) steps\s*$")
 LAST = 10  # steps that the speed is the mean of
 BLOCKS, PLAIN = "▁▂▃▄▅▆▇█", "_.-=+*#@"
@@ -48,8 +50,10 @@ class State:
 
 def state_of(folder: Path) -> State:
     """Reads how far a run is. Raises InputError for a folder that is no run's."""
+    left = is_left(folder)  # before its status is read: a run that ends well says so before it gives its folder up
     run = open_run(folder, unfinished=True)
-    state = State(run.title, run.program, run.status, planned=planned_steps(folder / "run.log"))
+    status = KILLED if left and run.status == "running" else run.status
+    state = State(run.title, run.program, status, planned=planned_steps(folder / "run.log"))
     try:
         rows = run.iterations
     except InputError:  # not there yet, or a header without its end

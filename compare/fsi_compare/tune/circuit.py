@@ -43,6 +43,11 @@ class Windkessel:
     def resistance(self) -> float:
         return self.proximal + self.distal
 
+    @property
+    def values(self) -> dict[str, float]:
+        """Entries of a case that are tuned."""
+        return {"proximal": self.proximal, "compliance": self.compliance, "distal": self.distal}
+
     def behind(self, frequency: np.ndarray) -> np.ndarray:
         """R_d / (1 + j w R_d C): pressure stored over flow."""
         return self.distal / (1 + 1j * frequency * self.distal * self.compliance)
@@ -77,11 +82,8 @@ def periodic_state(vessel: Vessel, ends: Mapping[str, End], period: float) -> St
     point = (sum(admittance[n] * source[n] for n in admittance) - sum(given.values(), np.zeros(1))) / total
     flows = {n: given[n] if n in given else admittance[n] * (point - source[n]) for n in ends}
     pressure = {n: _in_time(point - serial[n] * flows[n]) for n in ends}
-    stored = {
-        n: _in_time(source[n] + end.behind(frequency) * flows[n])
-        for n, end in ends.items()
-        if isinstance(end, Windkessel)
-    }
+    laws = {n: end for n, end in ends.items() if isinstance(end, Windkessel)}
+    stored = {n: _in_time(source[n] + law.behind(frequency) * flows[n]) for n, law in laws.items()}
     return State(pressure, {n: _in_time(q) for n, q in flows.items()}, stored)
 
 

@@ -214,8 +214,7 @@ def _tuned(opening: Mapping[str, Any], values: Mapping[str, Any], starts: Mappin
     name = str(opening.get("surface"))
     if name not in values:
         return dict(opening)
-    law = values[name]
-    found = {**opening["windkessel"], "proximal": law.proximal, "compliance": law.compliance, "distal": law.distal}
+    found = {**opening["windkessel"], **values[name].values}
     if name in starts:
         found["initial_pressure"] = starts[name]
     return {**opening, "windkessel": found}

@@ -64,28 +64,25 @@ class Unknowns:
 
     def start(self) -> np.ndarray:
         whole = [np.log(self.model.case[name].resistance) for name in self.names] if self.each else [0.0]
-        return np.array([*whole, *([np.log(self._compliance())] if self.pulse else [])])
-
-    def _compliance(self) -> float:
-        return sum(law.compliance for law in self.model.case.values())
+        compliance = sum(law.compliance for law in self.model.case.values())
+        return np.array([*whole, *([np.log(compliance)] if self.pulse else [])])
 
     def values(self, unknowns: np.ndarray) -> dict[str, Windkessel]:
         factors = np.exp(unknowns)
+        case = self.model.case
         if self.each:
             whole = dict(zip(self.names, factors))
         else:
-            whole = {name: factors[0] * self.model.case[name].resistance for name in self.names}
+            whole = {name: factors[0] * case[name].resistance for name in self.names}
         if not self.pulse:
-            return {n: self.rule.law(law, whole[n], law.compliance) for n, law in self.model.case.items()}
-        laws = {n: self.rule.law(law, whole[n], 1.0) for n, law in self.model.case.items()}
+            return {n: self.rule.law(law, whole[n], law.compliance) for n, law in case.items()}
+        laws = {n: self.rule.law(law, whole[n], 1.0) for n, law in case.items()}
         flows = mean_flows(self.model.vessel, with_values(self.model.ends, laws))
         out = {name: max(flows[name], 0.0) for name in self.names}
         total = sum(out.values())
         shares = {n: out[n] / total if total > 0 else 1 / len(out) for n in out}
-        compliance = factors[-1]
-        return {
-            n: self.rule.law(law, whole[n], compliance * max(shares[n], 1e-6)) for n, law in self.model.case.items()
-        }
+        compliance = {n: factors[-1] * max(shares[n], 1e-6) for n in out}
+        return {n: self.rule.law(law, whole[n], compliance[n]) for n, law in case.items()}
 
 
 @dataclass(frozen=True)
@@ -112,7 +109,8 @@ def _least_squares(left: Callable[[np.ndarray], np.ndarray], start: np.ndarray) 
     x, damping = start.copy(), 1e-3
     residual = left(x)
     for _ in range(ITERATIONS):
-        jacobian = np.column_stack([(left(x + step) - left(x - step)) / (2 * DIFFERENCE) for step in _steps(len(x))])
+        steps = DIFFERENCE * np.eye(len(x))
+        jacobian = np.column_stack([(left(x + step) - left(x - step)) / (2 * DIFFERENCE) for step in steps])
         normal, slope = jacobian.T @ jacobian, jacobian.T @ residual
         for _ in range(12):
             scale = np.maximum(np.diag(normal), 1e-12 * max(float(normal.max()), 1e-300))
@@ -131,15 +129,9 @@ def _least_squares(left: Callable[[np.ndarray], np.ndarray], start: np.ndarray) 
     return x
 
 
-def _steps(count: int) -> list[np.ndarray]:
-    return list(DIFFERENCE * np.eye(count))
-
-
 def rounded(law: Windkessel) -> Windkessel:
     """The law with the digits that a case file gets, so that a beat and the case are the same."""
-    proximal, compliance, distal = (
-        float(f"{value:.{DIGITS}g}") for value in (law.proximal, law.compliance, law.distal)
-    )
+    proximal, compliance, distal = (float(f"{value:.{DIGITS}g}") for value in law.values.values())
     return Windkessel(proximal, compliance, distal, law.distal_pressure)
 
 

@@ -38,10 +38,6 @@ class Value:
     law: Windkessel
 
 
-def _number(value: float) -> str:
-    return f"{value:.4g}"
-
-
 def _shown(found: Found, value: float) -> str:
     if found.target.unit == "1":
         return f"{100 * value:.2f} %"
@@ -63,19 +59,19 @@ TARGETS: Sequence[Column[Found]] = (
 VALUES: Sequence[Column[Value]] = (
     Column("beat", "beat", lambda v: v.beat.number),
     Column("outlet", "outlet", lambda v: v.outlet, left=True),
-    Column("proximal [{unit}]", "proximal", lambda v: v.law.proximal, _number, unit="kPa ms/mm^3"),
-    Column("compliance [{unit}]", "compliance", lambda v: v.law.compliance, _number, unit="mm^3/kPa"),
-    Column("distal [{unit}]", "distal", lambda v: v.law.distal, _number, unit="kPa ms/mm^3"),
-    Column("starts from [{unit}]", "start", lambda v: v.beat.repeats[v.outlet].begin, _number, unit="kPa"),
-    Column("ends with [{unit}]", "end", lambda v: v.beat.repeats[v.outlet].end, _number, unit="kPa"),
-    Column("periodic [{unit}]", "periodic", lambda v: v.beat.repeats[v.outlet].periodic, _number, unit="kPa"),
+    Column("proximal [{unit}]", "proximal", lambda v: v.law.proximal, ".4g", unit="kPa ms/mm^3"),
+    Column("compliance [{unit}]", "compliance", lambda v: v.law.compliance, ".4g", unit="mm^3/kPa"),
+    Column("distal [{unit}]", "distal", lambda v: v.law.distal, ".4g", unit="kPa ms/mm^3"),
+    Column("starts from [{unit}]", "start", lambda v: v.beat.repeats[v.outlet].begin, ".4g", unit="kPa"),
+    Column("ends with [{unit}]", "end", lambda v: v.beat.repeats[v.outlet].end, ".4g", unit="kPa"),
+    Column("periodic [{unit}]", "periodic", lambda v: v.beat.repeats[v.outlet].periodic, ".4g", unit="kPa"),
 )
 VESSEL: Sequence[Column[tuple[Beat, str]]] = (
     Column("beat", "beat", lambda v: v[0].number),
     Column("opening", "opening", lambda v: v[1], left=True),
-    Column("resistance [{unit}]", "resistance", lambda v: v[0].vessel.resistance[v[1]], _number, unit="kPa ms/mm^3"),
-    Column("inertance [{unit}]", "inertance", lambda v: v[0].vessel.inertance[v[1]], _number, unit="kPa ms^2/mm^3"),
-    Column("compliance [{unit}]", "compliance", lambda v: v[0].vessel.compliance, _number, unit="mm^3/kPa"),
+    Column("resistance [{unit}]", "resistance", lambda v: v[0].vessel.resistance[v[1]], ".4g", unit="kPa ms/mm^3"),
+    Column("inertance [{unit}]", "inertance", lambda v: v[0].vessel.inertance[v[1]], ".4g", unit="kPa ms^2/mm^3"),
+    Column("compliance [{unit}]", "compliance", lambda v: v[0].vessel.compliance, ".4g", unit="mm^3/kPa"),
     Column(
         "left of pressures [%]", "left_of_pressures_percent", lambda v: 100 * v[0].vessel.unexplained_pressure, ".1f"
     ),
@@ -117,14 +113,13 @@ def write_results(
             for t, got in zip(demand.targets, last.got)
         ],
         "windkessels": {
-            name: {"proximal": law.proximal, "compliance": law.compliance, "distal": law.distal,
-                   "initial_pressure": last.repeats[name].begin}
-            for name, law in last.values.items()
+            name: {**law.values, "initial_pressure": last.repeats[name].begin} for name, law in last.values.items()
         },
         "beats": [
-            {"beat": b.number, "seconds": b.seconds, "distance_from_periodic": b.period_share} for b in outcome.beats
+            {"beat": one.number, "seconds": one.seconds, "distance_from_periodic": one.period_share}
+            for one in outcome.beats
         ],
-    }  # fmt: skip
+    }
     path = folder / "tune.json"
     with replacing(path) as temporary:
         temporary.write_text(json.dumps(said, indent=1) + "\n", encoding="utf-8")

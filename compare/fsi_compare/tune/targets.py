@@ -18,12 +18,7 @@ HIGHEST = 40.0  # kPa, 300 mmHg: no artery has more
 SPLITS_MISS = 0.005  # by which shares may miss the whole: they are given with few digits
 NUMBER = r"[-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?"
 OPTIONS = {"pressure": "--pressure", "mean_pressure": "--mean-pressure", "split": "--split", "flow": "--flow"}
-EXAMPLES = {
-    "pressure": "inlet=80/120mmHg",
-    "mean_pressure": "inlet=93mmHg",
-    "split": "left=60%",
-    "flow": "left=1.2ml/s",
-}
+EXAMPLES = dict(zip(OPTIONS, ("inlet=80/120mmHg", "inlet=93mmHg", "left=60%", "left=1.2ml/s")))
 TABLE = 'give sections [pressure], [mean_pressure], [split], [flow] with NAME = "VALUE"'
 
 
@@ -135,9 +130,8 @@ def _kpa(word: _Word, number: str, unit: str) -> float:
         raise word.refuse(f"a pressure of {number} {unit} is not positive")
     if value > HIGHEST:
         problem = f"{number} {unit} is {value / KPA['mmHg']:.0f} mmHg, more than any artery has"
-        raise word.refuse(
-            problem, "was it mmHg?" if unit == "kPa" else f"give at most {HIGHEST / KPA['mmHg']:.0f} mmHg"
-        )
+        remedy = "was it mmHg?" if unit == "kPa" else f"give at most {HIGHEST / KPA['mmHg']:.0f} mmHg"
+        raise word.refuse(problem, remedy)
     return value
 
 
@@ -148,6 +142,5 @@ def _require_one_kind(targets: Sequence[Target]) -> None:
     pressures = sorted(t.kind for t in targets if t.is_pressure)
     if pressures not in ([DIASTOLIC, SYSTOLIC], [MEAN], []):
         problem = f"{len(pressures)} pressures are given where one opening's are found"
-        raise InputError(
-            "", "--pressure", problem, "give the diastolic and systolic pressure of one opening, or a mean one"
-        )
+        remedy = "give the diastolic and systolic pressure of one opening, or a mean one"
+        raise InputError("", "--pressure", problem, remedy)

@@ -184,7 +184,7 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
 
 def look(
     maker: Maker, facts: CaseFacts, times: Sequence[float], names: Sequence[str]
-) -> "tuple[list[BarsOfRun], list[Any]]":
+) -> tuple[list[BarsOfRun], list[Any]]:
     """All bars, by driver, and bands. Raises InputError where nothing is sampled, or nothing of that name."""
     sets: list[BarsOfRun] = []
     waves: list[Any] = []

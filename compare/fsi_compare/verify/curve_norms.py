@@ -59,7 +59,7 @@ def norm_on(times: np.ndarray, s: np.ndarray, stretch: Stretch) -> CurveNorm:
 
 
 def stretch_of(
-    times: np.ndarray, s: np.ndarray, values: np.ndarray, of: "tuple[np.ndarray, np.ndarray]", at: Stretch
+    times: np.ndarray, s: np.ndarray, values: np.ndarray, of: tuple[np.ndarray, np.ndarray], at: Stretch
 ) -> np.ndarray:
     """`values`, (levels, points), at the levels and points `of` another curve, (levels * points,). Levels that lie
     between this curve's own stay NaN: straight lines between them would be an error of their own."""

@@ -1,5 +1,6 @@
 """Tables of samples, and runs of vessels without a centre line."""
 
+import dataclasses
 import json
 import unittest
 from pathlib import Path
@@ -10,6 +11,7 @@ import synthetic
 from folder_case import FolderCase
 
 from fsi_compare.base.errors import InputError
+from fsi_compare.reporting.pressure import check_comparable
 from fsi_compare.results.line import lines_of
 from fsi_compare.runs.run_folder import has_pressure, read_run
 from fsi_compare.runs.samples import differences_of_tables, read_samples
@@ -90,6 +92,16 @@ class Samples(FolderCase):
         run = read_run(self.finished("bent", lines=LINE))
         np.testing.assert_array_equal(run.pressure.z, [0, 1])
         np.testing.assert_array_equal(run.pressure.pressure, [[1, 3], [5, 7]])
+
+    def test_messages_name_the_table_that_the_line_is_from(self):
+        run = read_run(self.finished("bent", lines=LINE))
+        with self.assertRaisesRegex(InputError, r"lines\.csv: --times: 99 ms is outside the run"):
+            check_comparable([run], [99.0])
+        longer = dataclasses.replace(run, pressure=dataclasses.replace(run.pressure, z=10 * run.pressure.z))
+        with self.assertRaisesRegex(
+            InputError, r"lines\.csv: s_mm: runs from 0 to 1 mm, the first run's from 0 to 10 mm"
+        ):
+            check_comparable([longer, run], [])
 
     def test_studies_take_the_line_that_the_case_asks_for(self):
         asked = LINE.replace("centerline", "b")

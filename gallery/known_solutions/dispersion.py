@@ -9,7 +9,7 @@ from typing import Callable, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from .scene import Number, SceneRun
+from fsi_compare.gallery.scene import Number, SceneRun
 
 SERIES = 80  # terms: enough for arguments of moderate size
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from .scene import Number, SceneRun, SceneRuns
+from fsi_compare.gallery.scene import Number, SceneRun, SceneRuns
 from .swings import Swings, last_swings
 
 SOURCE = "Turek and Hron"
