@@ -85,11 +85,8 @@ def _chunks(corners: np.ndarray) -> list[np.ndarray]:
     """Triangles that cover few enough pixels to be drawn at once."""
     spans = np.ptp(corners[:, :, :2], axis=1) + 1
     covered = np.cumsum(spans[:, 0] * spans[:, 1])
-    return [
-        part
-        for part in np.split(np.arange(len(corners)), np.flatnonzero(np.diff(covered // MOST_AT_ONCE)) + 1)
-        if len(part)
-    ]
+    parts = np.split(np.arange(len(corners)), np.flatnonzero(np.diff(covered // MOST_AT_ONCE)) + 1)
+    return [part for part in parts if len(part)]
 
 
 def _covered(corners: np.ndarray, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -46,13 +46,8 @@ class Link:
 
 def commands_of(words: Sequence[str]) -> list[list[str]]:
     """The words of each command."""
-    parts: list[list[str]] = [[]]
-    for word in words:
-        if word == MARK:
-            parts.append([])
-        else:
-            parts[-1].append(word)
-    return parts
+    marks = [place for place, word in enumerate(words) if word == MARK]
+    return [list(words[first + 1 : end]) for first, end in zip([-1, *marks], [*marks, len(words)])]
 
 
 def links(words: Sequence[str], target: Path, source: str) -> list[Link]:
@@ -66,10 +61,8 @@ def links(words: Sequence[str], target: Path, source: str) -> list[Link]:
         made = target if number == len(parts) else target.with_name(f"{target.stem}-{number}{ending}")
         found.append(Link(tuple(part), found[-1].made if found else None, made))
         if found[-1].is_script and (number > 1 or number == len(parts)):
-            remedy = f'write "{Path(part[0]).name} | lumen ..."'
-            raise InputError(
-                source, "", "a script makes a surface, so that it comes first and a command follows", remedy
-            )
+            problem = "a script makes a surface, so that it comes first and a command follows"
+            raise InputError(source, "", problem, f'write "{Path(part[0]).name} | lumen ..."')
     return found
 
 

@@ -68,10 +68,8 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> list[
 def _mesh_commands(scene: Scene, place: str, quick: bool) -> list[str]:
     """The commands as a user would type them in the sources' folder."""
     words = scene.mesh_words(quick)
-    named = [
-        normpath(f"{place}/{word}") if full != word else word
-        for word, full in zip(words, with_places(words, scene.folder))
-    ]
+    pairs = zip(words, with_places(words, scene.folder))
+    named = [normpath(f"{place}/{word}") if full != word else word for word, full in pairs]
     return as_typed(named, Path(f"{scene.name}.msh"), place)
 
 
@@ -91,6 +89,14 @@ def driver(program: str) -> str:
     return program.removeprefix("fsi-")
 
 
+def differs(number: Number) -> str:
+    return percent(number.error) + ("" if number.holds else " (!)")
+
+
+def quantity(number: Number) -> str:
+    return number.what + (f" [{number.unit}]" if number.unit else "")
+
+
 def percent(share: float) -> str:
     return f"{100 * share:.2g} %"
 
@@ -100,17 +106,13 @@ def total(run: SceneRun, name: str) -> Any:
 
 
 NUMBERS: Sequence[Column[Number]] = (
-    Column(
-        "quantity", "quantity", lambda n: n.what, text=lambda n: n.what + (f" [{n.unit}]" if n.unit else ""), left=True
-    ),
+    Column("quantity", "quantity", lambda n: n.what, text=quantity, left=True),
     Column(csv="unit", value=lambda n: n.unit),
     Column("driver", "program", lambda n: n.program, driver, left=True),
     Column("known from", "source", lambda n: n.source, left=True),
     Column("value", "value", lambda n: n.value, ".5g"),
     Column("known", "reference", lambda n: n.reference, ".5g"),
-    Column(
-        "differs by", "relative_error", lambda n: n.error, text=lambda n: percent(n.error) + ("" if n.holds else " (!)")
-    ),
+    Column("differs by", "relative_error", lambda n: n.error, text=differs),
     Column("may by", "tolerance", lambda n: n.tolerance, percent),
 )
 

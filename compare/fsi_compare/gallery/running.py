@@ -72,7 +72,7 @@ def _make_mesh(scene: Scene, place: Path, mesh_maker: Path, quick: bool) -> Path
     make_folder(place)
     mesh = place / f"{scene.name}.msh"
     words = scene.mesh_words(quick)
-    if len(words) < 1:
+    if not words:
         raise InputError(scene.folder / "scene.py", "MESH", "is empty", "give the words of an fsi-mesh command")
     source = f"{scene.folder / 'scene.py'}: MESH"
     end = make_mesh(with_places(words, scene.folder), mesh, mesh_maker, source)
@@ -82,8 +82,7 @@ def _make_mesh(scene: Scene, place: Path, mesh_maker: Path, quick: bool) -> Path
 
 
 def _command(scene: Scene, program: Program, mesh: Path, place: Path, quick: bool) -> list[Any]:
-    settings = dict(scene.quick) if quick else {}
-    settings["mesh.file"] = str(absolute(mesh))
+    settings = {**(scene.quick if quick else {}), "mesh.file": str(absolute(mesh))}
     words: list[Any] = [program.path, scene.case, "-o", place, "-q", "--threads", "1"]
     for name, value in settings.items():
         words += ["--set", f"{name}={value}"]

@@ -6,16 +6,16 @@ from pathlib import Path
 from typing import Sequence
 
 from ..base.errors import InputError, printable
-from ..base.files import exists, folder, together
-from ..base.options import Commands, add_command, add_folders, add_output, add_usual
+from ..base.files import exists
+from ..base.options import Commands, add_command, add_folders, add_labels, add_output, add_title, add_usual
 from ..runs.columns import read_columns, read_iterations
 from ..runs.coupling import chosen_scheme, coupling_kind, coupling_words
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
 from ..runs.summary import PROGRAMS
-from ..runs.work_units import NOTE, about_machines, per_step
+from ..runs.work_units import notes_on_work, per_step
 from .column import Column
-from .layout import Table, show_tables, write_tables
+from .layout import Table, hand_out
 from .work_column import work_column
 
 DESCRIPTION = """\
@@ -71,13 +71,12 @@ class Cost:
 
 
 def add_parser(commands: Commands, version: str) -> None:
-    command = add_command(
-        commands, "cost", cost, "wall time, solves and iterations of finished runs", DESCRIPTION, EXAMPLES
-    )
+    help = "wall time, solves and iterations of finished runs"
+    command = add_command(commands, "cost", cost, help, DESCRIPTION, EXAMPLES)
     add_folders(command)
     add_output(command, "results/cost")
-    command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
-    command.add_argument("--title", default="Cost of the runs", help="heading of the table (default: %(default)s)")
+    add_labels(command)
+    add_title(command, "Cost of the runs")
     add_usual(command, version, "accepted as by all programs; this comparison is quick on one thread")
 
 
@@ -85,13 +84,7 @@ def cost(options: argparse.Namespace) -> int:
     """Reads all runs before the first file is written."""
     labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
     costs = [read_cost(folder, label) for folder, label in zip(options.folders, labels)]
-    title = printable(options.title)
-    table = cost_table(costs, title)
-    with together(options.output) as place:
-        written = write_tables(place, [table], "cost.md", title)
-    if not options.quiet:
-        show_tables([table], options.output, written)
-    return 0
+    return hand_out(cost_table(costs, printable(options.title)), options.output, options.quiet)
 
 
 def read_cost(folder: Path, label: str) -> Cost:
@@ -158,11 +151,10 @@ def _work_units(first: Cost) -> list[Column[Cost]]:
     def relative(cost: Cost) -> float | None:
         return cost.work_units / first.work_units if cost.work_units and first.work_units else None
 
+    group, csv = "work units", "work_units_relative_to_first"
     return [
-        work_column("per step", "work_units_per_step", lambda c: c.work_units, group="work units"),
-        Column(
-            "relative", "work_units_relative_to_first", relative, ".2f", group="work units", missing="", behind=True
-        ),
+        work_column("per step", "work_units_per_step", lambda c: c.work_units, group=group),
+        Column("relative", csv, relative, ".2f", group=group, missing="", behind=True),
     ]
 
 
@@ -172,15 +164,13 @@ def cost_columns(first: Cost) -> list[Column[Cost]]:
     def relative(cost: Cost) -> float | None:
         return cost.seconds_per_step / first.seconds_per_step if first.seconds_per_step > 0 else None
 
+    def driver(cost: Cost) -> str:
+        return coupling_words(f"fsi-{cost.program}", cost.summary)
+
+    gap, passes = "interface residual", "coupling iterations"
     return [
         Column("run", "run", lambda c: c.label, left=True),
-        Column(
-            "driver",
-            "program",
-            lambda c: c.program,
-            left=True,
-            text=lambda c: coupling_words(f"fsi-{c.program}", c.summary),
-        ),
+        Column("driver", "program", lambda c: c.program, left=True, text=driver),
         Column(csv="coupling_kind", value=lambda c: coupling_kind(c.summary), behind=True),
         Column(csv="coupling_scheme", value=lambda c: chosen_scheme(c.summary), behind=True),
         Column("mesh", "mesh", lambda c: c.mesh, left=True),
@@ -192,10 +182,8 @@ def cost_columns(first: Cost) -> list[Column[Cost]]:
         Column(csv="wall", unit="s", value=lambda c: c.seconds),
         Column("seconds per step", "wall_s_per_step", lambda c: c.seconds_per_step, ".3g"),
         Column("relative time", "wall_relative_to_first", relative, ".2f"),
-        Column("mean", "coupling_iterations_mean", lambda c: c.coupling_mean, ".2f", group="coupling iterations"),
-        Column(
-            "range", value=lambda c: c.coupling_range, format=lambda r: f"{r[0]}-{r[1]}", group="coupling iterations"
-        ),
+        Column("mean", "coupling_iterations_mean", lambda c: c.coupling_mean, ".2f", group=passes),
+        Column("range", value=lambda c: c.coupling_range, format=lambda r: f"{r[0]}-{r[1]}", group=passes),
         Column(csv="coupling_iterations_min", value=lambda c: c.coupling_range and c.coupling_range[0]),
         Column(csv="coupling_iterations_max", value=lambda c: c.coupling_range and c.coupling_range[1]),
         *(_solves(head, system) for head, system in SYSTEMS.items()),
@@ -205,14 +193,8 @@ def cost_columns(first: Cost) -> list[Column[Cost]]:
         *(_calls("solves", f"solves_{name}", system) for name, system in SYSTEMS.items()),
         *(_calls("preparations", f"preparations_{name}", system) for name, system in SYSTEMS.items()),
         Column("set-ups", value=lambda c: sum(c.preparations.get(system, 0) for system in SYSTEMS.values())),
-        Column(
-            "displacement",
-            "displacement_residual_max",
-            lambda c: c.displacement_residual,
-            ".1e",
-            group="interface residual",
-        ),
-        Column("force", "force_residual_max", lambda c: c.force_residual, ".1e", group="interface residual"),
+        Column("displacement", "displacement_residual_max", lambda c: c.displacement_residual, ".1e", group=gap),
+        Column("force", "force_residual_max", lambda c: c.force_residual, ".1e", group=gap),
         Column("memory in {unit}", "peak_memory", lambda c: c.memory_mib, ".0f", "MiB"),
     ]
 
@@ -222,10 +204,7 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
 
 
 def cost_notes(costs: Sequence[Cost]) -> list[str]:
-    machines = about_machines([c.summary for c in costs])
-    notes = [f"{machines}."] if machines else []
-    if any(c.work_units is not None for c in costs):
-        notes.append(NOTE)
+    notes = notes_on_work([c.summary for c in costs])
     passes = {coupling_kind(c.summary): c.summary.get("coupling_pass") for c in costs}
     notes += [f"`{kind}`: {printable(does)}." for kind, does in passes.items() if kind and does]
     notes += [
@@ -236,9 +215,8 @@ def cost_notes(costs: Sequence[Cost]) -> list[str]:
     ]
     threads = sorted({c.threads for c in costs if c.threads is not None})
     if len(threads) > 1:
-        notes.append(
-            f"The runs had different numbers of threads ({', '.join(map(str, threads))}): seconds do not compare."
-        )
+        numbers = ", ".join(map(str, threads))
+        notes.append(f"The runs had different numbers of threads ({numbers}): seconds do not compare.")
     processes = sorted({c.processes for c in costs})
     if len(processes) > 1:
         notes.append(f"The runs had different numbers of processes ({', '.join(map(str, processes))}).")
@@ -246,10 +224,8 @@ def cost_notes(costs: Sequence[Cost]) -> list[str]:
         notes.append("Memory: of the process that needed most.")
     if len({(c.mesh, c.steps) for c in costs}) > 1:
         notes.append("The runs differ in mesh or number of steps.")
-    parts = [c.label for c in costs if c.restarted_from is not None]
+    parts = ", ".join(c.label for c in costs if c.restarted_from is not None)
     if parts:
-        notes.append(
-            "Restarted, so that work units, solves, factorisations and memory are those of the last part: "
-            f"{', '.join(parts)}."
-        )
+        of = "work units, solves, factorisations and memory"
+        notes.append(f"Restarted, so that {of} are those of the last part: {parts}.")
     return notes

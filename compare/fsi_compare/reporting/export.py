@@ -8,7 +8,7 @@ import numpy as np
 from ..base.errors import InputError
 from ..base.files import folder, together
 from ..base.options import Commands, add_command, add_usual
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from ..results.fields import MediumFields
 from ..results.run import open_run
 from .vtu import write_pvd, write_vtu
@@ -32,12 +32,10 @@ def add_parser(commands: Commands, version: str) -> None:
     command.add_argument("folder", metavar="DIR", type=Path, help="result folder of a run")
     command.add_argument("--to", choices=("pvd",), default="pvd", help="format of the series (default: %(default)s)")
     command.add_argument("--fields", metavar="A,B,...", help="fields to write (default: all)")
-    command.add_argument(
-        "--times", metavar="T,T,...", help="times in ms; linear between those written (default: all that were written)"
-    )
-    command.add_argument(
-        "-o", "--output", metavar="OUTDIR", type=folder, help="folder for the files written (default: DIR/vtu)"
-    )
+    text = "times in ms; linear between those written (default: all that were written)"
+    command.add_argument("--times", metavar="T,T,...", help=text)
+    text = "folder for the files written (default: DIR/vtu)"
+    command.add_argument("-o", "--output", metavar="OUTDIR", type=folder, help=text)
     add_usual(command, version, "accepted as by all programs; one thread writes the files")
 
 
@@ -87,10 +85,7 @@ def write_series(
 
 def common_times(medium: MediumFields, fields: list[str]) -> list[float]:
     """Times in ms that all of these fields were written at."""
-    common = set(medium.times_of(fields[0]).tolist())
-    for field in fields[1:]:
-        common &= set(medium.times_of(field).tolist())
-    return sorted(common)
+    return sorted(set.intersection(*(set(medium.times_of(field).tolist()) for field in fields)))
 
 
 def _wanted_fields(text: str | None, media: dict[str, MediumFields]) -> list[str] | None:
@@ -100,8 +95,7 @@ def _wanted_fields(text: str | None, media: dict[str, MediumFields]) -> list[str
     wanted = [word.strip() for word in text.split(",")]
     for field in wanted:
         if field not in known:
-            remedy = f"did you mean '{nearest(field, known)}'? It has {', '.join(known)}"
-            raise InputError("", "--fields", f"'{field}' is not in this run", remedy)
+            raise InputError("", "--fields", f"'{field}' is not in this run", hint(field, known))
     return wanted
 
 

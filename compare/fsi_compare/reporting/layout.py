@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from ..base.errors import printable
-from ..base.files import replacing
+from ..base.files import replacing, together
 from .column import Column, Facts
 
 
@@ -80,20 +80,13 @@ class Table:
         return "\n".join(line.rstrip() for line in lines) + "\n"
 
     def _line(self, cells: Sequence[str], widths: Sequence[int]) -> str:
-        return "  " + "  ".join(
-            cell.ljust(width) if column.left else cell.rjust(width)
-            for column, cell, width in zip(self.shown, cells, widths)
-        )
+        columns = zip(self.shown, cells, widths)
+        return "  " + "  ".join((cell.ljust if column.left else cell.rjust)(width) for column, cell, width in columns)
 
     def markdown(self, heading: str = "## {}") -> str:
         heads = [f"{group}: {name}" if group and name else group or name for group, name in self.heads]
-        lines = [
-            heading.format(self.title),
-            "",
-            _markdown_row(heads),
-            _markdown_row(["---" if column.left else "---:" for column in self.shown]),
-        ]
-        lines += [_markdown_row(row) for row in self.rows]
+        rules = ["---" if column.left else "---:" for column in self.shown]
+        lines = [heading.format(self.title), "", *map(_markdown_row, (heads, rules, *self.rows))]
         for note in self.notes:
             lines += ["", note.replace("*", r"\*").replace("_", r"\_").strip()]
         return "\n".join(lines) + "\n"
@@ -120,6 +113,15 @@ def write_tables(folder: Path, tables: Sequence[Table], markdown: str, heading: 
     with replacing(folder / markdown) as temporary:
         temporary.write_text("\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]), encoding="utf-8")
     return [*(table.write_csv(folder) for table in tables), folder / markdown]
+
+
+def hand_out(table: Table, folder: Path, quiet: bool) -> int:
+    """Writes the one table of a command, as CSV and Markdown, and prints it; the exit code."""
+    with together(folder) as place:
+        written = write_tables(place, [table], f"{table.stem}.md", table.title)
+    if not quiet:
+        show_tables([table], folder, written)
+    return 0
 
 
 def show_tables(tables: Sequence[Table], folder: Path, written: Sequence[Path]) -> None:

@@ -10,14 +10,13 @@ import numpy as np
 
 from ..runs.levels import thinned
 from .pictures import LINES
+from .scene_packing import in_16_bits, short
 
 MOST_NUMBERS = 1_000_000  # of moving lines in a page; 2.7 bytes each
 MOST_LEVELS, FEWEST_LEVELS = 250, 20  # of a line over time
 MOST_POINTS = 200  # of a line
 MOST_OF_SERIES = 2000  # points of a curve over time
 MOST_TIMES = 500  # that the slider stops at
-NONE = 65535
-
 # matplotlib's dash patterns in units of the page.
 DASHES = {"-": "", "--": "7 4", "-.": "9 3 2 3", ":": "2 3"}
 
@@ -62,7 +61,7 @@ class Player:
         panels = [panel for panel in self.panels if panel.lines or panel.series]
         notes: list[str] = []
         content = {
-            "times": _short(self._times(panels)),
+            "times": short(self._times(panels)),
             "runs": [{"name": name, **_style(i)} for i, name in enumerate(self.runs)],
             "panels": [self._panel(panel, self._levels(panels), notes) for panel in panels],
         }
@@ -88,39 +87,20 @@ class Player:
             rows, points = thinned(len(line.times), levels), thinned(len(line.x), MOST_POINTS)
             if len(rows) < len(line.times):
                 notes.append(f"Of the time levels of {self.runs[line.run]} {len(rows)} of {len(line.times)} move here.")
-            curves.append(
-                {
-                    "run": line.run,
-                    "times": axis(line.times[rows]),
-                    "x": axis(line.x[points]),
-                    "values": packed(line.values[np.ix_(rows, points)]),
-                }
-            )
+            values = packed(line.values[np.ix_(rows, points)])
+            curve = {"run": line.run, "times": axis(line.times[rows]), "x": axis(line.x[points]), "values": values}
+            curves.append(curve)
         for one in panel.series:
             rows = thinned(len(one.times), MOST_OF_SERIES)
             curves.append({"run": one.run, "x": axis(one.times[rows]), "values": packed(one.values[rows])})
-        return {
-            "title": panel.title,
-            "kind": "line" if panel.lines else "series",
-            "x": panel.x[0],
-            "xUnit": panel.x[1],
-            "y": panel.y[0],
-            "yUnit": panel.y[1],
-            "curves": curves,
-        }
+        (x, x_unit), (y, y_unit) = panel.x, panel.y
+        kind = "line" if panel.lines else "series"
+        return {"title": panel.title, "kind": kind, "x": x, "xUnit": x_unit, "y": y, "yUnit": y_unit, "curves": curves}
 
 
 def packed(values: np.ndarray) -> dict[str, Any]:
-    """Numbers in 16 bits each, to 1/65534 of their range; NaN and infinity become 65535."""
-    flat = np.asarray(values, dtype=float).ravel()
-    finite = np.isfinite(flat)
-    low, high = (float(flat[finite].min()), float(flat[finite].max())) if finite.any() else (0.0, 0.0)
-    step = (high - low) / (NONE - 1)
-    numbers = np.full(len(flat), NONE, dtype="<u2")
-    if step > 0:
-        numbers[finite] = np.round((flat[finite] - low) / step).astype("<u2")
-    else:
-        numbers[finite] = 0
+    """Numbers in 16 bits each; see in_16_bits()."""
+    low, step, numbers = in_16_bits(np.asarray(values, dtype=float).ravel())
     return {"low": low, "step": step, "data": base64.b64encode(numbers.tobytes()).decode("ascii")}
 
 
@@ -129,11 +109,7 @@ def axis(values: np.ndarray) -> dict[str, Any]:
     steps = np.diff(values)
     if len(values) > 2 and np.ptp(steps) <= 1e-9 * abs(float(values[-1])):
         return {"low": float(values[0]), "step": float(values[-1] - values[0]) / len(steps), "count": len(values)}
-    return {"numbers": _short(values)}
-
-
-def _short(numbers: np.ndarray) -> list[float]:
-    return [float(f"{number:.9g}") for number in numbers]
+    return {"numbers": short(values)}
 
 
 def _style(place: int) -> dict[str, Any]:

@@ -73,11 +73,8 @@ def text(runs: Sequence[Run], comparison: Comparison) -> str:
         else:
             lines.append(_difference_row(f"all {over_time.levels}", over_time.largest))
     if comparison.at_times:
-        lines += [
-            "",
-            "relative: to the reference's norm at the same time. Last row: maximum of each column over all "
-            "common time levels.",
-        ]
+        last_row = "maximum of each column over all common time levels."
+        lines += ["", f"relative: to the reference's norm at the same time. Last row: {last_row}"]
 
     low, high = SPEED_WINDOW_MS
     for label, peaks, speed in zip(comparison.labels, comparison.peaks, comparison.speeds):
@@ -118,12 +115,12 @@ def waves_table(runs: Sequence[Run], labels: Sequence[str], times: Sequence[floa
 def write_json(path: Path, comparison: Comparison) -> None:
     """The printed numbers in full precision; null where the table says n/a."""
     runs = []
-    for i, label in enumerate(comparison.labels):
+    for i, (label, made) in enumerate(zip(comparison.labels, comparison.conditions)):
         run: dict[str, Any] = {
             "run": label,
-            "mesh": comparison.conditions[i].mesh or None,
-            "step_ms": [comparison.conditions[i].smallest_step, comparison.conditions[i].largest_step],
-            "end_ms": comparison.conditions[i].end,
+            "mesh": made.mesh or None,
+            "step_ms": [made.smallest_step, made.largest_step],
+            "end_ms": made.end,
             "speed_mm_per_ms": comparison.speeds[i],
             "peaks": [
                 {"time_ms": time, "pressure_Pa": crest.pressure, "z_mm": crest.z}
@@ -136,17 +133,11 @@ def write_json(path: Path, comparison: Comparison) -> None:
                 {"time_ms": time, **_named(difference)}
                 for time, difference in zip(comparison.times, comparison.at_times[i - 1])
             ]
-            run["largest_difference"] = {
-                "common_levels": over_time.levels,
-                **(_named(over_time.largest) if over_time.largest else {}),
-            }
+            largest = _named(over_time.largest) if over_time.largest else {}
+            run["largest_difference"] = {"common_levels": over_time.levels, **largest}
         runs.append(run)
-    data = {
-        "reference": comparison.labels[0],
-        "speed_window_ms": SPEED_WINDOW_MS,
-        "warnings": comparison.warnings,
-        "runs": runs,
-    }
+    data = {"reference": comparison.labels[0], "speed_window_ms": SPEED_WINDOW_MS, "warnings": comparison.warnings}
+    data["runs"] = runs
     with replacing(path) as temporary:
         temporary.write_text(json.dumps(data, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
 

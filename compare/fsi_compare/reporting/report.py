@@ -91,31 +91,24 @@ class Report:
         """The vessel in space, drawn in the browser, and stills (stem, figure, caption) of it for print and for
         browsers without JavaScript or WebGL."""
         self._add("scene", library=library(), **scene.values())
-        shown = []
-        for stem, draw, caption in stills:
-            png = write_picture(self.folder, stem, draw)
-            self.written.append(png)
-            shown.append(
-                {"name": png.name, "caption": caption, "data": base64.b64encode(png.read_bytes()).decode("ascii")}
-            )
-        self._add("stills", images=shown)
+        pictures = [(write_picture(self.folder, stem, draw), caption) for stem, draw, caption in stills]
+        self.written += [png for png, _ in pictures]
+        self._add("stills", images=[_image(png, caption) for png, caption in pictures])
 
     def image(self, png: Path, caption: str) -> None:
-        self._add("image", caption=caption, name=png.name, data=base64.b64encode(png.read_bytes()).decode("ascii"))
+        self._add("image", **_image(png, caption))
 
     def write(self) -> Path:
         """Writes `report.md` and `report.html`; the latter's path."""
-        plays = any(kind == "player" for kind, _ in self._blocks)
-        shows = any(kind == "scene" for kind, _ in self._blocks)
-        values = {
-            "title": self.title,
-            "sections": self._sections,
-            "blocks": self._blocks,
-            "plays": plays,
-            "shows": shows,
-        }
+        kinds = {kind for kind, _ in self._blocks}
+        values: dict[str, Any] = {"title": self.title, "sections": self._sections, "blocks": self._blocks}
+        values |= {"plays": "player" in kinds, "shows": "scene" in kinds}
         for name in ("report.md", "report.html"):
             with replacing(self.folder / name) as temporary:
                 temporary.write_text(render(f"{name}.j2", **values).rstrip("\n") + "\n", encoding="utf-8")
         self.written.append(self.folder / name)
         return self.folder / name
+
+
+def _image(png: Path, caption: str) -> dict[str, str]:
+    return {"name": png.name, "caption": caption, "data": base64.b64encode(png.read_bytes()).decode("ascii")}

@@ -30,9 +30,8 @@ def compare_samples(folders: Sequence[Path], given_labels: Sequence[str] | None,
     found = sample_differences(folders)
     for folder, of_run in zip(folders[1:], found):
         if not of_run:
-            raise InputError(
-                folder, "", f"has no samples at times in common with {folders[0]}", "compare runs of one scene"
-            )
+            problem = f"has no samples at times in common with {folders[0]}"
+            raise InputError(folder, "", problem, "compare runs of one scene")
     table = sample_table(found, labels)
     table.title += ": not all runs have a centre line"
     with together(output) as place:

@@ -60,14 +60,11 @@ def stills_of(vessel: Vessel) -> list[Still]:
     """Stills of the first run, each at the time at which the field is largest."""
     scene, name = vessel.scenes[0], vessel.names[0]
     keys = [key for key in STILL_FIELDS if key in scene.quantities][:STILLS] or [scene.first]
-    found: dict[str, Still] = {}
+    found: list[Still] = []
     for key in keys:
         time = scene.peak(key)
         words = scene.quantity(key).words
         draw = functools.partial(picture, scene, key, time, title=name)
-        found[key] = (
-            f"vessel_{key}",
-            draw,
-            f"{words[0].upper()}{words[1:]} of {name} at {time:g} ms, where it is largest.",
-        )
-    return list(found.values())
+        caption = f"{words[0].upper()}{words[1:]} of {name} at {time:g} ms, where it is largest."
+        found.append((f"vessel_{key}", draw, caption))
+    return found

@@ -30,6 +30,11 @@ class Quantity:
     signed: bool  # negative values mean something else than small ones
     of: Callable[[np.ndarray], np.ndarray]
 
+    @property
+    def shown_unit(self) -> str:
+        """The unit as people read it: that of a plain number is empty."""
+        return "" if self.unit == "1" else self.unit
+
 
 def _component(i: int) -> Callable[[np.ndarray], np.ndarray]:
     return lambda values: values[:, i]

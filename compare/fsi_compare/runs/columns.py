@@ -100,12 +100,10 @@ def read_iterations(folder: Path, needed: Sequence[str]) -> Columns:
     """`iterations.csv`, a line for each time step. Raises InputError."""
     path = folder / ITERATIONS
     columns = read_columns(path, needed)
-    for name in needed:
-        if np.any(columns[name] < 0):
-            line = int(np.flatnonzero(columns[name] < 0)[0]) + 2
-            raise InputError(path, f"line {line}", f"{name} is negative", "run it again")
-    for name in ("step", "time_ms"):
-        if name in columns and np.any(np.diff(columns[name]) <= 0):
-            line = int(np.flatnonzero(np.diff(columns[name]) <= 0)[0]) + 3
-            raise InputError(path, f"line {line}", f"{name} does not increase", "run it again")
+    wrong = [(columns[name] < 0, 2, f"{name} is negative") for name in needed]
+    rising = [name for name in ("step", "time_ms") if name in columns]
+    wrong += [(np.diff(columns[name]) <= 0, 3, f"{name} does not increase") for name in rising]
+    for rows, first_line, problem in wrong:
+        if rows.any():
+            raise InputError(path, f"line {int(np.argmax(rows)) + first_line}", problem, AGAIN)
     return columns

@@ -46,8 +46,9 @@ def read_levels(path: Path, column: str) -> tuple[np.ndarray, np.ndarray, np.nda
     points = int(starts[1])
     if points < 2:
         raise InputError(path, "line 2", "the first time level has a single point", "two or more are needed")
-    if np.any(np.diff(z[:points]) <= 0):
-        line = int(np.flatnonzero(np.diff(z[:points]) <= 0)[0]) + 3
+    falling = np.diff(z[:points]) <= 0
+    if falling.any():
+        line = int(np.argmax(falling)) + 3
         raise InputError(path, f"line {line}", "z_mm does not increase", "points must be ordered along the line")
     for start, stop in zip(starts[1:-1], starts[2:]):
         if time[start] < time[start - 1]:
@@ -56,8 +57,9 @@ def read_levels(path: Path, column: str) -> tuple[np.ndarray, np.ndarray, np.nda
         if stop - start != points:
             problem = f"has {stop - start} of {points} points"
             raise InputError(path, f"time_ms {time[start]:g}", problem, INTERRUPTED)
-        if np.any(z[start:stop] != z[:points]):
-            line = int(start + np.flatnonzero(z[start:stop] != z[:points])[0]) + 2
+        other = z[start:stop] != z[:points]
+        if other.any():
+            line = int(start + np.argmax(other)) + 2
             remedy = "all time levels must hold the same points; run it again"
             raise InputError(path, f"line {line}", "z_mm differs from the first time level's", remedy)
     return time[starts[:-1]], z[:points], values.reshape(-1, points)

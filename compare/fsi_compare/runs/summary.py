@@ -13,19 +13,9 @@ PROGRAMS = {"fsi-monolithic": "monolithic", "fsi-partitioned": "partitioned"}
 FINISHED = "give the result folder of a finished run"
 AGAIN = "the run was interrupted while writing; run it again"
 SPREAD = ("minimum", "mean", "maximum")  # of what each process of a run has
-PER_PROCESS = (
-    "threads",
-    "step_seconds",
-    "peak_memory_MiB",
-    "reading_memory_MiB",
-    "owned_nodes",
-    "halo_nodes",
-    "halo_unknowns",
-    "neighbours",
-    "messages_per_step",
-    "bytes_per_step",
-    "reductions_per_step",
-)
+PER_PROCESS: tuple[str, ...] = ("threads", "step_seconds", "peak_memory_MiB", "reading_memory_MiB")
+PER_PROCESS += ("owned_nodes", "halo_nodes", "halo_unknowns", "neighbours")
+PER_PROCESS += ("messages_per_step", "bytes_per_step", "reductions_per_step")
 MOST = 1 << 53  # counts up to here are exact as floating-point numbers too
 
 
@@ -132,15 +122,16 @@ def _require_done(path: Path, summary: Mapping[str, Any]) -> None:
     resume = shlex.join(words)  # to be copied as it stands
     if status == "done":
         return
-    if status is None:
-        raise InputError(path, "status", "is missing", "run it again")
-    if status == "running":
-        raise InputError(path, "status", "the run is not finished", f"wait for its end or resume it with {resume}")
-    if status == "interrupted":
-        raise InputError(path, "status", "the run was interrupted", f"resume it with {resume}, or run it again")
-    if status == "not converged":
-        remedy = f"see {path.parent / 'run.log'}, change the solver's settings and run it again"
-        raise InputError(path, "status", "the run stopped without converging", remedy)
-    if status == "failed":
-        raise InputError(path, "status", "the run failed", f"see {path.parent / 'run.log'}")
-    raise InputError(path, "status", f"'{status}' is unknown", "it must be 'done'")
+    log = path.parent / "run.log"
+    known: dict[Any, tuple[str, str]] = {
+        None: ("is missing", "run it again"),
+        "running": ("the run is not finished", f"wait for its end or resume it with {resume}"),
+        "interrupted": ("the run was interrupted", f"resume it with {resume}, or run it again"),
+        "not converged": (
+            "the run stopped without converging",
+            f"see {log}, change the solver's settings and run it again",
+        ),
+        "failed": ("the run failed", f"see {log}"),
+    }
+    problem = known.get(status) if isinstance(status, (str, type(None))) else None
+    raise InputError(path, "status", *(problem or (f"'{status}' is unknown", "it must be 'done'")))

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Iterator, Mapping
 
+from ..base.numbers import number_of
 from ..base.files import is_file, listed, read_object
 from .columns import ITERATIONS, read_fields
 
@@ -94,19 +95,6 @@ def _same(mine: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
 
 
 def _bar(entry: Mapping[str, Any]) -> KeptBar:
-    def number(name: str) -> float | None:
-        value = entry.get(name)
-        return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else None
-
-    def text(name: str) -> str:
-        return str(entry.get(name) or "")
-
-    return KeptBar(
-        text("quantity"),
-        text("unit"),
-        number("value") or 0.0,
-        number("error"),
-        number("error_percent"),
-        text("verdict"),
-        text("advice"),
-    )
+    quantity, unit, verdict, advice = (str(entry.get(n) or "") for n in ("quantity", "unit", "verdict", "advice"))
+    value, error, percent = (number_of(entry, name) for name in ("value", "error", "error_percent"))
+    return KeptBar(quantity, unit, value or 0.0, error, percent, verdict, advice)

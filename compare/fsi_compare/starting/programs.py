@@ -1,5 +1,6 @@
 """The programs of the project: where they are, and which version."""
 
+import argparse
 import hashlib
 import os
 import re
@@ -8,6 +9,7 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Iterable
 
 from ..base.errors import InputError
 from ..base.files import absolute, exists, is_file, is_folder, read_bytes
@@ -40,6 +42,12 @@ def find_program(name: str, named: Path | None = None, option: str = "--program"
         raise InputError(path, option, f"is not {name}", BUILD)
     executable = read_bytes(_executable(path, said["level"]), BUILD, BUILD)
     return Program(path, said["version"], hashlib.sha256(executable).hexdigest())
+
+
+def find_drivers(options: argparse.Namespace, names: Iterable[str]) -> dict[str, Program]:
+    """The drivers of these names, each beside fsi-compare or where its option says. Raises InputError."""
+    short = {name: name.removeprefix("fsi-") for name in names}
+    return {name: find_program(name, getattr(options, option), f"--{option}") for name, option in short.items()}
 
 
 def _executable(path: Path, level: str | None) -> Path:

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any, Iterator, Mapping, Sequence
 
 from ..base.errors import InputError
+from ..base.numbers import is_number
 from ..base.suggestions import check_keys, nearest
 
 LARGEST_COUNT = 10_000  # threads, processes, runs at once, repetitions
@@ -100,7 +101,7 @@ class Section:
 
 
 def is_positive(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and 0 < value <= LARGEST_NUMBER
+    return is_number(value) and 0 < value <= LARGEST_NUMBER
 
 
 def flat(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:

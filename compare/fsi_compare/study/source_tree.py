@@ -4,20 +4,9 @@ from pathlib import Path
 
 from ..base.errors import InputError
 
-STUDIES = (
-    "accuracy-cost",
-    "calibration",
-    "coupling",
-    "paper",
-    "peers",
-    "references",
-    "scaling",
-    "skip",
-    "space",
-    "stability",
-    "turek-hron",
-)
-KINDS = ("accuracy-cost", "calibration", "coupling", "paper", "references", "scaling", "scenes", "skip", "stability")
+OF_ONE_NAME = ("accuracy-cost", "calibration", "coupling", "paper", "references", "scaling", "skip", "stability")
+STUDIES = (*OF_ONE_NAME, "peers", "space", "turek-hron")
+KINDS = (*OF_ONE_NAME, "scenes")
 COMMANDS = ("solvers",)
 
 

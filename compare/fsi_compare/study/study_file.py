@@ -329,7 +329,7 @@ class _Reader:
             raise self.wrong(key, "is not a list of values", "write [a, b, ...]")
         return [(quantity, self.value(key, quantity, value, meshes)) for value in values]
 
-    def value(self, key: str, quantity: str, value: Any, meshes: Mapping[str, StudyMesh]) -> "_Value":
+    def value(self, key: str, quantity: str, value: Any, meshes: Mapping[str, StudyMesh]) -> _Value:
         """One value on an axis."""
         if quantity == MESH:
             return _Value(value, mesh=meshes[self.one_of(key, value, meshes)])

@@ -66,16 +66,20 @@ VALUES: Sequence[Column[Value]] = (
     Column("ends with [{unit}]", "end", lambda v: v.beat.repeats[v.outlet].end, ".4g", unit="kPa"),
     Column("periodic [{unit}]", "periodic", lambda v: v.beat.repeats[v.outlet].periodic, ".4g", unit="kPa"),
 )
+
+
+def _left(of: str, head: str, csv: str) -> Column[tuple[Beat, str]]:
+    return Column(head, csv, lambda v: 100 * getattr(v[0].vessel, f"unexplained_{of}"), ".1f")
+
+
 VESSEL: Sequence[Column[tuple[Beat, str]]] = (
     Column("beat", "beat", lambda v: v[0].number),
     Column("opening", "opening", lambda v: v[1], left=True),
     Column("resistance [{unit}]", "resistance", lambda v: v[0].vessel.resistance[v[1]], ".4g", unit="kPa ms/mm^3"),
     Column("inertance [{unit}]", "inertance", lambda v: v[0].vessel.inertance[v[1]], ".4g", unit="kPa ms^2/mm^3"),
     Column("compliance [{unit}]", "compliance", lambda v: v[0].vessel.compliance, ".4g", unit="mm^3/kPa"),
-    Column(
-        "left of pressures [%]", "left_of_pressures_percent", lambda v: 100 * v[0].vessel.unexplained_pressure, ".1f"
-    ),
-    Column("left of volume [%]", "left_of_volume_percent", lambda v: 100 * v[0].vessel.unexplained_volume, ".1f"),
+    _left("pressure", "left of pressures [%]", "left_of_pressures_percent"),
+    _left("volume", "left of volume [%]", "left_of_volume_percent"),
 )
 
 

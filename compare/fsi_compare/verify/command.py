@@ -22,7 +22,7 @@ from ..reporting.pressure import read_times
 from ..study.runner import Runner, sweep_study
 from ..base.folder_lock import locked
 from ..starting.duration import duration
-from ..starting.programs import Program, find_program, need_mesh_maker
+from ..starting.programs import Program, find_drivers, need_mesh_maker
 from .adapting import adapted
 from .doubt import step_within
 from .family import CaseFacts, Member, Requests, read_case
@@ -96,9 +96,9 @@ def verify(options: argparse.Namespace) -> int:
     names = _drivers(options.drivers)
     if not 3 <= options.levels <= MOST_LEVELS:
         raise InputError("", "--levels", f"{options.levels} meshes will not do", f"give 3 to {MOST_LEVELS}")
-    times = read_times(options.times) if options.times is not None else []
+    times = read_times(options.times)
     facts = read_case(options.case)
-    programs = {f"fsi-{name}": find_program(f"fsi-{name}", getattr(options, name), f"--{name}") for name in names}
+    programs = find_drivers(options, [f"fsi-{name}" for name in names])
     mesh_maker = need_mesh_maker(next(iter(programs.values())))
     recipe = find_recipe(options.case, facts.entries, options.mesh, mesh_maker)
     if options.adapt:

@@ -50,9 +50,8 @@ def write_page(
             caption = f"{names}. The band is what the curve may be off by at each place."
             report.figure(stem, lambda group=group: waves_figure(group), caption)  # type: ignore[misc]
     report.section("Where the error comes from")
-    report.figure(
-        "parts", lambda: parts_figure(judged), "The parts of the widest bars, relative to the largest of their curve."
-    )
+    caption = "The parts of the widest bars, relative to the largest of their curve."
+    report.figure("parts", lambda: parts_figure(judged), caption)
     report.section("The family")
     report.table(members_table(families))
     report.write()
@@ -89,15 +88,10 @@ def parts_figure(judged: Sequence[Judged]) -> Figure:
     left = np.zeros(len(shown))
     rows = np.arange(len(shown))
     for name, color in (("mesh", "tab:blue"), ("step", "tab:orange"), ("both", "tab:green"), ("solver", "tab:gray")):
-        widths = np.array([100 * _part(one, name) / one.bar.scale for one in shown])
+        widths = np.array([100 * one.bar.parts[name] / one.bar.scale for one in shown])
         axes.barh(rows, widths, left=left, color=color, label=name)
         left = left + widths
     axes.set_yticks(rows, [f"{one.quantity.name} ({one.driver})" for one in shown], fontsize="x-small")
     axes.set_xlabel("part of the bar in %")
     axes.legend(fontsize="small")
     return figure
-
-
-def _part(judged: Judged, name: str) -> float:
-    bar = judged.bar
-    return {"mesh": bar.mesh.bar, "step": bar.step.bar, "both": bar.together, "solver": bar.solver}[name]

@@ -50,8 +50,12 @@ class Bar:
     off: float = 0.0  # what the value and that estimate are apart; of a curve in its norm
 
     @property
+    def parts(self) -> dict[str, float]:
+        return {"mesh": self.mesh.bar, "step": self.step.bar, "both": self.together, "solver": self.solver}
+
+    @property
     def total(self) -> float:
-        return self.mesh.bar + self.step.bar + self.together + self.solver
+        return sum(self.parts.values())
 
     @property
     def given(self) -> bool:

@@ -13,7 +13,9 @@ from synthetic import write_run
 from test_report import outside_references
 
 from fsi_compare.start import main
-from fsi_compare.reporting.player import NONE, MovingLine, Panel, Player, Series, axis, packed, thinned
+from fsi_compare.reporting.player import MovingLine, Panel, Player, Series, axis, packed
+from fsi_compare.reporting.scene_packing import NONE
+from fsi_compare.runs.levels import thinned
 from fsi_compare.reporting.templating import render
 
 TIMES = 0.25 * np.arange(1, 21)  # ms
