@@ -9,7 +9,7 @@ import tempfile
 import tomllib
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any, Iterator
+from typing import Any, Callable, Iterator
 
 from .errors import InputError
 
@@ -77,15 +77,11 @@ def read_text(path: Path, missing: str, broken: str, largest: float = float("inf
 def read_json(path: Path, missing: str, broken: str) -> Any:
     text = read_text(path, missing, broken, LARGEST)
     try:
-        value = json.loads(text)
+        return _plain(path, lambda: json.loads(text), broken)
     except json.JSONDecodeError as error:
         raise InputError(path, f"line {error.lineno}", f"is not JSON: {error.msg}", broken) from None
     except ValueError as error:  # a number of more digits than Python converts
         raise InputError(path, "", f"is not JSON: {error}", broken) from None
-    except RecursionError:
-        raise InputError(path, "", f"has more than {DEEPEST} levels", broken) from None
-    _require_plain(path, value, broken)
-    return value
 
 
 def read_object(path: Path, missing: str, broken: str) -> dict[str, Any]:
@@ -100,17 +96,18 @@ def read_toml(path: Path, missing: str, broken: str) -> dict[str, Any]:
     """Reads a TOML file. Raises InputError."""
     text = read_text(path, missing, broken, LARGEST)
     try:
-        value = tomllib.loads(text)
+        found: dict[str, Any] = _plain(path, lambda: tomllib.loads(text), broken)
     except ValueError as error:
         raise InputError(path, "", f"is not TOML: {error}", "mend that line") from None
+    return found
+
+
+def _plain(path: Path, read: Callable[[], Any], broken: str) -> Any:
+    """Refuses values so deep that a walk through them would fail, and texts that cannot be written again."""
+    try:
+        value = read()
     except RecursionError:
         raise InputError(path, "", f"has more than {DEEPEST} levels", broken) from None
-    _require_plain(path, value, broken)
-    return value
-
-
-def _require_plain(path: Path, value: Any, broken: str) -> None:
-    """Refuses values so deep that a walk through them would fail, and texts that cannot be written again."""
     waiting = [(value, 0)]
     while waiting:
         entry, depth = waiting.pop()
@@ -122,6 +119,7 @@ def _require_plain(path: Path, value: Any, broken: str) -> None:
             waiting += [(part, depth + 1) for part in entry]
         elif isinstance(entry, str) and any(0xD800 <= ord(c) < 0xE000 for c in entry):
             raise InputError(path, "", f"holds a text with half a character: {entry}", broken)
+    return value
 
 
 def make_folder(folder: Path) -> list[Path]:

@@ -366,14 +366,8 @@ class _Deck:
                 return part, [int(entry)]
         _refuse(line, f"there is no set of {'nodes' if nodes else 'elements'} {entry}")
 
-    _TAKING = {  # by keyword
-        "INSTANCE": _instance,
-        "NODE": _nodes,
-        "ELEMENT": _elements,
-        "NSET": _node_set,
-        "ELSET": _element_set,
-        "SURFACE": _surface,
-    }
+    _TAKING = {"INSTANCE": _instance, "NODE": _nodes, "ELEMENT": _elements}  # by keyword
+    _TAKING |= {"NSET": _node_set, "ELSET": _element_set, "SURFACE": _surface}
 
 
 def _of_scope(scope: str, sets: Mapping[tuple[str, str], list[int]]) -> dict[str, list[int]]:

@@ -8,7 +8,7 @@ from ..base.errors import InputError, say_warning
 from .groups import Group, as_sides
 from .joining import distances_to
 from .parts import FoundMesh
-from .raw_mesh import ELEMENTS, KINDS, Block
+from .raw_mesh import ELEMENTS, KINDS, TURNED, Block
 from .sources import Source
 from .touching import contacts, doubled_words, gap_words
 
@@ -52,16 +52,12 @@ def warn_of_gaps(mesh: FoundMesh, groups: list[Group]) -> None:
 
 def turn(mesh: FoundMesh, groups: list[Group]) -> int:
     """Turns linear and quadratic tetrahedra of negative volume; how many there were."""
-    swap = {"tetra": (0, 2, 1, 3), "tetra10": (0, 2, 1, 3, 6, 5, 4, 7, 9, 8)}
     count = 0
-    for group in groups:
-        for block in group.parts:
-            if block.kind not in swap:
-                continue
-            a, b, c, d = (mesh.points[block.nodes[:, k]] for k in range(4))
-            wrong = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) < 0
-            count += int(wrong.sum())
-            block.nodes[wrong] = block.nodes[wrong][:, list(swap[block.kind])]
+    for block in (block for group in groups for block in group.parts if block.kind in TURNED):
+        a, b, c, d = (mesh.points[block.nodes[:, k]] for k in range(4))
+        wrong = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) < 0
+        count += int(wrong.sum())
+        block.nodes[wrong] = block.nodes[wrong][:, list(TURNED[block.kind])]
     return count
 
 

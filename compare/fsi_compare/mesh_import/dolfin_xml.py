@@ -17,6 +17,7 @@ from .raw_mesh import RawMesh
 KINDS = {"tetrahedron": "tetra", "triangle": "triangle"}  # dolfin's name of a cell: meshio's
 FACETS = {"tetra": "triangle", "triangle": "line"}
 COMPANIONS = ("physical_region", "facet_region")
+DAMAGES = (KeyError, ValueError, TypeError, OverflowError)
 REMEDY = "write it anew as XML, or as HDF5 by dolfin's HDF5File"
 
 
@@ -33,20 +34,22 @@ def read_dolfin_xml(path: Path) -> RawMesh:
         found = RawMesh(points, blocks)
         for function in mesh.findall("domains/mesh_value_collection"):
             _add(path, found, f"domains_{function.get('dim')}", function)
-    except (KeyError, ValueError, TypeError, OverflowError) as error:
-        raise InputError(path, "", f"cannot be read as dolfin's XML: {error}", REMEDY) from None
+    except DAMAGES as error:
+        raise _damaged(path, error) from None
     for name in COMPANIONS:
         beside = path.with_name(f"{path.stem}_{name}.xml")
-        if not exists(beside):
-            continue
-        for function in _functions(_root(beside)):
+        for function in _functions(_root(beside)) if exists(beside) else ():
             try:
                 _add(beside, found, name, function)
-            except (KeyError, ValueError, TypeError, OverflowError) as error:
-                raise InputError(beside, "", f"cannot be read as dolfin's XML: {error}", REMEDY) from None
+            except DAMAGES as error:
+                raise _damaged(beside, error) from None
     for name, parts in found.cell_data.items():
         parts += [np.full(len(nodes), np.nan) for _, nodes in found.blocks[len(parts) :]]
     return found
+
+
+def _damaged(path: Path, error: Exception) -> InputError:
+    return InputError(path, "", f"cannot be read as dolfin's XML: {error}", REMEDY)
 
 
 def _root(path: Path) -> Any:

@@ -86,11 +86,8 @@ def _of_cells(
     taken[name] = (part, has)
     groups = []
     for dimension in _dimensions(mesh, part):
-        blocks = [
-            Block(block.kind, block.nodes[p])
-            for block, p in zip(mesh.blocks, fresh)
-            if block.dimension == dimension and len(p)
-        ]
+        pairs = [(block, p) for block, p in zip(mesh.blocks, fresh) if block.dimension == dimension and len(p)]
+        blocks = [Block(block.kind, block.nodes[p]) for block, p in pairs]
         if blocks:
             groups.append(Group(name, dimension, blocks))
     return groups
@@ -160,8 +157,5 @@ def as_sides(mesh: FoundMesh, groups: Sequence[Group]) -> list[tuple[Group, np.n
             there |= sides
             if sides.all():
                 block.kind, block.nodes = side.kind, side.nodes[at]
-    return [
-        (group, block.nodes[~there][:, : CORNERS[block.kind]])
-        for (group, block), there in zip(facets, found)
-        if not there.all()
-    ]
+    missing = [(group, block, ~there) for (group, block), there in zip(facets, found) if not there.all()]
+    return [(group, block.nodes[loose][:, : CORNERS[block.kind]]) for group, block, loose in missing]

@@ -9,29 +9,13 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import InputError
-from .raw_mesh import RawMesh, nothing
+from .raw_mesh import NODES, TURNED, RawMesh, nothing
 
 # Tetrahedra of MED turn the other way round than VTK's; middles of edges are in VTK's order.
-KINDS = {
-    "PO1": ("vertex", 1),
-    "SE2": ("line", 2),
-    "SE3": ("line3", 3),
-    "TR3": ("triangle", 3),
-    "TR6": ("triangle6", 6),
-    "TE4": ("tetra", 4),
-    "T10": ("tetra10", 10),
-    "QU4": ("quad", 4),
-    "QU8": ("quad8", 8),
-    "QU9": ("quad9", 9),
-    "HE8": ("hexahedron", 8),
-    "H20": ("hexahedron20", 20),
-    "H27": ("hexahedron27", 27),
-    "PE6": ("wedge", 6),
-    "P15": ("wedge15", 15),
-    "PY5": ("pyramid", 5),
-    "P13": ("pyramid13", 13),
-}
-SOLID = {"TE4": (0, 2, 1, 3), "T10": (0, 2, 1, 3, 6, 5, 4, 7, 9, 8)}  # to VTK's turn
+KINDS = {"PO1": "vertex", "SE2": "line", "SE3": "line3", "TR3": "triangle", "TR6": "triangle6", "TE4": "tetra"}
+KINDS |= {"T10": "tetra10", "QU4": "quad", "QU8": "quad8", "QU9": "quad9", "HE8": "hexahedron", "H20": "hexahedron20"}
+KINDS |= {"H27": "hexahedron27", "PE6": "wedge", "P15": "wedge15", "PY5": "pyramid", "P13": "pyramid13"}
+SOLID = {"TE4": TURNED["tetra"], "T10": TURNED["tetra10"]}  # to VTK's turn
 REMEDY = "write it anew as MED, or as .vtu"
 
 
@@ -63,13 +47,12 @@ def _read(path: Path, file: Any) -> RawMesh:
     families = file["FAS"][meshes[0]] if meshes[0] in file.get("FAS", ()) else whole.get("FAS")
     numbers: list[np.ndarray | None] = []
     for name, group in step.get("MAI", {}).items():
-        kind, nodes = KINDS.get(name, (f"polyhedron ({name})", 0))
-        if not nodes:
+        if name not in KINDS:
             raise InputError(path, name, "is a kind of element that is not known", "mesh it by tetrahedra or triangles")
-        there = np.asarray(group["NOD"][()], dtype=np.int64).reshape(nodes, -1).T - 1
+        there = np.asarray(group["NOD"][()], dtype=np.int64).reshape(NODES[KINDS[name]], -1).T - 1
         if name in SOLID:
             there = there[:, list(SOLID[name])]
-        mesh.blocks.append((kind, there))
+        mesh.blocks.append((KINDS[name], there))
         numbers.append(np.asarray(group["FAM"][()], dtype=np.int64) if "FAM" in group else None)
     for text, unnamed, wanted in _families(families, "ELEME"):
         places = [nothing() if n is None else np.flatnonzero(n == wanted) for n in numbers]

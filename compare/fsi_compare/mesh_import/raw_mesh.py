@@ -21,7 +21,13 @@ SIDES: dict[str, tuple[str, tuple[tuple[int, ...], ...]]] = {
     "tetra": ("triangle", ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))),
     "tetra10": ("triangle6", ((1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6), (0, 1, 3, 4, 8, 7), (0, 2, 1, 6, 5, 4))),
 }
+# Nodes of a tetrahedron that goes the other way round.
+TURNED = {"tetra": (0, 2, 1, 3), "tetra10": (0, 2, 1, 3, 6, 5, 4, 7, 9, 8)}
 CORNERS = {kind: dimension + 1 for kind, (dimension, _, _, _) in KINDS.items()}
+# Nodes of elements by meshio's names: what readers know, too, to say that it is no simplex.
+NODES = {kind: len(order) for kind, (_, _, _, order) in KINDS.items()}
+NODES |= {"vertex": 1, "quad": 4, "quad8": 8, "quad9": 9, "hexahedron": 8, "hexahedron20": 20, "hexahedron27": 27}
+NODES |= {"wedge": 6, "wedge15": 15, "pyramid": 5, "pyramid13": 13}
 ELEMENTS = {1: "lines", 2: "triangles", 3: "tetrahedra"}  # by dimension, for messages
 
 

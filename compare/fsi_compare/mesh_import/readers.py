@@ -20,16 +20,9 @@ from .xdmf import read_xdmf
 
 # By the end of a file's name, in lower case: what meshio reads wrongly; see the head of each module.
 # What meshio reads well, or reads at all, is left to it.
-READERS: dict[str, Callable[[Path], RawMesh]] = {
-    ".vtu": read_vtu,
-    ".xdmf": read_xdmf,
-    ".xmf": read_xdmf,
-    ".med": read_med,
-    ".inp": read_abaqus,
-    ".h5": read_dolfin_hdf5,
-    ".xml": read_dolfin_xml,
-    **{name: read_exodus for name in (".e", ".exo", ".ex2", ".exii", ".g", ".gen")},
-}
+READERS: dict[str, Callable[[Path], RawMesh]] = {".vtu": read_vtu, ".xdmf": read_xdmf, ".xmf": read_xdmf}
+READERS |= {".med": read_med, ".inp": read_abaqus, ".h5": read_dolfin_hdf5, ".xml": read_dolfin_xml}
+READERS |= dict.fromkeys((".e", ".exo", ".ex2", ".exii", ".g", ".gen"), read_exodus)
 # What no reader takes, by the end of its name: what it is, and the way in.
 REFUSED = {
     ".unv": ("a universal file of I-DEAS", "turn it by gmsh FILE.unv -save -o FILE.msh, or write it as MED"),

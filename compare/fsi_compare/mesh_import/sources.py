@@ -72,16 +72,16 @@ def read_sources(sources: Sequence[Source], scale: float) -> tuple[FoundMesh, li
         if source.name:
             whole.cells[take(source.name)] = spread(mesh.cells[WHOLE])
         stem = source.name or source.path.stem
-        for name, places in mesh.cells.items():
+        for name in [*mesh.cells, *mesh.points_of]:
             if name == WHOLE:
                 continue
-            known = f"{stem}/{name}" if source.name or _taken(name, mesh, meshes) else name
-            whole.cells[take(known)] = spread(places)
+            known = take(f"{stem}/{name}" if source.name or _taken(name, mesh, meshes) else name)
+            if name in mesh.points_of:
+                whole.points_of[known] = mesh.points_of[name] + first
+                continue
+            whole.cells[known] = spread(mesh.cells[name])
             if name in mesh.numbered or source.name:
                 numbered.add(known)
-        for name, points in mesh.points_of.items():
-            known = f"{stem}/{name}" if source.name or _taken(name, mesh, meshes) else name
-            whole.points_of[take(known)] = points + first
         whole.passed_over += [f"{source.path.name}: {text}" for text in mesh.passed_over]
     if WHOLE not in whole.cells:
         whole.cells[WHOLE] = whole_of(whole)

@@ -7,29 +7,13 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import InputError
-from .raw_mesh import RawMesh
+from .raw_mesh import NODES, RawMesh
 from .vtk_xml import VtkFile, pieces, read_by, require_points, scalars_of
 
-# VTK's numbers of cells: meshio's name and how many nodes.
-CELLS = {
-    1: ("vertex", 1),
-    3: ("line", 2),
-    5: ("triangle", 3),
-    9: ("quad", 4),
-    10: ("tetra", 4),
-    12: ("hexahedron", 8),
-    13: ("wedge", 6),
-    14: ("pyramid", 5),
-    21: ("line3", 3),
-    22: ("triangle6", 6),
-    23: ("quad8", 8),
-    24: ("tetra10", 10),
-    25: ("hexahedron20", 20),
-    26: ("wedge15", 15),
-    27: ("pyramid13", 13),
-    28: ("quad9", 9),
-    29: ("hexahedron27", 27),
-}
+# VTK's numbers of cells: meshio's name.
+CELLS = {1: "vertex", 3: "line", 5: "triangle", 9: "quad", 10: "tetra", 12: "hexahedron", 13: "wedge", 14: "pyramid"}
+CELLS |= {21: "line3", 22: "triangle6", 23: "quad8", 24: "tetra10", 25: "hexahedron20", 26: "wedge15"}
+CELLS |= {27: "pyramid13", 28: "quad9", 29: "hexahedron27"}
 # Lagrange cells of VTK by their number and how many nodes, where they are cells of the table above.
 LAGRANGE = {(68, 2): 3, (68, 3): 21, (69, 3): 5, (69, 6): 22, (71, 4): 10, (71, 10): 24}
 
@@ -68,7 +52,7 @@ def _read(file: VtkFile) -> RawMesh:
     }
     return RawMesh(
         np.concatenate(points) if points else np.zeros((0, 3)),
-        [(CELLS[kind][0], np.concatenate(parts)) for kind, parts in blocks.items()],
+        [(CELLS[kind], np.concatenate(parts)) for kind, parts in blocks.items()],
         whole,
         {name: np.concatenate(parts) for name, parts in point_data.items() if len(parts) == len(points)},
         passed_over=list(passed_over),
@@ -93,7 +77,7 @@ def _cells(file: VtkFile, piece: Any) -> list[tuple[int, np.ndarray, np.ndarray]
             problem = f"has a cell of VTK's kind {kind}"
             raise InputError(file.path, "types", problem, "mesh it by tetrahedra, or by triangles")
         which = np.flatnonzero(kinds == kind)
-        count = CELLS[int(kind)][1]
+        count = NODES[CELLS[int(kind)]]
         if np.any(lengths[which] != count):
             problem = f"a cell of VTK's kind {kind} has not {count} nodes"
             raise InputError(file.path, "offsets", problem, "write the mesh anew")

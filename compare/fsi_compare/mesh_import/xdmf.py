@@ -12,30 +12,14 @@ import numpy as np
 from ..base.errors import InputError
 from ..base.files import exists
 from .groups import corner_keys
-from .raw_mesh import KINDS, RawMesh
+from .raw_mesh import KINDS, NODES, RawMesh
 
-# Names of topologies in lower case without underscores: meshio's kind, how many nodes.
-TOPOLOGIES = {
-    "polyvertex": ("vertex", 1),
-    "polyline": ("line", 2),
-    "edge": ("line", 2),
-    "interval": ("line", 2),
-    "line": ("line", 2),
-    "edge3": ("line3", 3),
-    "triangle": ("triangle", 3),
-    "tri3": ("triangle", 3),
-    "triangle6": ("triangle6", 6),
-    "tri6": ("triangle6", 6),
-    "tetrahedron": ("tetra", 4),
-    "tet": ("tetra", 4),
-    "tet4": ("tetra", 4),
-    "tetrahedron10": ("tetra10", 10),
-    "tet10": ("tetra10", 10),
-    "quadrilateral": ("quad", 4),
-    "hexahedron": ("hexahedron", 8),
-    "wedge": ("wedge", 6),
-    "pyramid": ("pyramid", 5),
-}
+# Names of topologies in lower case without underscores: meshio's kind.
+TOPOLOGIES = {"polyvertex": "vertex", "quadrilateral": "quad"} | {k: k for k in ("hexahedron", "wedge", "pyramid")}
+TOPOLOGIES |= dict.fromkeys(("polyline", "edge", "interval", "line"), "line") | {"edge3": "line3"}
+TOPOLOGIES |= dict.fromkeys(("triangle", "tri3"), "triangle") | dict.fromkeys(("triangle6", "tri6"), "triangle6")
+TOPOLOGIES |= dict.fromkeys(("tetrahedron", "tet", "tet4"), "tetra")
+TOPOLOGIES |= dict.fromkeys(("tetrahedron10", "tet10"), "tetra10")
 # Kinds in a topology "Mixed" by number.
 MIXED = {4: "triangle", 5: "quadrilateral", 6: "tetrahedron", 7: "pyramid", 8: "wedge", 9: "hexahedron"}
 MIXED |= {34: "edge3", 36: "triangle6", 38: "tetrahedron10", 1: "polyvertex", 2: "polyline"}
@@ -134,7 +118,8 @@ class _Document:
             return self._mixed(numbers)
         if name not in TOPOLOGIES:
             raise InputError(self.path, "Topology", f"is of the kind '{said}'", "write tetrahedra or triangles")
-        kind, count = TOPOLOGIES[name]
+        kind = TOPOLOGIES[name]
+        count = NODES[kind]
         said_count = int(topology.get("NodesPerElement") or count)
         if name in ("polyline", "polyvertex") and said_count != count:
             kind, count = f"polygon{said_count}", said_count
@@ -157,12 +142,12 @@ class _Document:
             starts, places = found.setdefault(name, ([], []))
             starts.append(at)
             places.append(place)
-            at += TOPOLOGIES[name][1]
+            at += NODES[TOPOLOGIES[name]]
             place += 1
         result = []
         for name, (starts, places) in found.items():
-            kind, count = TOPOLOGIES[name]
-            result.append((kind, numbers[np.array(starts)[:, None] + np.arange(count)], np.array(places)))
+            kind = TOPOLOGIES[name]
+            result.append((kind, numbers[np.array(starts)[:, None] + np.arange(NODES[kind])], np.array(places)))
         return result
 
     def _scalars(self, attribute: ElementTree.Element, name: str) -> np.ndarray | None:

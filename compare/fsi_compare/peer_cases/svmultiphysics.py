@@ -21,19 +21,14 @@ from .waveforms import Waveform, read_coefficients, read_series
 from .xml_file import Entry
 
 PROGRAM = "svMultiPhysics"
-EQUATIONS = {
-    **{name: "FSI" for name in ("FSI", "fluid-solid-interaction")},
-    "fluid": "fluid",
-    **{name: "struct" for name in ("struct", "structural")},
-    **{name: "ustruct" for name in ("ustruct", "structural_velocity_pressure")},
-    **{name: "lElas" for name in ("lElas", "linear_elasticity")},
-}
+EQUATIONS = {"FSI": "FSI", "fluid-solid-interaction": "FSI", "fluid": "fluid", "struct": "struct"}
+EQUATIONS |= {"structural": "struct", "ustruct": "ustruct", "structural_velocity_pressure": "ustruct"}
+EQUATIONS |= {"lElas": "lElas", "linear_elasticity": "lElas"}
 WALLS = ("struct", "ustruct", "lElas")
 CMM = ("CMM", "coupled_momentum")
 # Beside the one above; what is lost with it.
-SIDE_EQUATIONS = {name: "the transport of a substance" for name in ("AD", "advection_diffusion", "heatF")} | {
-    name: "the transport of a substance" for name in ("dyeTransport", "scalarTransport")
-}
+TRANSPORTS = ("AD", "advection_diffusion", "heatF", "dyeTransport", "scalarTransport")
+SIDE_EQUATIONS = dict.fromkeys(TRANSPORTS, "the transport of a substance")
 REFUSED = {
     "stokes": "a flow without inertia",
     "shell": "a shell",

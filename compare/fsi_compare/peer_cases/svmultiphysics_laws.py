@@ -15,37 +15,33 @@ and the penalty of a change of volume, of which ours has the first:
 """
 
 from dataclasses import dataclass, field
-from typing import Any, Callable
+from typing import Any
 
 from .units import Units
 from .xml_file import Entry
 
-LAWS = {
-    "nHK": "neoHookean",
-    "nHK91": "neoHookean",
-    "neoHookean": "neoHookean",
-    "neoHookeanSimo91": "neoHookean",
-    "stVK": "stVK",
-    "stVenantKirchhoff": "stVK",
-    "MR": "MR",
-    "Mooney-Rivlin": "MR",
-    "HGO": "HGO",
-}
+LAWS = dict.fromkeys(("nHK", "nHK91", "neoHookean", "neoHookeanSimo91"), "neoHookean")
+LAWS |= dict.fromkeys(("stVK", "stVenantKirchhoff"), "stVK") | dict.fromkeys(("MR", "Mooney-Rivlin"), "MR")
+LAWS["HGO"] = "HGO"
 # Of the same program, without a law of ours that has their energy.
 OTHERS = {
-    **{name: "a modified law of St. Venant and Kirchhoff" for name in ("m-stVK", "modified-stVK")},
-    "modified-stVenantKirchhoff": "a modified law of St. Venant and Kirchhoff",
-    **{name: "Guccione's law of the heart" for name in ("Guccione", "Gucci")},
-    **{name: "Holzapfel and Ogden's law of the heart" for name in ("HO", "HolzapfelOgden", "HO_ma")},
-    "HolzapfelOgden-ModifiedAnisotropy": "Holzapfel and Ogden's law of the heart",
-    **{name: "a stress mu I without strain" for name in ("lin", "linear")},
-    **{name: "a law by a network" for name in ("CANN", "AnisoHyper")},
+    name: law
+    for law, names in {
+        "a modified law of St. Venant and Kirchhoff": ("m-stVK", "modified-stVK", "modified-stVenantKirchhoff"),
+        "Guccione's law of the heart": ("Guccione", "Gucci"),
+        "Holzapfel and Ogden's law of the heart": (
+            "HO",
+            "HolzapfelOgden",
+            "HO_ma",
+            "HolzapfelOgden-ModifiedAnisotropy",
+        ),
+        "a stress mu I without strain": ("lin", "linear"),
+        "a law by a network": ("CANN", "AnisoHyper"),
+    }.items()
+    for name in names
 }
-PENALTIES = {
-    **{name: "quad" for name in ("quad", "Quad", "quadratic", "Quadratic")},
-    **{name: "ST91" for name in ("ST91", "Simo-Taylor91")},
-    **{name: "M94" for name in ("M94", "Miehe94")},
-}
+PENALTIES = dict.fromkeys(("quad", "Quad", "quadratic", "Quadratic"), "quad")
+PENALTIES |= dict.fromkeys(("ST91", "Simo-Taylor91"), "ST91") | dict.fromkeys(("M94", "Miehe94"), "M94")
 # By how much of itself the penalty's pressure is below K (J - 1), per change of volume, J - 1.
 SHORT_OF = {"quad": 0.0, "ST91": 0.5, "M94": 1.0}
 NEARLY = 1e4  # K/mu in the place of an incompressible wall: nu = 0.49995
@@ -186,12 +182,7 @@ def _two_families(wall: Wall, layer: Layer) -> None:
     layer.notes.append((at, words, True))
 
 
-MAKERS: dict[str, Callable[[Wall, Layer], None]] = {
-    "neoHookean": _neo_hookean,
-    "MR": _mooney_rivlin,
-    "stVK": _saint_venant,
-    "HGO": _two_families,
-}
+MAKERS = {"neoHookean": _neo_hookean, "MR": _mooney_rivlin, "stVK": _saint_venant, "HGO": _two_families}
 
 
 def _penalty(domain: Entry, at: Entry, layer: Layer) -> None:

@@ -19,39 +19,14 @@ class Units:
         """Factor of a quantity with these exponents."""
         return rounded(self.length**length * self.mass**mass * self.time**time)
 
-    @property
-    def density(self) -> float:
-        return self.of(-3, 1)
-
-    @property
-    def pressure(self) -> float:
-        return self.of(-1, 1, -2)
-
-    @property
-    def viscosity(self) -> float:
-        return self.of(-1, 1, -1)
-
-    @property
-    def flow(self) -> float:
-        return self.of(3, 0, -1)
-
-    @property
-    def resistance(self) -> float:
-        return self.of(-4, 1, -1)
-
-    @property
-    def compliance(self) -> float:
-        return self.of(4, -1, 2)
-
-    @property
-    def spring(self) -> float:
-        """Pressure over length."""
-        return self.of(-2, 1, -2)
-
-    @property
-    def damper(self) -> float:
-        """Pressure over velocity."""
-        return self.of(-2, 1, -1)
+    density = property(lambda self: self.of(-3, 1))
+    pressure = property(lambda self: self.of(-1, 1, -2))
+    viscosity = property(lambda self: self.of(-1, 1, -1))
+    flow = property(lambda self: self.of(3, 0, -1))
+    resistance = property(lambda self: self.of(-4, 1, -1))
+    compliance = property(lambda self: self.of(4, -1, 2))
+    spring = property(lambda self: self.of(-2, 1, -2))  # pressure over length
+    damper = property(lambda self: self.of(-2, 1, -1))  # pressure over velocity
 
 
 CGS = Units("cgs", 10.0, 1000.0, 1000.0)

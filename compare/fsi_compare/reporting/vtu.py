@@ -12,16 +12,12 @@ import numpy as np
 
 CELL_TYPES = {3: 5, 4: 10, 6: 22, 10: 24}  # by nodes: triangle, tetrahedron, and their quadratic forms
 HEAD = '<?xml version="1.0"?>\n'
+Arrays = dict[str, np.ndarray]  # by name
 BLOCK = 1 << 22  # bytes that are compressed at once
 
 
 def write_vtu(
-    path: Path,
-    points: np.ndarray,
-    cells: np.ndarray,
-    of_points: dict[str, np.ndarray],
-    of_cells: dict[str, np.ndarray],
-    time: float,
+    path: Path, points: np.ndarray, cells: np.ndarray, of_points: Arrays, of_cells: Arrays, time: float
 ) -> None:
     """One grid at one time, in ms, which stands in the file as TimeValue. `points` (nodes, 3), `cells` (cells, 3, 4, 6
     or 10), values (nodes or cells,) or (..., components). Numbers keep their bits."""

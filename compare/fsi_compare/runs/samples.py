@@ -117,13 +117,12 @@ def _differences(table: str, name: str, one: Samples, other: Samples) -> list[Di
     pairs = [(i, int(np.argmin(np.abs(other.times - time)))) for i, time in enumerate(one.times)]
     pairs = [(i, j) for i, j in pairs if abs(other.times[j] - one.times[i]) <= tolerance]
     points = next(iter(one.values.values())).shape[1]
-    same = all(
-        place in other.places
-        and len(at) == len(other.places[place])
-        and np.allclose(at, other.places[place], rtol=0, atol=1e-9 * (np.abs(at).max() + 1))
-        for place, at in one.places.items()
-    )
-    if not pairs or not same:
+
+    def is_at(there: np.ndarray | None, at: np.ndarray) -> bool:
+        near = 1e-9 * (np.abs(at).max() + 1)
+        return there is not None and len(at) == len(there) and np.allclose(at, there, rtol=0, atol=near)
+
+    if not pairs or not all(is_at(other.places.get(place), at) for place, at in one.places.items()):
         return []
     mine, theirs = (list(level) for level in zip(*pairs))
     found = []

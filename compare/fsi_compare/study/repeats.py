@@ -28,13 +28,9 @@ def step_seconds(folder: Path) -> float:
 
 def same_results(folders: Sequence[Path]) -> bool:
     """Whether the files of all repetitions equal the first one's, bit by bit; one that failed may have fewer."""
-    first = folders[0]
-    return all(
-        is_file(other / file) and filecmp.cmp(first / file, other / file, shallow=False)
-        for other in folders[1:]
-        for file in RESULTS
-        if is_file(first / file)
-    )
+    first, *others = folders
+    pairs = [(first / file, other / file) for other in others for file in RESULTS if is_file(first / file)]
+    return all(is_file(there) and filecmp.cmp(here, there, shallow=False) for here, there in pairs)
 
 
 def keep_median(folder: Path, repetitions: Sequence[Path]) -> list[float]:

@@ -112,11 +112,8 @@ class Runner:
             return run.done and run.seconds < study.repeat_below and len(run.timings) < study.repeats
 
         short = {k: request for k, request in requests.items() if study.repeats > 1 and is_short(self._known[k])}
-        again = [
-            (key, request, repeats.place_of(self._place(key, request), n))
-            for n in range(2, study.repeats + 1)
-            for key, request in short.items()
-        ]
+        rounds = range(2, study.repeats + 1)
+        again = [(k, r, repeats.place_of(self._place(k, r), n)) for n in rounds for k, r in short.items()]
         places: dict[str, list[Path]] = {key: [] for key in short}
         progress.repeat([request for _, request, _ in again])
         for _, _, place in again:

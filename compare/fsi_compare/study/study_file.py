@@ -3,7 +3,7 @@
 import itertools
 import math
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Iterable, Mapping, Sequence
 
@@ -23,6 +23,7 @@ MESH = "mesh"  # among what is varied: a level or a section of [meshes]
 PROCESSES = "processes"  # among what is varied: numbers, or
 CORES = "cores"  # for 1, 2, 4, ... up to the cores that may be used, the last number included
 
+Entries = Mapping[str, Any]  # of a case, by full keys, or of a section
 LONGEST_NAME = 200  # characters of a key
 MOST_RUNS = 100_000
 FILE_NAME = re.compile(r"[^/.][^/]{0,59}")
@@ -51,7 +52,7 @@ class Method:
     name: str
     label: str
     program: str
-    settings: Mapping[str, Any]
+    settings: Entries
 
 
 @dataclass(frozen=True)
@@ -69,10 +70,10 @@ class Request:
     group: str
     case: str
     method: Method
-    values: Mapping[str, Any]  # label or value of each quantity that the group varies, by its name
+    values: Entries  # label or value of each quantity that the group varies, by its name
     case_file: Path
     mesh: StudyMesh | None  # None: the case file's own
-    settings: Mapping[str, Any]  # entries over the case file's, without the mesh
+    settings: Entries  # entries over the case file's, without the mesh
     time_limit: float  # s
     processes: int | None = None  # None: as many as the study's other runs
 
@@ -95,23 +96,17 @@ class Study:
     methods: Mapping[str, Method]
     meshes: Mapping[str, StudyMesh]
     requests: Sequence[Request]
-    report: Mapping[str, Any]  # settings of the report, checked by its kind
+    report: Entries  # settings of the report, checked by its kind
     quick: bool
     repeats: int = 1  # of each run that takes less than `repeat_below` s, in full: its seconds are then their median
     repeat_below: float = 60.0
-    settings: Mapping[str, Any] = field(default_factory=dict)  # of all runs
-    case_settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # of all runs of a case
+    settings: Entries = field(default_factory=dict)  # of all runs
+    case_settings: Mapping[str, Entries] = field(default_factory=dict)  # of all runs of a case
     processes: int = 1  # of each run whose group does not say
     scenes: Mapping[str, Scene] = field(default_factory=dict)  # of the cases that are scenes of the gallery
 
     def request(
-        self,
-        group: str,
-        case: str,
-        method: str,
-        values: Mapping[str, Any],
-        settings: Mapping[str, Any],
-        mesh: str | None = None,
+        self, group: str, case: str, method: str, values: Entries, settings: Entries, mesh: str | None = None
     ) -> Request:
         """One more run, for kinds that decide on the next run from the last."""
         chosen = self.methods[method]
@@ -176,7 +171,7 @@ class _Value:
     """A value of a quantity that a group varies."""
 
     shown: Any
-    settings: Mapping[str, Any] = field(default_factory=dict)
+    settings: Entries = field(default_factory=dict)
     mesh: StudyMesh | None = None
     processes: int | None = None
 
@@ -195,7 +190,6 @@ class _Reader:
         if kind not in kinds and kind in source_tree.KINDS:
             raise source_tree.refusal(self.path, "kind", f"the kind '{kind}'")
         kind = self.one_of("kind", kind, kinds)
-        limit = top.number("time_limit", 3600.0)
         entries = top.table("cases", True)
         cases = {name: self.case(name, entry) for name, entry in entries.items()}
         of_case = {
@@ -207,31 +201,29 @@ class _Reader:
         meshes = {level: StudyMesh(level, level, ()) for level in MESHES}
         for name, entry in top.table("meshes").items():
             meshes[name] = self.mesh(name, entry)
-        settings = top.settings("set")
-        repeats = top.count("repeats", 1)
-        requests: list[Request] = []
-        for name, group in top.table("runs").items():
-            requests += self.group(name, group, cases, methods, meshes, settings, of_case, limit)
-        return Study(
+        repeats, settings = top.count("repeats", 1), top.settings("set")
+        study = Study(
             path=self.path,
             title=top.text("title"),
             kind=kind,
             threads=top.count("threads", 1),
             processes=top.count("processes", 1),
             jobs=top.count("jobs", 1),
-            time_limit=limit,
+            time_limit=top.number("time_limit", 3600.0),
             repeats=1 if self.quick else repeats,
             repeat_below=top.number("repeat_below", 60.0),
             cases=cases,
             methods=methods,
             meshes=meshes,
-            requests=requests,
+            requests=(),
             report=top.table("report"),
             quick=self.quick,
             settings=settings,
             case_settings=of_case,
             scenes=self.scenes,
         )
+        groups = [self.group(name, group, study) for name, group in top.table("runs").items()]
+        return replace(study, requests=[request for group in groups for request in group])
 
     def case(self, name: str, entry: Any) -> Path:
         """A file name, or a section with `set` and either `file` or `scene`, the name of a scene of the gallery."""
@@ -277,17 +269,7 @@ class _Reader:
             raise self.wrong(key, "is no name for a file", "choose a short one without '/'")
         return StudyMesh(name, section.text("label", name), tuple(options))
 
-    def group(
-        self,
-        name: str,
-        group: Any,
-        cases: Mapping[str, Path],
-        methods: Mapping[str, Method],
-        meshes: Mapping[str, StudyMesh],
-        settings: Mapping[str, Any],
-        of_case: Mapping[str, Mapping[str, Any]],
-        limit: float,
-    ) -> list[Request]:
+    def group(self, name: str, group: Any, study: Study) -> list[Request]:
         key = f"runs.{name}"
         self.section(key, group, GROUP_KEYS)
         quick = group.get("quick", False)
@@ -298,11 +280,11 @@ class _Reader:
                 return []
             if quick is not True:
                 group = {**group, **quick}
-        names = self.names(group, "cases", cases, key)
-        chosen = [methods[method] for method in self.names(group, "methods", methods, key)]
+        names = self.names(group, "cases", study.cases, key)
+        chosen = [study.methods[method] for method in self.names(group, "methods", study.methods, key)]
         section = self.section(key, group, GROUP_KEYS)
         own, vary = section.settings("set"), section.table("vary")
-        axes = [self.axis(f"{key}.vary.{quantity}", quantity, vary[quantity], meshes) for quantity in vary]
+        axes = [self.axis(f"{key}.vary.{quantity}", quantity, vary[quantity], study.meshes) for quantity in vary]
         if len(names) * len(chosen) * math.prod(len(axis) for axis in axes) > MOST_RUNS:
             raise self.wrong(key, f"asks for more than {MOST_RUNS} runs", "vary less in one group")
         requests = []
@@ -310,14 +292,15 @@ class _Reader:
             scene = self.scenes.get(case)
             if scene is not None and method.program not in scene.drivers:
                 continue
-            merged = {**settings, **of_case.get(case, {}), **method.settings, **own}
+            merged = {**study.settings, **study.case_settings.get(case, {}), **method.settings, **own}
             values, mesh, processes = {}, mesh_of_scene(scene, self.quick), None
             for quantity, value in point:
                 values[quantity] = value.shown
                 merged.update(value.settings)
                 mesh = value.mesh or mesh
                 processes = value.processes or processes
-            requests.append(Request(name, case, method, values, cases[case], mesh, merged, limit, processes))
+            file, limit = study.cases[case], study.time_limit
+            requests.append(Request(name, case, method, values, file, mesh, merged, limit, processes))
         return requests
 
     def axis(self, key: str, quantity: str, values: Any, meshes: Mapping[str, StudyMesh]) -> "list[tuple[str, _Value]]":
@@ -363,7 +346,7 @@ class _Reader:
             raise self.wrong(key, f"'{name}' is unknown", hint(str(name), names, "There are"))
         return name
 
-    def names(self, group: dict[str, Any], name: str, known: Mapping[str, Any], section: str) -> list[str]:
+    def names(self, group: dict[str, Any], name: str, known: Entries, section: str) -> list[str]:
         """Cases or methods: those that a group names, or all."""
         given = group.get(name, list(known))
         if not isinstance(given, list):

@@ -1,7 +1,7 @@
 """What a beat shows: of a run, and of the periodic state of the model."""
 
 from dataclasses import dataclass
-from typing import Mapping, Sequence
+from typing import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -60,9 +60,8 @@ def shown_by_model(state: State, vessel: Vessel, ends: Mapping[str, End], target
 def outlets_of(ends: Mapping[str, End]) -> list[str]:
     """Openings by which flow leaves that is not given: laws, and free ones where something else drives the flow."""
     laws = [name for name, end in ends.items() if isinstance(end, Windkessel)]
-    if not any(isinstance(end, GivenFlow) for end in ends.values()):
-        return laws
-    return laws + [name for name, end in ends.items() if isinstance(end, GivenPressure)]
+    free = [name for name, end in ends.items() if isinstance(end, GivenPressure)]
+    return laws + free if any(isinstance(end, GivenFlow) for end in ends.values()) else laws
 
 
 def _shown(
@@ -72,20 +71,14 @@ def _shown(
     flows: Mapping[str, float],
 ) -> np.ndarray:
     total = sum(flows.values())
-    found = []
-    for target in targets:
-        if target.kind == DIASTOLIC:
-            found.append(float(pressure[target.opening].min()))
-        elif target.kind == SYSTOLIC:
-            found.append(float(pressure[target.opening].max()))
-        elif target.kind == MEAN:
-            found.append(means[target.opening])
-        elif target.kind == FLOW:
-            found.append(flows[target.opening])
-        else:
-            assert target.kind == SPLIT
-            found.append(flows[target.opening] / total if total else 0.0)
-    return np.array(found)
+    of_kind: dict[str, Callable[[str], float]] = {
+        DIASTOLIC: lambda opening: float(pressure[opening].min()),
+        SYSTOLIC: lambda opening: float(pressure[opening].max()),
+        MEAN: lambda opening: means[opening],
+        FLOW: lambda opening: flows[opening],
+        SPLIT: lambda opening: flows[opening] / total if total else 0.0,
+    }
+    return np.array([of_kind[target.kind](target.opening) for target in targets])
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,10 @@ NEAR = 0.01  # of the pressure: beats that begin further from periodic say nothi
 FEWEST_LEVELS = 16  # behind the lead of a beat
 
 
+Laws = Mapping[str, Windkessel]  # by outlet
+Starts = Mapping[str, float]  # pressures in kPa, by outlet
+
+
 @dataclass(frozen=True)
 class Demand:
     targets: Sequence[Target]
@@ -31,8 +35,8 @@ class Beat:
     """One that was run."""
 
     number: int
-    values: Mapping[str, Windkessel]
-    starts: Mapping[str, float]  # kPa, of the Windkessels; empty: as the case says
+    values: Laws
+    starts: Starts  # kPa, of the Windkessels; empty: as the case says
     got: np.ndarray  # (targets,)
     foreseen: np.ndarray | None  # by the model of the beat before; None: there was none
     repeats: Mapping[str, Repetition]
@@ -123,7 +127,7 @@ def _starts_of_case(scene: Scene) -> dict[str, float]:
     return {n: float(scene.openings[n][WINDKESSEL].get("initial_pressure", 0.0)) for n in scene.windkessels}
 
 
-def settings_of(scene: Scene, values: Mapping[str, Windkessel], starts: Mapping[str, float]) -> dict[str, Any]:
+def settings_of(scene: Scene, values: Laws, starts: Starts) -> dict[str, Any]:
     """Entries of a case by their full keys."""
     found: dict[str, Any] = {}
     for name, law in values.items():
@@ -135,13 +139,7 @@ def settings_of(scene: Scene, values: Mapping[str, Windkessel], starts: Mapping[
 
 
 def _beat(
-    scene: Scene,
-    demand: Demand,
-    number: int,
-    ran: Ran,
-    values: Mapping[str, Windkessel],
-    starts: Mapping[str, float],
-    foreseen: np.ndarray | None,
+    scene: Scene, demand: Demand, number: int, ran: Ran, values: Laws, starts: Starts, foreseen: np.ndarray | None
 ) -> Beat:
     curves, period = ran.curves, scene.period
     for name in [*scene.windkessels, *(target.opening for target in demand.targets)]:

@@ -6,16 +6,8 @@ from typing import Any, Sequence
 
 from ..base.errors import InputError, printable
 from ..base.files import absolute, output_folder, together
-from ..base.options import (
-    Commands,
-    add_case,
-    add_command,
-    add_drivers,
-    add_time_limit,
-    add_usual,
-    positive_number,
-    share,
-)
+from ..base.options import Commands, add_case, add_command, add_drivers, add_time_limit, add_usual
+from ..base.options import positive_number, share
 from ..reporting.layout import say_written
 from ..reporting.matplotlib_loader import load_matplotlib
 from ..reporting.pressure import read_times

@@ -208,12 +208,9 @@ class Requests:
         if self.recipe.adapts and member.step == 1 and not (member.looser or member.other):
             settings[INDICATOR] = True  # a finer mesh may be made from it
         case = self.facts.path
-        values = {
-            "mesh": f"{member.mesh:.4g}",
-            "step": f"{member.step:.4g}",
-            **({"looser": "yes"} if member.looser else {}),
-            **({"element": OTHER_ELEMENT[self.facts.element]} if member.other else {}),
-        }
+        values = {"mesh": f"{member.mesh:.4g}", "step": f"{member.step:.4g}"}
+        values |= {"looser": "yes"} if member.looser else {}
+        values |= {"element": OTHER_ELEMENT[self.facts.element]} if member.other else {}
         return Request("family", self.name, method, values, case, self.mesh(member), settings, self.time_limit)
 
     def _step(self, member: Member) -> dict[str, Any]:

@@ -17,12 +17,8 @@ def write_case(path: Path, entries: Mapping[str, Any], home: Path, comments: lis
 def _with_full_names(entry: Any, home: Path) -> Any:
     """The entry with full paths in all `file = "..."`."""
     if isinstance(entry, Mapping):
-        return {
-            key: str(absolute(home / value))
-            if key == "file" and isinstance(value, str)
-            else _with_full_names(value, home)
-            for key, value in entry.items()
-        }
+        full = {key: _with_full_names(value, home) for key, value in entry.items()}
+        return full | ({"file": str(absolute(home / entry["file"]))} if isinstance(entry.get("file"), str) else {})
     return [_with_full_names(value, home) for value in entry] if isinstance(entry, list) else entry
 
 

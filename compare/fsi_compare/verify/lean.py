@@ -10,6 +10,9 @@ from .family import STEP_RATIO, Member
 from .mesh_family import Recipe
 
 
+Nodes = Callable[[float], int | None]  # of the mesh of a size
+
+
 def cross(meshes: Sequence[float], steps: Sequence[float]) -> list[Member]:
     """`meshes` and `steps` from coarse to fine, three or more of each, the last ones those of the centre."""
     column = [Member(mesh, steps[0]) for mesh in meshes]
@@ -37,12 +40,7 @@ def lean(meshes: Sequence[float], static: bool) -> list[Member]:
 
 
 def starting_member(
-    recipe: Recipe,
-    static: bool,
-    ratio: float,
-    levels: int,
-    nodes: Callable[[float], int | None],
-    longest: float | None = None,
+    recipe: Recipe, static: bool, ratio: float, levels: int, nodes: Nodes, longest: float | None = None
 ) -> Member:
     """Coarser than the case by a ratio, so that a demand that it exceeds by far costs little, but by steps no longer
     than `longest`, relative to the case's: longer ones give pressures no bar (doubt.py). Its mesh is the case's own

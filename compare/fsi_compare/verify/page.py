@@ -85,8 +85,7 @@ def parts_figure(judged: Sequence[Judged]) -> Figure:
     shown = sorted((one for one in judged if one.bar.given), key=lambda one: -one.bar.relative)[:15][::-1]
     figure = Figure(figsize=(7.0, 1.2 + 0.28 * max(len(shown), 1)), layout="constrained")
     axes = figure.add_subplot()
-    left = np.zeros(len(shown))
-    rows = np.arange(len(shown))
+    left, rows = np.zeros(len(shown)), np.arange(len(shown))
     for name, color in (("mesh", "tab:blue"), ("step", "tab:orange"), ("both", "tab:green"), ("solver", "tab:gray")):
         widths = np.array([100 * one.bar.parts[name] / one.bar.scale for one in shown])
         axes.barh(rows, widths, left=left, color=color, label=name)

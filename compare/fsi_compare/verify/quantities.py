@@ -58,6 +58,9 @@ class Curve:
         return self.derived or any(word in words for word in ("pressure", "stress", "force"))
 
 
+Reading = Callable[[Curve], float]
+
+
 @dataclass(frozen=True)
 class Quantity:
     """`of` reads it from a member's curve of the same name."""
@@ -67,7 +70,7 @@ class Quantity:
     unit: str
     is_pressure: bool
     scale: float
-    of: Callable[[Curve], float]
+    of: Reading
     is_extreme: bool = False
     whole: Stretch | None = None  # the curve itself, whose error has a norm; `of` is then that of the curve
     held_by: Stretch | None = None  # the curve's error that this number's cannot exceed
@@ -170,12 +173,7 @@ def _of_curve(curve: Curve, asked: Asked) -> list[Quantity]:
 
 
 def _number(
-    curve: Curve,
-    what: str,
-    of: Callable[[Curve], float],
-    held_by: Stretch,
-    is_norm: bool = False,
-    extreme: bool = False,
+    curve: Curve, what: str, of: Reading, held_by: Stretch, is_norm: bool = False, extreme: bool = False
 ) -> Quantity:
     name = f"{curve.name}, {what}"
     return Quantity(name, curve.name, curve.unit, curve.is_pressure, curve.largest, of, extreme, None, held_by, is_norm)

@@ -14,6 +14,10 @@ from .quantities import Curve, Quantity, chosen, curves_of, norm_of, on, quantit
 from .verdict import NOT_IN_RANGE, Bar, Value, bar_of, inherited
 
 
+Curves = Mapping[Member, Mapping[str, Curve]]  # of each member, by name
+Size = Callable[[Member], float]
+
+
 @dataclass(frozen=True)
 class Judged:
     """A quantity of a driver with its bar."""
@@ -133,7 +137,7 @@ def missed_sizes(runs: Mapping[Member, StudyRun]) -> str:
 
 def judge(
     family: FamilyRuns,
-    curves: Mapping[Member, Mapping[str, Curve]],
+    curves: Curves,
     facts: CaseFacts,
     times: Sequence[float],
     names: Sequence[str],
@@ -159,7 +163,7 @@ class _Judging:
     """Judges the quantities of one driver's family."""
 
     driver: str
-    curves: Mapping[Member, Mapping[str, Curve]]
+    curves: Curves
     own: Mapping[str, Curve]
     real: Mapping[float, float]
     facts: CaseFacts
@@ -216,7 +220,7 @@ class _Judging:
         return Judged(self.driver, quantity, bar, values, self.own[quantity.curve])
 
 
-def bands(family: FamilyRuns, curves: Mapping[Member, Mapping[str, Curve]], judged: Sequence[Judged]) -> list[Band]:
+def bands(family: FamilyRuns, curves: Curves, judged: Sequence[Judged]) -> list[Band]:
     """Bands of curves whose error has a bar: of points over time, of lines along them at the end and at the times asked
     for. At each place the own curve's distance from the finest in each direction, and what that direction's order says
     is left beyond it; the largest of the neighbourhood, since a wave that comes at another moment crosses the own curve
@@ -242,13 +246,7 @@ def bands(family: FamilyRuns, curves: Mapping[Member, Mapping[str, Curve]], judg
     return found
 
 
-def _width(
-    rows: Mapping[Member, np.ndarray],
-    own: Member,
-    part: Part,
-    size: Callable[[Member], float],
-    other: Callable[[Member], float],
-) -> np.ndarray:
+def _width(rows: Mapping[Member, np.ndarray], own: Member, part: Part, size: Size, other: Size) -> np.ndarray:
     """Part of a band by one direction, on either side of the curve; the factors are those of the bar."""
     line = sorted((m for m in rows if not (m.looser or m.other) and other(m) == 1), key=size)
     if len(line) < 2:

@@ -25,6 +25,10 @@ NEGLIGIBLE = 1e-3  # of the largest of the curve: so small a part without order 
 DETECTED = 1e-7  # relative to the curve's largest: differences below are round-off
 
 
+Table = Mapping[tuple[float, float], Any]  # values by mesh and step
+Measure = Callable[[Any], float]  # norm of a value
+
+
 @dataclass(frozen=True)
 class Value:
     """Value of one member."""
@@ -138,13 +142,7 @@ def _most_varied(table: Iterable[tuple[float, float]]) -> float:
 
 
 def _together(
-    table: Mapping[tuple[float, float], Any],
-    row: float,
-    column: float,
-    mesh: Part,
-    step: Part,
-    noise: float,
-    measured: Callable[[Any], float],
+    table: Table, row: float, column: float, mesh: Part, step: Part, noise: float, measured: Measure
 ) -> float:
     """Error by mesh and step together, from the finest of the members refined in both. Where row and column are not the
     user's own mesh and step, the sum of both parts is off by c (row^p + column^q - 1)."""
