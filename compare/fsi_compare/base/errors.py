@@ -30,9 +30,8 @@ class ProgramError(InputError):
 
 
 def _joined(file: str | Path, key: str, problem: str) -> str:
-    return ": ".join(
-        part for part in (shortened_path(str(file), FILE_LIMIT), shortened(key, KEY_LIMIT), problem) if part
-    )
+    parts = shortened_path(str(file), FILE_LIMIT), shortened(key, KEY_LIMIT), problem
+    return ": ".join(part for part in parts if part)
 
 
 def printable(text: str) -> str:

@@ -52,10 +52,9 @@ def _read(path: Path, file: Any) -> RawMesh:
         names = [name for name, parts in values.items() if len(parts) - 1 in whole]
         raise InputError(path, ", ".join(names), "are two functions of the cells", "leave one in the file")
     kept = [i for i in range(len(blocks)) if i != 0 or len(whole) == 1]
-    data = {
-        name: [(parts[i] if i < len(parts) else np.full(len(blocks[i][1]), np.nan)) for i in kept]
-        for name, parts in values.items()
-    }
+    for parts in values.values():
+        parts += [np.full(len(nodes), np.nan) for _, nodes in blocks[len(parts) :]]
+    data = {name: [parts[i] for i in kept] for name, parts in values.items()}
     return RawMesh(points, [blocks[i] for i in kept], data, passed_over=passed_over)
 
 

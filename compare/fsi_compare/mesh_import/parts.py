@@ -14,13 +14,12 @@ from .raw_mesh import ELEMENTS, KINDS, Block, RawMesh, nothing
 
 WHOLE = "all"  # the part that every mesh has
 # Arrays that number elements or nodes, in lower case: of SimVascular, VTK and ParaView, Exodus.
-IDENTITIES = frozenset(
-    ("globalelementid", "globalnodeid", "vtkoriginalcellids", "vtkoriginalpointids", "globalids")
-    + ("globalcellids", "globalpointids", "pedigreeelementid", "pedigreenodeid", "objectid")
-)
+IDENTITIES = {"globalelementid", "globalnodeid", "vtkoriginalcellids", "vtkoriginalpointids", "globalids"}
+IDENTITIES |= {"globalcellids", "globalpointids", "pedigreeelementid", "pedigreenodeid", "objectid"}
 # Arrays that say parts, however many values they have.
 REGIONS = frozenset(("modelregionid", "modelfaceid", "gmsh:physical", "gmsh:geometrical", "medit:ref"))
 MOST_VALUES = 1000  # of an array that says parts
+Places = list[np.ndarray]  # in each block
 SHOWN = 12  # names in one line
 SOLIDS = ("hexahedron", "wedge", "pyramid", "quad", "polyhedron", "polygon")  # begin names of kinds
 
@@ -149,9 +148,7 @@ def _places_of_values(values: Sequence[np.ndarray]) -> Iterable[tuple[int, list[
         yield int(value), [places[a:b] - start for a, b, start in zip(bounds[:-1], bounds[1:], starts)]
 
 
-def _by_value(
-    name: str, values: Sequence[np.ndarray], blocks: Sequence[Block]
-) -> Iterable[tuple[str, list[np.ndarray]]]:
+def _by_value(name: str, values: Sequence[np.ndarray], blocks: Sequence[Block]) -> Iterable[tuple[str, Places]]:
     """Parts of an array. A number that elements of several dimensions have is a part for each: gmsh and dolfinx count
     volumes and surfaces apart, so that the same number means nothing."""
     for value, places in _places_of_values(values):
@@ -181,8 +178,6 @@ def shown_names(names: Sequence[str]) -> str:
 
 def known_parts(mesh: FoundMesh) -> str:
     """The mesh's parts, for messages."""
-    parts = [
-        f"{name} ({' and '.join(ELEMENTS[d] for d in dimensions_of(mesh, places)) or 'empty'})"
-        for name, places in mesh.cells.items()
-    ]
-    return f"its parts are {shown_names(parts + [f'{name} (points)' for name in mesh.points_of])}"
+    kinds = {name: " and ".join(ELEMENTS[d] for d in dimensions_of(mesh, of)) for name, of in mesh.cells.items()}
+    words = {name: kind or "empty" for name, kind in kinds.items()} | dict.fromkeys(mesh.points_of, "points")
+    return f"its parts are {shown_names([f'{name} ({word})' for name, word in words.items()])}"

@@ -43,12 +43,15 @@ class Block:
         return KINDS[self.kind][0]
 
 
+Blocks = list[tuple[str, np.ndarray]]  # meshio's name of the kind, any kind; nodes of each element
+
+
 @dataclass
 class RawMesh:
     """Arrays have an entry an element, NaN where an element has none; sets hold places, from 0."""
 
     points: np.ndarray  # (points, 2 or 3), the file's unit
-    blocks: list[tuple[str, np.ndarray]]  # meshio's name of the kind, any kind; nodes of each element
+    blocks: Blocks
     cell_data: dict[str, list[np.ndarray]] = field(default_factory=dict)  # an array a block
     point_data: dict[str, np.ndarray] = field(default_factory=dict)
     cell_sets: dict[str, list[np.ndarray]] = field(default_factory=dict)  # places in each block

@@ -1,7 +1,7 @@
 """Where volumes of a mesh touch: by which sides, or how far they are apart."""
 
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, product
 from typing import Mapping, Sequence
 
 import numpy as np
@@ -31,10 +31,7 @@ def contacts(
     if len(volumes) < 2:
         return []
     surfaces = {name: boundary_of(blocks, dimension) for name, blocks in volumes.items()}
-    nodes = {
-        name: np.unique(np.concatenate([b.nodes[:, : CORNERS[b.kind]].ravel() for b in blocks]))
-        for name, blocks in surfaces.items()
-    }
+    nodes = {name: _vertices(blocks) for name, blocks in surfaces.items()}
     span = float(np.ptp(points[np.concatenate(list(nodes.values()))], axis=0).max())
     boxes = {name: (points[there].min(axis=0), points[there].max(axis=0)) for name, there in nodes.items()}
     found = []
@@ -53,14 +50,17 @@ def contacts(
     return found
 
 
+def _vertices(blocks: Sequence[Block]) -> np.ndarray:
+    return np.unique(np.concatenate([b.nodes[:, : CORNERS[b.kind]].ravel() for b in blocks]))
+
+
 def _shared_sides(first: Sequence[Block], second: Sequence[Block]) -> int:
     count = 0
-    for a in first:
-        for b in second:
-            if CORNERS[a.kind] == CORNERS[b.kind]:
-                corners = CORNERS[a.kind]
-                keys = corner_keys(a.kind, np.concatenate([a.nodes[:, :corners], b.nodes[:, :corners]]))
-                count += len(np.intersect1d(keys[: len(a.nodes)], keys[len(a.nodes) :]))
+    for a, b in product(first, second):
+        corners = CORNERS[a.kind]
+        if corners == CORNERS[b.kind]:
+            keys = corner_keys(a.kind, np.concatenate([a.nodes[:, :corners], b.nodes[:, :corners]]))
+            count += len(np.intersect1d(keys[: len(a.nodes)], keys[len(a.nodes) :]))
     return count
 
 
@@ -98,9 +98,8 @@ def shortest_edge(blocks: Sequence[Block], points: np.ndarray) -> float:
     shortest = float("inf")
     for block in blocks:
         corners = points[block.nodes[:, : CORNERS[block.kind]]]
-        for a in range(corners.shape[1]):
-            for b in range(a):
-                shortest = min(shortest, float(np.linalg.norm(corners[:, a] - corners[:, b], axis=1).min()))
+        for a, b in combinations(range(corners.shape[1]), 2):
+            shortest = min(shortest, float(np.linalg.norm(corners[:, a] - corners[:, b], axis=1).min()))
     return shortest
 
 
@@ -108,7 +107,7 @@ def doubled_words(points: np.ndarray, blocks: Sequence[Block]) -> str:
     """A warning about vertices that are nearer to each other than any edge of a cell is long: doubled, or left of an
     interface that does not fit. Empty where there are none."""
     edge = shortest_edge(blocks, points)
-    corners = np.unique(np.concatenate([b.nodes[:, : CORNERS[b.kind]].ravel() for b in blocks]))
+    corners = _vertices(blocks)
     if edge <= 0:
         return ""  # flat cells are the mesh check's
     try:

@@ -135,9 +135,8 @@ def read_by(reader: Callable[[VtkFile], Read], path: Path, contents: str, what: 
     try:
         return reader(VtkFile(path, contents))
     except DAMAGES as error:
-        raise InputError(
-            path, "", f"cannot be read: {error}", f"write the {what} anew as {EXTENSIONS[contents]}"
-        ) from None
+        remedy = f"write the {what} anew as {EXTENSIONS[contents]}"
+        raise InputError(path, "", f"cannot be read: {error}", remedy) from None
 
 
 def require_points(file: VtkFile, nodes: np.ndarray, count: int) -> None:

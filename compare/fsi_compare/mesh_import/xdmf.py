@@ -12,7 +12,7 @@ import numpy as np
 from ..base.errors import InputError
 from ..base.files import exists
 from .groups import corner_keys
-from .raw_mesh import KINDS, NODES, RawMesh
+from .raw_mesh import KINDS, NODES, Blocks, RawMesh
 
 # Names of topologies in lower case without underscores: meshio's kind.
 TOPOLOGIES = {"polyvertex": "vertex", "quadrilateral": "quad"} | {k: k for k in ("hexahedron", "wedge", "pyramid")}
@@ -54,7 +54,7 @@ class _Document:
         if not self.grids:
             raise InputError(self.path, "", "holds no grid", REMEDY)
         points: np.ndarray | None = None
-        blocks: list[tuple[str, np.ndarray]] = []
+        blocks: Blocks = []
         data: dict[str, list[tuple[int, np.ndarray, np.ndarray]]] = {}  # name -> block, places, values
         point_data: dict[str, np.ndarray] = {}
         for grid in self.grids:
@@ -216,7 +216,7 @@ class _Document:
         return file
 
 
-def _placed(blocks: list[tuple[str, np.ndarray]], kind: str, nodes: np.ndarray) -> tuple[int, np.ndarray]:
+def _placed(blocks: Blocks, kind: str, nodes: np.ndarray) -> tuple[int, np.ndarray]:
     """Places of these elements: in a block that has them all, in any order, as tags of cells do; else in an added
     block."""
     for i, (other, there) in enumerate(blocks):
@@ -231,9 +231,7 @@ def _placed(blocks: list[tuple[str, np.ndarray]], kind: str, nodes: np.ndarray) 
     return len(blocks) - 1, np.arange(len(nodes))
 
 
-def _spread(
-    blocks: list[tuple[str, np.ndarray]], entries: list[tuple[int, np.ndarray, np.ndarray]]
-) -> list[np.ndarray]:
+def _spread(blocks: Blocks, entries: list[tuple[int, np.ndarray, np.ndarray]]) -> list[np.ndarray]:
     """An array a block, NaN where nothing is said."""
     whole = [np.full(len(nodes), np.nan) for _, nodes in blocks]
     for block, at, values in entries:

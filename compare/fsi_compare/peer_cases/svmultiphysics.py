@@ -185,9 +185,8 @@ class _Reader:
             raise self.root.refuse(problem, "give one: FSI, fluid, struct, ustruct or lElas")
         equation = found[0]
         if equation.yes("Prestress", False):
-            remedy = (
-                "take it out, and give the case [prestress] pressure = ... (kPa), which finds the wall's load itself"
-            )
+            own = "[prestress] pressure = ... (kPa), which finds the wall's load itself"
+            remedy = f"take it out, and give the case {own}"
             raise equation.need("Prestress").refuse("computes a prestress, which ours finds in another way", remedy)
         if equation.all("Add_BF"):
             remedy = "take it out; of a wall's weight see structure.gravity"
@@ -198,19 +197,16 @@ class _Reader:
         thickness = entry.number("Shell_thickness", 0.0) * self.units.length
         young = entry.number("Elasticity_modulus", 0.0) * self.units.pressure
         nu = entry.number("Poisson_ratio", 0.5)
-        words = (
-            f"has a wall without thickness (coupled momentum; {thickness:g} mm, {young:g} kPa, Poisson's ratio {nu:g})"
-        )
+        wall = f"coupled momentum; {thickness:g} mm, {young:g} kPa, Poisson's ratio {nu:g}"
+        words = f"has a wall without thickness ({wall})"
         remedy = f"import the fluid by fsi-mesh import, give it a wall by fsi-mesh thicken, and that young = {young:g}"
         raise entry.refuse(words, remedy)
 
     def _mesh_motion(self, entry: Entry) -> None:
         ratio = entry.find("Poisson_ratio")
         entry.take_all()
-        words = (
-            "mesh_motion.method = stiffened: small cells deform least, as in its elastic mesh; openings move with the "
-        )
-        words += "ends of the wall that meet them, and not where these are clamped"
+        words = "mesh_motion.method = stiffened: small cells deform least, as in its elastic mesh; openings move with "
+        words += "the ends of the wall that meet them, and not where these are clamped"
         words += f" (Poisson_ratio {ratio.text})" if ratio else ""
         self._note(entry, words, what="Add_equation mesh")
 
@@ -345,9 +341,8 @@ class _Reader:
         if density <= 0:
             entry.positive("Density")
         if not 0.5 <= density <= 2:
-            words = (
-                f"a density of {density:g} mg/mm^3, water has 1: are the case's units {self.units.name}? see --units"
-            )
+            units = f"are the case's units {self.units.name}? see --units"
+            words = f"a density of {density:g} mg/mm^3, water has 1: {units}"
             self._note(entry.need("Density"), words, True, "Density")
         viscosity, notes = viscosity_of(entry, self.units)
         self.fluid = {"density": density, **viscosity}
@@ -423,9 +418,8 @@ class _Reader:
             # Of a velocity: the flow is its integral, of a parabola over a circle half of area and peak.
             share = 1.0 if profile == "Flat" else 0.5
             factor = -self.units.of(1, 0, -1) * face.area * share
-            words = (
-                f"a velocity (no Impose_flux): a flow_rate of it times {share:g} times the area, {face.area:.6g} mm^2"
-            )
+            flow = f"a flow_rate of it times {share:g} times the area, {face.area:.6g} mm^2"
+            words = f"a velocity (no Impose_flux): {flow}"
             self._note(entry, words, True)
         opening: dict[str, Any] = {"surface": face.name}
         if dependence == "Steady":

@@ -109,7 +109,7 @@ def layer_of(domain: Entry, equation: str, units: Units, fibre_angle: float | No
     if given not in LAWS:
         raise at.refuse(f"'{given}' is no constitutive model", f"there are {', '.join(LAWS)}")
     mu = young / (2 * (1 + nu))
-    bulk = _bulk_modulus(domain, equation, young, mu, nu, units, layer)
+    bulk = _bulk_modulus(domain, equation, young, nu, units, layer)
     MAKERS[LAWS[given]](Wall(at, mu, bulk, nu, units, fibre_angle), layer)
     if LAWS[given] == "neoHookean" and not domain.all("Penalty_parameter") and nu < 0.5:
         layer.constants |= {"young": young, "poisson": nu}
@@ -118,9 +118,7 @@ def layer_of(domain: Entry, equation: str, units: Units, fibre_angle: float | No
     return layer
 
 
-def _bulk_modulus(
-    domain: Entry, equation: str, young: float, mu: float, nu: float, units: Units, layer: Layer
-) -> float:
+def _bulk_modulus(domain: Entry, equation: str, young: float, nu: float, units: Units, layer: Layer) -> float:
     given = domain.find("Penalty_parameter")
     if given is not None:
         bulk = given.as_number() * units.pressure
@@ -132,7 +130,7 @@ def _bulk_modulus(
         return young / (3 * (1 - 2 * nu))
     if equation == "ustruct":
         layer.notes.append((domain, f"is incompressible: nearly so here, a bulk modulus of {NEARLY:g} mu", True))
-        return NEARLY * mu
+        return NEARLY * young / (2 * (1 + nu))
     return 0.0
 
 
@@ -156,10 +154,8 @@ def _saint_venant(wall: Wall, layer: Layer) -> None:
     lame = 2 * mu * nu / (1 - 2 * nu)
     layer.constants = {"material": "saint-venant-kirchhoff", "lame_lambda": lame + bulk, "lame_mu": mu}
     if bulk > 0:
-        words = (
-            f"svMultiPhysics adds a penalty of {bulk:.6g} kPa to stVK's own lambda of {lame:.6g}: lame_lambda is their "
-        )
-        words += "sum, the same at small strain; Penalty_parameter 0 there is the law itself"
+        words = f"svMultiPhysics adds a penalty of {bulk:.6g} kPa to stVK's own lambda of {lame:.6g}: lame_lambda is "
+        words += "their sum, the same at small strain; Penalty_parameter 0 there is the law itself"
         layer.notes.append((at, words, True))
 
 
@@ -193,10 +189,8 @@ def _penalty(domain: Entry, at: Entry, layer: Layer) -> None:
     short = SHORT_OF[PENALTIES[given]]
     if short and layer.constants["material"] != "saint-venant-kirchhoff":
         own = given if entry else f"{given}, its program's default"
-        words = (
-            f"{own}: K/2 (J - 1)^2 of the same bulk modulus here; their pressures differ by {short:g} % of themselves "
-        )
-        layer.notes.append((entry or at, words + "for each per cent that the volume changes", True))
+        words = f"{own}: K/2 (J - 1)^2 of the same bulk modulus here; their pressures differ by {short:g} % of "
+        layer.notes.append((entry or at, words + "themselves for each per cent that the volume changes", True))
 
 
 def _viscosity(domain: Entry, units: Units, layer: Layer) -> None:

@@ -28,7 +28,7 @@ def _said(bar: KeptBar) -> str:
     return f"{bar.verdict}: {bar.advice}" if bar.advice else bar.verdict
 
 
-def find_bars(runs: Sequence[RunResults]) -> "list[Verification | None]":
+def find_bars(runs: Sequence[RunResults]) -> list[Verification | None]:
     """The bars beside each run; None: no family is beside it. Raises InputError for a broken file."""
     return [find_verification(run.folder, run.summary) for run in runs]
 
@@ -40,7 +40,7 @@ def unknown(run: RunResults, label: str) -> str:
 
 
 def add_error_bars(
-    page: "Report", runs: Sequence[RunResults], labels: Sequence[str], found: "Sequence[Verification | None]"
+    page: "Report", runs: Sequence[RunResults], labels: Sequence[str], found: Sequence[Verification | None]
 ) -> None:
     page.section("Error bars")
     rows = [(label, bar) for label, of_run in zip(labels, found) if of_run is not None for bar in of_run.bars]

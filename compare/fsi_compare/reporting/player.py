@@ -60,11 +60,9 @@ class Player:
         """The data of the page's element, and notes on what was left out to keep the page small."""
         panels = [panel for panel in self.panels if panel.lines or panel.series]
         notes: list[str] = []
-        content = {
-            "times": short(self._times(panels)),
-            "runs": [{"name": name, **_style(i)} for i, name in enumerate(self.runs)],
-            "panels": [self._panel(panel, self._levels(panels), notes) for panel in panels],
-        }
+        runs = [{"name": name, **_style(i)} for i, name in enumerate(self.runs)]
+        shown = [self._panel(panel, self._levels(panels), notes) for panel in panels]
+        content = {"times": short(self._times(panels)), "runs": runs, "panels": shown}
         return {"content": content, "notes": list(dict.fromkeys(notes))}
 
     def _levels(self, panels: Sequence[Panel]) -> int:

@@ -86,14 +86,8 @@ def text(runs: Sequence[Run], comparison: Comparison) -> str:
 
 
 def _difference_row(name: str, d: Difference) -> str:
-    return (
-        f"  {name:>12}   {d.max_norm:>14.4e}   {_relative(d.max_relative):>8}   {d.l2_norm:>20.4e}   "
-        f"{_relative(d.l2_relative):>8}"
-    )
-
-
-def _relative(value: float | None) -> str:
-    return "n/a" if value is None else f"{value:.2e}"
+    of_max, of_l2 = ("n/a" if value is None else f"{value:.2e}" for value in (d.max_relative, d.l2_relative))
+    return f"  {name:>12}   {d.max_norm:>14.4e}   {of_max:>8}   {d.l2_norm:>20.4e}   {of_l2:>8}"
 
 
 # Of (run's label, time, place, pressure).
@@ -116,23 +110,19 @@ def write_json(path: Path, comparison: Comparison) -> None:
     """The printed numbers in full precision; null where the table says n/a."""
     runs = []
     for i, (label, made) in enumerate(zip(comparison.labels, comparison.conditions)):
+        peaks = zip(comparison.times, comparison.peaks[i])
         run: dict[str, Any] = {
             "run": label,
             "mesh": made.mesh or None,
             "step_ms": [made.smallest_step, made.largest_step],
             "end_ms": made.end,
             "speed_mm_per_ms": comparison.speeds[i],
-            "peaks": [
-                {"time_ms": time, "pressure_Pa": crest.pressure, "z_mm": crest.z}
-                for time, crest in zip(comparison.times, comparison.peaks[i])
-            ],
+            "peaks": [{"time_ms": time, "pressure_Pa": crest.pressure, "z_mm": crest.z} for time, crest in peaks],
         }
         if i > 0:
             over_time = comparison.over_time[i - 1]
-            run["differences"] = [
-                {"time_ms": time, **_named(difference)}
-                for time, difference in zip(comparison.times, comparison.at_times[i - 1])
-            ]
+            at_times = zip(comparison.times, comparison.at_times[i - 1])
+            run["differences"] = [{"time_ms": time, **_named(difference)} for time, difference in at_times]
             largest = _named(over_time.largest) if over_time.largest else {}
             run["largest_difference"] = {"common_levels": over_time.levels, **largest}
         runs.append(run)

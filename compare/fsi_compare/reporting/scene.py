@@ -132,6 +132,8 @@ class ReportScene:
     def _part(self, run: RunScene, part: Part) -> dict[str, Any]:
         prefix, first = f"{part.name}/", self.runs[0].fields
         fields = {name: values for name, values in run.fields.items() if name.startswith(prefix)}
+        if run.apart:
+            fields = {name: values - first[name] for name, values in fields.items()}
         return {
             "name": part.name,
             "group": part.group,
@@ -141,10 +143,7 @@ class ReportScene:
             "cells": packed_counts(part.surface.triangles),
             "nodes": packed_counts(part.surface.nodes),
             "between": part.group == "cut",
-            "fields": {
-                name.removeprefix(prefix): packed_numbers(values - first[name] if run.apart else values)
-                for name, values in fields.items()
-            },
+            "fields": {name.removeprefix(prefix): packed_numbers(values) for name, values in fields.items()},
         }
 
     def _quantities(self) -> list[dict[str, Any]]:

@@ -30,10 +30,9 @@ def _repeats(values: np.ndarray) -> int:
     span = float(np.ptp(values))
     if not span > 0 or float(np.ptp(values[len(values) // 2 :])) < 0.1 * span:
         return 0
+    near = SAME * span
     for lag in range(2, len(values) // 2 + 1):
-        if abs(values[-1] - values[-1 - lag]) <= SAME * span and np.all(
-            np.abs(values[lag:] - values[:-lag]) <= SAME * span
-        ):
+        if abs(values[-1] - values[-1 - lag]) <= near and np.all(np.abs(values[lag:] - values[:-lag]) <= near):
             return lag
     return 0
 

@@ -73,11 +73,8 @@ def identity(folder: Path, summary: Mapping[str, Any]) -> dict[str, str | None]:
     what is solved, not how: step, end and tolerances are not in it. Newton's and the coupling's iterates are the same
     from run to run; runs with as many of them in each step were stopped at the same ones, whatever their tolerances are
     called. Raises InputError for a broken table."""
-    return {
-        **{name: summary.get(name) for name in ("program", "version", "case_hash")},
-        "mesh_hash": summary.get("mesh", {}).get("hash"),
-        "steps_hash": _steps_hash(folder / ITERATIONS),
-    }
+    found = {name: summary.get(name) for name in ("program", "version", "case_hash")}
+    return found | {"mesh_hash": summary.get("mesh", {}).get("hash"), "steps_hash": _steps_hash(folder / ITERATIONS)}
 
 
 def _steps_hash(table: Path) -> str | None:

@@ -55,9 +55,8 @@ def read_waves(path: Path, column: str) -> Waves:
 def averaged(waves: Waves, times: Sequence[float], window: float = WINDOW) -> Waves:
     """Mean over [t - window/2, t + window/2] of the waves, linear between levels; NaN where they do not cover that."""
     widths = np.diff(waves.times)[:, None]
-    integral = np.concatenate(
-        [np.zeros((1, len(waves.z))), np.cumsum(0.5 * widths * (waves.values[1:] + waves.values[:-1]), axis=0)]
-    )
+    sums = np.cumsum(0.5 * widths * (waves.values[1:] + waves.values[:-1]), axis=0)
+    integral = np.concatenate([np.zeros((1, len(waves.z))), sums])
 
     def until(time: float) -> np.ndarray:
         """Integral from the first level."""

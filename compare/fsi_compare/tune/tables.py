@@ -84,11 +84,10 @@ VESSEL: Sequence[Column[tuple[Beat, str]]] = (
 
 
 def tables_of(demand: Demand, outcome: Outcome) -> list[Table]:
-    found = [
-        Found(beat.number, target, float(beat.got[i]), None if beat.foreseen is None else float(beat.foreseen[i]))
-        for beat in outcome.beats
-        for i, target in enumerate(demand.targets)
-    ]
+    found = []
+    for beat in outcome.beats:
+        foreseen = [None] * len(demand.targets) if beat.foreseen is None else map(float, beat.foreseen)
+        found += [Found(beat.number, *one) for one in zip(demand.targets, map(float, beat.got), foreseen)]
     values = [Value(beat, name, law) for beat in outcome.beats for name, law in beat.values.items()]
     vessels = [(beat, name) for beat in outcome.beats for name in beat.vessel.resistance]
     return [
@@ -104,6 +103,7 @@ def write_results(
     tables = tables_of(demand, outcome)
     written = write_tables(folder, tables, "tune.md", f"Tuning of {printable(scene.path.stem)}")
     last = outcome.beats[-1]
+    begins = {name: one.begin for name, one in last.repeats.items()}
     said: dict[str, Any] = {
         "case": str(absolute(scene.path)),
         "program": program,
@@ -112,17 +112,9 @@ def write_results(
         "tolerance": demand.tolerance,
         "reached": outcome.reached,
         "notes": outcome.lines,
-        "targets": [
-            {"opening": t.opening, "quantity": t.kind, "unit": t.unit, "asked": t.value, "found": float(got)}
-            for t, got in zip(demand.targets, last.got)
-        ],
-        "windkessels": {
-            name: {**law.values, "initial_pressure": last.repeats[name].begin} for name, law in last.values.items()
-        },
-        "beats": [
-            {"beat": one.number, "seconds": one.seconds, "distance_from_periodic": one.period_share}
-            for one in outcome.beats
-        ],
+        "targets": [{**target.about, "found": float(got)} for target, got in zip(demand.targets, last.got)],
+        "windkessels": {n: {**law.values, "initial_pressure": begins[n]} for n, law in last.values.items()},
+        "beats": [one.about for one in outcome.beats],
     }
     path = folder / "tune.json"
     with replacing(path) as temporary:

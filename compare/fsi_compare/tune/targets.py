@@ -33,6 +33,10 @@ class Target:
         return {SPLIT: "1", FLOW: "mm^3/ms"}.get(self.kind, "kPa")
 
     @property
+    def about(self) -> dict[str, Any]:
+        return {"opening": self.opening, "quantity": self.kind, "unit": self.unit, "asked": self.value}
+
+    @property
     def is_pressure(self) -> bool:
         return self.kind in PRESSURES
 

@@ -44,6 +44,10 @@ class Beat:
     period_share: float  # distance from the periodic state over the largest pressure of the beat
     seconds: float
 
+    @property
+    def about(self) -> dict[str, float]:
+        return {"beat": self.number, "seconds": self.seconds, "distance_from_periodic": self.period_share}
+
     def differences(self, targets: Sequence[Target]) -> np.ndarray:
         """Relative, (targets,)."""
         asked = np.array([target.value for target in targets])

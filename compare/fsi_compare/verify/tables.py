@@ -101,11 +101,8 @@ def in_short(judged: Sequence[Judged], families: Sequence[FamilyRuns]) -> list[s
 
 def write_json(folder: Path, about: dict[str, Any], sets: Sequence[BarsOfRun], families: Sequence[FamilyRuns]) -> Path:
     """`verification.json`: about the case, all bars with what tells the run that they are of, all members."""
-    data = {
-        **about,
-        "sets": [_set(one) for one in sets],
-        "members": [dict(_fields(MEMBERS, row)) for row in members_table(families).records],
-    }
+    members = [dict(_fields(MEMBERS, row)) for row in members_table(families).records]
+    data = {**about, "sets": [_set(one) for one in sets], "members": members}
     with replacing(folder / FILE) as temporary:
         temporary.write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     return folder / FILE
@@ -113,12 +110,8 @@ def write_json(folder: Path, about: dict[str, Any], sets: Sequence[BarsOfRun], f
 
 def _set(bars: BarsOfRun) -> dict[str, Any]:
     quantities = [{**dict(_fields(BARS, one)), "values": [vars(value) for value in one.values]} for one in bars.judged]
-    return {
-        "driver": bars.driver,
-        "folder": bars.run.folder.name,
-        "run": identity(bars.run.folder, bars.run.summary),
-        "quantities": quantities,
-    }
+    run = identity(bars.run.folder, bars.run.summary)
+    return {"driver": bars.driver, "folder": bars.run.folder.name, "run": run, "quantities": quantities}
 
 
 def _fields(columns: Sequence[Column[Any]], record: Any) -> list[tuple[str, Any]]:
