@@ -120,5 +120,4 @@ def add_usual(command: argparse.ArgumentParser, version: str, threads: str) -> N
 
 def add_drivers(command: argparse.ArgumentParser) -> None:
     for name in ("monolithic", "partitioned"):
-        text = f"fsi-{name} (default: beside this program)"
-        command.add_argument(f"--{name}", metavar="PATH", type=Path, help=text)
+        command.add_argument(f"--{name}", metavar="PATH", type=Path, help=f"fsi-{name} (default: beside this program)")

@@ -107,8 +107,7 @@ def _covered(corners: np.ndarray, size: tuple[int, int]) -> tuple[np.ndarray, np
     right = np.clip(np.floor(np.where(np.isfinite(first), last, 0.0) - 0.5) + 1, 0, size[0]).astype(int)
     line, column = _enumerated(left, right)
     row, triangle = row[line], triangle[line]
-    weights = _weights(corners[:, :, :2], triangle, column + 0.5, row + 0.5)
-    return row * size[0] + column, weights, triangle
+    return row * size[0] + column, _weights(corners[:, :, :2], triangle, column + 0.5, row + 0.5), triangle
 
 
 def _enumerated(first: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -74,8 +74,7 @@ def _make_mesh(scene: Scene, place: Path, mesh_maker: Path, quick: bool) -> Path
     words = scene.mesh_words(quick)
     if not words:
         raise InputError(scene.folder / "scene.py", "MESH", "is empty", "give the words of an fsi-mesh command")
-    source = f"{scene.folder / 'scene.py'}: MESH"
-    end = make_mesh(with_places(words, scene.folder), mesh, mesh_maker, source)
+    end = make_mesh(with_places(words, scene.folder), mesh, mesh_maker, f"{scene.folder / 'scene.py'}: MESH")
     if end.code:
         raise ProgramError(scene.folder / "scene.py", "MESH", end.message, "mend the scene's mesh")
     return mesh

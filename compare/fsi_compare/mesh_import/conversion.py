@@ -66,9 +66,7 @@ def write_gmsh(out: TextIO, mesh: FoundMesh, groups: list[Group]) -> None:
     used = np.unique(np.concatenate([block.nodes.ravel() for group in groups for block in group.parts]))
     number = np.zeros(len(mesh.points), dtype=np.int64)
     number[used] = np.arange(1, len(used) + 1)
-    names: dict = {}
-    for group in groups:
-        names.setdefault((group.dimension, group.name), len(names) + 1)
+    names = {key: i for i, key in enumerate(dict.fromkeys((group.dimension, group.name) for group in groups), 1)}
     out.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(names)}\n")
     for (dimension, name), tag in names.items():
         out.write(f'{dimension} {tag} "{name}"\n')

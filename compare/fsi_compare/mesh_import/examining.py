@@ -23,8 +23,7 @@ def examined(file: str, mesh: FoundMesh, scale: float, groups: Sequence[tuple[st
     if scale == 1 and (words := unit_words(longest)):
         lines.append(f"warning: {words}; {command} with it mends that")
     few = len(volumes) <= MOST_VOLUMES
-    found = contacts(mesh.points, volumes, mesh.dimension, distances=few)
-    lines += _contact_lines(command, volumes, found, few)
+    lines += _contact_lines(command, volumes, contacts(mesh.points, volumes, mesh.dimension, distances=few), few)
     doubled = doubled_words(mesh.points, [block for blocks in volumes.values() for block in blocks])
     lines += [f"warning: {doubled}: {command}"] if doubled else []
     return lines + ([f"options:{options}"] if options else [])

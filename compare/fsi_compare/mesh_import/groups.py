@@ -119,8 +119,7 @@ def boundary_of(blocks: Sequence[Block], dimension: int) -> list[Block]:
     """Sides of one cell only."""
     found = []
     for block in sides_of(blocks, dimension):
-        keys = corner_keys(block.kind, block.nodes)
-        _, first, uses = np.unique(keys, return_index=True, return_counts=True)
+        _, first, uses = np.unique(corner_keys(block.kind, block.nodes), return_index=True, return_counts=True)
         found.append(Block(block.kind, block.nodes[np.sort(first[uses == 1])]))
     return found
 

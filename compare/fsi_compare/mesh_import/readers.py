@@ -60,8 +60,7 @@ def _way_into(folder: Path) -> str:
     cells = sorted(folder.glob("*.mesh.vtu")) or sorted(folder.glob("*.vtu"))
     if len(cells) != 1:
         return "give the files in it: fluid=LUMEN.vtu, wall=WALL.vtu and NAME=FACE.vtp for each face"
-    faces = sorted(folder.glob("mesh-surfaces/*.vtp"))
-    ends = [face for face in faces if not face.stem.lower().startswith("wall")]
+    ends = [face for face in sorted(folder.glob("mesh-surfaces/*.vtp")) if not face.stem.lower().startswith("wall")]
     words = [f"fluid={cells[0]}"] + [f"{face.stem}={face}" for face in ends]
     return f"give the files in it: fsi-mesh import {' '.join(map(shlex.quote, words))} -o {folder.name}.msh"
 

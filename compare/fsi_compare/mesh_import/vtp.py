@@ -54,8 +54,7 @@ def _read_faces(file: VtkFile) -> RawMesh:
     passed_over: dict[str, None] = {}
     first = 0
     for piece, there in pieces(file):
-        others = [int(piece.get(f"NumberOf{kind}") or 0) for kind in ("Verts", "Lines", "Strips")]
-        if any(others):
+        if any(int(piece.get(f"NumberOf{kind}") or 0) for kind in ("Verts", "Lines", "Strips")):
             raise InputError(file.path, "", "holds vertices, lines or strips", "write its surface as triangles")
         points.append(there)
         arrays = {a.get("Name"): a for a in piece.findall("Polys/DataArray")}

@@ -36,8 +36,7 @@ def _read(file: VtkFile) -> RawMesh:
         for name, values in scalars_of(file, piece, "PointData", len(there), passed_over).items():
             point_data.setdefault(name, []).append(values)
         cells = _cells(file, piece)
-        count = sum(len(which) for _, which, _ in cells)
-        fields = scalars_of(file, piece, "CellData", count, passed_over)
+        fields = scalars_of(file, piece, "CellData", sum(len(which) for _, which, _ in cells), passed_over)
         for kind, which, nodes in cells:
             require_points(file, nodes, len(there))
             blocks.setdefault(kind, []).append(nodes + first)

@@ -203,8 +203,7 @@ class _Document:
         import h5py  # takes a while to load
 
         name, _, inside = text.rpartition(":")
-        file = self._beside(name)
-        with h5py.File(file, "r") as opened:
+        with h5py.File(self._beside(name), "r") as opened:
             if inside not in opened:
                 raise InputError(self.path, "DataItem", f"asks {name} for {inside}, which is not there", REMEDY)
             return np.asarray(opened[inside])

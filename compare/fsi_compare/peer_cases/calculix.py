@@ -21,10 +21,8 @@ class Deck:
 
 def deck_beside(folder: Path) -> Path | None:
     """The only .inp in the folder or one below it that has a material; None where there are none or several."""
-    found = []
-    for path in sorted([*folder.glob("*.inp"), *folder.glob("*/*.inp")]):
-        if path.is_file() and path.stat().st_size <= LARGEST and "*MATERIAL" in path.read_text("latin-1").upper():
-            found.append(path)
+    small = [p for p in [*folder.glob("*.inp"), *folder.glob("*/*.inp")] if p.is_file() and p.stat().st_size <= LARGEST]
+    found = [path for path in small if "*MATERIAL" in path.read_text("latin-1").upper()]
     return found[0] if len(found) == 1 else None
 
 
@@ -55,8 +53,7 @@ def read_deck(path: Path) -> Deck:
 
 def _cards(path: Path) -> list[Card]:
     cards: list[Card] = []
-    text = read_text(path, "give the deck", "write the deck as text", LARGEST)
-    for number, line in enumerate(text.splitlines(), 1):
+    for number, line in enumerate(read_text(path, "give the deck", "write the deck as text", LARGEST).splitlines(), 1):
         line = line.strip()
         if line.startswith("**") or not line:
             continue

@@ -74,8 +74,7 @@ def read_case_mesh(
     groups = choose_groups(file, mesh, [(source.name, source.name) for source in sources])
     volumes = {name: [g for g in groups if g.name == name and g.dimension == 3] for name in media}
     for source in sources:
-        found = [g.dimension for g in groups if g.name == source.name]
-        if found != [3 if source.name in media else 2]:
+        if [g.dimension for g in groups if g.name == source.name] != [3 if source.name in media else 2]:
             raise InputError(source.path, "", "holds cells and faces at once", "give a file for each")
     require_sides(file, mesh, groups, sources)
     turned = turn(mesh, groups)

@@ -18,8 +18,7 @@ def read_case(root: Entry, units: Units, fibre_angle: float | None = None, toler
     participants = [entry.attribute("name") for entry in root.every() if entry.name == "participant"]
     if participants:
         said.append(f"it couples {' and '.join(participants)}")
-    schemes = [entry for entry in root.every() if entry.name.startswith("coupling-scheme:")]
-    for scheme in schemes[:1]:
+    for scheme in [entry for entry in root.every() if entry.name.startswith("coupling-scheme:")][:1]:
         for name, key in (("time-window-size", "time.step"), ("max-time", "time.end")):
             found = scheme.find(name)
             if found is not None:

@@ -39,8 +39,7 @@ REFUSED = {
 INSTEAD = {
     "LS": "linear solvers are chosen by the drivers, see [linear]",
     "Coupled": "fluid, wall and mesh are always coupled within a step",
-    "Min_iterations": "iterations end by the drivers' tolerances",
-    "Max_iterations": "iterations end by the drivers' tolerances",
+    **dict.fromkeys(("Min_iterations", "Max_iterations"), "iterations end by the drivers' tolerances"),
     "Tolerance": "the drivers' own, newton.error_tolerance",
     "Output": "fields are named by output.fields",
     "Zero_out_perimeter": "the rim of an opening sticks to the wall",
@@ -251,8 +250,7 @@ class _Reader:
                     raise entry.refuse(f"is of the domain {number:g}, which no equation has", f"there are {known}")
             if any(medium.given == given for medium in media):
                 raise entry.refuse("is there twice", "give each mesh a name of its own")
-            own = domains[int(number)][1]
-            media.append(Medium(entry, given, int(number), "fluid" if own == "fluid" else "wall"))
+            media.append(Medium(entry, given, int(number), "fluid" if domains[int(number)][1] == "fluid" else "wall"))
         if not media:
             raise self.root.refuse("has no Add_mesh", "give one")
         fluids = [medium for medium in media if medium.kind == "fluid"]
@@ -394,8 +392,7 @@ class _Reader:
         elif given in ("Neu", "Neumann"):
             self._given_pressure(face, entry)
         else:
-            problem = f"Type '{given}' of a face of the fluid has no counterpart"
-            raise entry.refuse(problem, "there are Dir and Neu")
+            raise entry.refuse(f"Type '{given}' of a face of the fluid has no counterpart", "there are Dir and Neu")
 
     def _given_velocity(self, face: Face, entry: Entry) -> None:
         dependence = entry.word("Time_dependence", "Steady")
@@ -419,8 +416,7 @@ class _Reader:
             share = 1.0 if profile == "Flat" else 0.5
             factor = -self.units.of(1, 0, -1) * face.area * share
             flow = f"a flow_rate of it times {share:g} times the area, {face.area:.6g} mm^2"
-            words = f"a velocity (no Impose_flux): {flow}"
-            self._note(entry, words, True)
+            self._note(entry, f"a velocity (no Impose_flux): {flow}", True)
         opening: dict[str, Any] = {"surface": face.name}
         if dependence == "Steady":
             opening["flow_rate"] = factor * value
@@ -512,8 +508,7 @@ class _Reader:
         if (file := entry.find("Spatial_values_file_path")) is not None:
             raise file.refuse("varies over the face", "give one value")
         if given in ("Dir", "Dirichlet"):
-            value = entry.number("Value", 0.0)
-            if dependence != "Steady" or value:
+            if dependence != "Steady" or entry.number("Value", 0.0):
                 raise entry.refuse("moves a face of the wall", "give a load or a support: Value 0, Neu or Robin")
             direction = self._direction(entry)
             fixed = [axis for axis, part in zip("xyz", direction) if part] if any(direction) else list("xyz")

@@ -66,9 +66,7 @@ class Entry:
         """The number in the entry of this name. Raises InputError where it is missing without a default, or not
         finite."""
         found = self.find(name)
-        if found is None and default is not None:
-            return default
-        return (found or self.need(name)).as_number()
+        return default if found is None and default is not None else (found or self.need(name)).as_number()
 
     def as_number(self) -> float:
         self.taken = True

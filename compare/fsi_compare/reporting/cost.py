@@ -93,8 +93,7 @@ def read_cost(folder: Path, label: str) -> Cost:
     program = PROGRAMS[summary["program"]]
     iterations = read_iterations(folder, ("outer_iterations", "newton_iterations", "linear_iterations", "wall_s"))
     coupled = program == "partitioned" and exists(folder / COUPLING)
-    residuals = ("displacement_residual", "force_residual")
-    coupling = read_columns(folder / COUPLING, residuals) if coupled else None
+    coupling = read_columns(folder / COUPLING, ("displacement_residual", "force_residual")) if coupled else None
     outer = iterations["outer_iterations"].tolist()
     phases = summary.get("phases", {})
     mesh = summary.get("mesh", {})

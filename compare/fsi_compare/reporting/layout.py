@@ -103,9 +103,7 @@ class Table:
 
 def _field(cell: Any) -> Any:
     """A field of a CSV, empty for what is no number."""
-    if not isinstance(cell, float):
-        return cell
-    return repr(float(cell)) if math.isfinite(cell) else None
+    return cell if not isinstance(cell, float) else repr(float(cell)) if math.isfinite(cell) else None
 
 
 def write_tables(folder: Path, tables: Sequence[Table], markdown: str, heading: str) -> list[Path]:

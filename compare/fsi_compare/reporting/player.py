@@ -72,8 +72,7 @@ class Player:
 
     def _times(self, panels: Sequence[Panel]) -> np.ndarray:
         """Where the slider stops: the times of all curves, or equally spaced ones where they are too many."""
-        levels = self._levels(panels)
-        found = [line.times[thinned(len(line.times), levels)] for panel in panels for line in panel.lines]
+        found = [line.times[thinned(len(line.times), self._levels(panels))] for panel in panels for line in panel.lines]
         found = found or [one.times for panel in panels for one in panel.series]
         # Times of two runs are written with different round-off.
         times = np.unique(np.round(np.concatenate([np.atleast_1d(t) for t in found] or [np.zeros(1)]), 9))

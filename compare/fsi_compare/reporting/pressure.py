@@ -34,8 +34,7 @@ examples:
 
 
 def add_parser(commands: Commands, version: str) -> None:
-    help = "pressure waves along the centre line"
-    command = add_command(commands, "pressure", pressure, help, DESCRIPTION, EXAMPLES)
+    command = add_command(commands, "pressure", pressure, "pressure waves along the centre line", DESCRIPTION, EXAMPLES)
     add_folders(command)
     add_output(command, "results/compare")
     add_times(command, PAPER_TIMES)

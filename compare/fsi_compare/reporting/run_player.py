@@ -128,10 +128,7 @@ def place_panel(runs: Sequence[RunResults], kind: str, name: str, column: str) -
 
 def names_of(runs: Sequence[RunResults], kind: str) -> list[str]:
     """Names of the lines, openings, points or planes of all runs, in the order in which they come."""
-    names: dict[str, None] = {}
-    for run in runs:
-        names.update(dict.fromkeys(getattr(run, kind)))
-    return list(names)
+    return list(dict.fromkeys(name for run in runs for name in getattr(run, kind)))
 
 
 def picture_times(lines: Sequence[MovingLine]) -> list[float]:

@@ -46,15 +46,13 @@ example:
 
 
 def add_parser(commands: Commands, version: str) -> None:
-    help = "finished runs in one HTML file that plays"
-    command = add_command(commands, "report", report, help, DESCRIPTION, EXAMPLE)
+    command = add_command(commands, "report", report, "finished runs in one HTML file that plays", DESCRIPTION, EXAMPLE)
     add_folders(command)
     add_output(command, "results/report")
     command.add_argument("--times", metavar="T,T,...", help="times of the pictures in ms (default: six over the runs)")
     add_labels(command, "their folders'")
     command.add_argument("--title", help="heading of the report (default: the runs' title)")
-    text = "times at which the vessel is shown (default: up to 100, fewer of large meshes)"
-    add_count(command, "--frames", text)
+    add_count(command, "--frames", "times at which the vessel is shown (default: up to 100, fewer of large meshes)")
     add_usual(command, version, "accepted as by all programs; a report is quick on one thread")
 
 
@@ -141,8 +139,7 @@ RUNS: Sequence[Column[tuple[str, RunResults]]] = (
 
 
 def runs_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
-    notes = notes_on_work([run.summary for run in runs])
-    return Table("runs", "Runs", RUNS, list(zip(labels, runs)), notes=notes)
+    return Table("runs", "Runs", RUNS, list(zip(labels, runs)), notes=notes_on_work([run.summary for run in runs]))
 
 
 def named(run: RunResults, entry: str) -> str:

@@ -103,14 +103,12 @@ class Scene:
 
     def shown(self, key: str, cut: bool) -> list[Part]:
         """The section in two dimensions; else the surfaces that have the quantity, or what a cut leaves of them."""
-        quantity = self.quantities[key]
-        fields = {name: q.field for name, q in quantity.items()}
+        fields = {name: q.field for name, q in self.quantities[key].items()}
         has = [part for part in self.parts if part.shows(fields.get(part.surface.medium.name, ""))]
         if self.meshes.flat:
             return self.parts
         if cut:
-            groups = {"cut", "lumen", "openings", "wall"}
-            return [part for part in self.parts if part.group in groups]
+            return [part for part in self.parts if part.group in {"cut", "lumen", "openings", "wall"}]
         solid = [part for part in has if part.group != "cut"]
         of_fluid_alone = "fluid" in fields and "wall" not in fields
         return [part for part in solid if not (part.group == "wall" and of_fluid_alone)]

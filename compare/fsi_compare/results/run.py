@@ -125,9 +125,7 @@ class RunResults:
     @cached_property
     def lines(self) -> dict[str, Line]:
         """Lines that the case asks for, by name; empty for none."""
-        if LINES not in self.tables:
-            return {}
-        return lines_of(self.folder / LINES, finished=self.status == "done")
+        return lines_of(self.folder / LINES, finished=self.status == "done") if LINES in self.tables else {}
 
     @cached_property
     def points(self) -> dict[str, Table]:

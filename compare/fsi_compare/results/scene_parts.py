@@ -36,8 +36,7 @@ class CutPlane:
 
 
 def parts_of(meshes: Surfaces, plane: CutPlane | None) -> list[Part]:
-    names = meshes.names
-    found = [Part(name, group, meshes.get(name)) for name, group in GROUPS[meshes.flat] if name in names]
+    found = [Part(name, group, meshes.get(name)) for name, group in GROUPS[meshes.flat] if name in meshes.names]
     if plane is not None and not meshes.flat:
         cuts = [(medium, meshes.cut(medium, plane.origin, plane.normal)) for medium in meshes.media]
         found += [Part(f"{medium} cut", "cut", cut) for medium, cut in cuts if len(cut.triangles)]

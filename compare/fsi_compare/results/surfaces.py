@@ -199,8 +199,7 @@ class Surfaces:
         places = dict(zip(self._fields, np.split(numbers, np.cumsum([len(each) for each in points])[:-1])))
         keys = [np.sort(places[name][whole.faces], axis=1) for name, whole in self._wholes.items()]
         of, counts = np.unique(np.concatenate(keys), axis=0, return_inverse=True, return_counts=True)[1:]
-        shared = np.split(counts[of] == 2, np.cumsum([len(each) for each in keys])[:-1])
-        return dict(zip(self._fields, shared))
+        return dict(zip(self._fields, np.split(counts[of] == 2, np.cumsum([len(each) for each in keys])[:-1])))
 
 
 def made(name: str, medium: MediumFields, parts: np.ndarray) -> Surface:

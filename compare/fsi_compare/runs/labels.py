@@ -27,9 +27,7 @@ def read_labels(text: str | None, runs: int) -> list[str] | None:
 def title_of(asked: str | None, titles: Iterable[str], otherwise: str) -> str:
     """The heading that is asked for, else the runs' own where they have one title, else another."""
     own = set(titles)
-    if asked is not None:
-        return printable(asked)
-    return own.pop() if len(own) == 1 and "" not in own else otherwise
+    return printable(asked) if asked is not None else own.pop() if len(own) == 1 and "" not in own else otherwise
 
 
 def default_labels(runs: Sequence[Run]) -> list:

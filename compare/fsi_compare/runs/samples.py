@@ -67,8 +67,7 @@ def _by_level(path: Path, name: str, columns: dict[str, np.ndarray], finished: b
 def requested_line(path: Path) -> str | None:
     """The line of `lines.csv` along which a vessel's pressure is read: the centre line that was found, else the first
     that the case asks for with a pressure all along it. None where no line has one. Raises InputError."""
-    lines = read_samples(path)
-    for name, line in sorted(lines.items(), key=lambda entry: entry[0] != CENTRE_LINE):
+    for name, line in sorted(read_samples(path).items(), key=lambda entry: entry[0] != CENTRE_LINE):
         pressure = line.values.get("pressure_Pa")
         if pressure is not None and len(line.places.get("s_mm", ())) > 1 and not np.isnan(pressure).any():
             return name

@@ -27,9 +27,7 @@ def per_step(summary: Summary) -> float | None:
 def in_all(summary: Summary) -> float | None:
     """Work units of all steps together; None as in per_step()."""
     each, steps = per_step(summary), summary.get("totals", {}).get("steps")
-    if each is None or steps is None:
-        return None
-    return each * (steps - summary.get("restarted_from_step", 0))
+    return None if each is None or steps is None else each * (steps - summary.get("restarted_from_step", 0))
 
 
 def shown(work: float | None) -> str:
@@ -67,6 +65,4 @@ def _build(summary: Summary) -> str:
     """Name of the build; empty where the summary does not tell."""
     build = summary.get("build", {})
     words = [build.get("compiler", ""), build.get("instruction_set", "")]
-    if not any(words):
-        return ""
-    return printable(" ".join([summary.get("version", ""), *words]).strip())
+    return printable(" ".join([summary.get("version", ""), *words]).strip()) if any(words) else ""

@@ -71,8 +71,7 @@ def need_mesh_maker(driver: Program) -> Path:
 
 
 def no_mesh_maker() -> InputError:
-    remedy = "build it with cmake --build --preset release"
-    return InputError("fsi-mesh", "", "is not beside the drivers", remedy)
+    return InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
 
 
 def find_beside(program: Program, name: str) -> Path | None:

@@ -179,8 +179,7 @@ class Runner:
         make_folder(path.parent)
         unfinished = path.with_name(f".{path.stem}{TEMPORARY}.msh")
         place = f"{self.study.path}: meshes.{mesh.name}"
-        words = [mesh.command, *mesh.options]
-        end = make_mesh(words, unfinished, self.mesh_maker, place, path.parent / PARTS)
+        end = make_mesh([mesh.command, *mesh.options], unfinished, self.mesh_maker, place, path.parent / PARTS)
         if end.code:
             raise ProgramError(self.study.path, f"meshes.{mesh.name}", end.message, "change its options")
         os.replace(unfinished, path)

@@ -28,18 +28,8 @@ LONGEST_NAME = 200  # characters of a key
 MOST_RUNS = 100_000
 FILE_NAME = re.compile(r"[^/.][^/]{0,59}")
 
-TOP_KEYS: tuple[str, ...] = (
-    "title",
-    "kind",
-    "threads",
-    "processes",
-    "jobs",
-    "time_limit",
-    "repeats",
-    "repeat_below",
-    "set",
-)
-TOP_KEYS += ("cases", "methods", "meshes", "runs", "report")
+TOP_KEYS = ("title", "kind", "threads", "processes", "jobs", "time_limit", "repeats", "repeat_below", "set")
+TOP_TABLES = ("cases", "methods", "meshes", "runs", "report")
 METHOD_KEYS = ("program", "label", "set")
 CASE_KEYS = ("file", "scene", "set")
 MESH_KEYS = ("options", "label")
@@ -80,8 +70,7 @@ class Request:
     @property
     def label(self) -> str:
         values = [f"{short_name(key)} {show(value)}" for key, value in self.values.items()]
-        parts = [self.case, self.method.name, *values]
-        return ", ".join(part for part in parts if part)
+        return ", ".join(part for part in [self.case, self.method.name, *values] if part)
 
 
 @dataclass(frozen=True)
@@ -185,7 +174,7 @@ class _Reader:
         return InputError(self.path, key, problem, remedy)
 
     def study(self, data: dict[str, Any], kinds: Sequence[str]) -> Study:
-        top = self.section("", data, TOP_KEYS)
+        top = self.section("", data, (*TOP_KEYS, *TOP_TABLES))
         kind = top.text("kind")
         if kind not in kinds and kind in source_tree.KINDS:
             raise source_tree.refusal(self.path, "kind", f"the kind '{kind}'")
@@ -303,7 +292,7 @@ class _Reader:
             requests.append(Request(name, case, method, values, file, mesh, merged, limit, processes))
         return requests
 
-    def axis(self, key: str, quantity: str, values: Any, meshes: Mapping[str, StudyMesh]) -> "list[tuple[str, _Value]]":
+    def axis(self, key: str, quantity: str, values: Any, meshes: Mapping[str, StudyMesh]) -> list[tuple[str, _Value]]:
         """The quantity with each of its values, or with those that "cores" stands for."""
         if quantity == PROCESSES and values == CORES:
             most = usable_cores()
@@ -351,8 +340,7 @@ class _Reader:
         given = group.get(name, list(known))
         if not isinstance(given, list):
             raise self.wrong(f"{section}.{name}", "is not a list of names", "write [a, b, ...]")
-        chosen = [self.one_of(f"{section}.{name}", entry, known) for entry in given]
-        return list(dict.fromkeys(chosen))
+        return list(dict.fromkeys([self.one_of(f"{section}.{name}", entry, known) for entry in given]))
 
     def scalar(self, key: str, value: Any) -> None:
         if not isinstance(value, (str, int, float)) or (isinstance(value, int) and abs(value) > LARGEST_NUMBER):

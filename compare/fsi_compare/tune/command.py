@@ -103,8 +103,7 @@ def run(options: argparse.Namespace) -> int:
         if scene.elastic and "prestress" not in scene.entries:
             words = "under a pressure like the one asked for it is thrown outwards first"
             say_warning(f"the wall has no [prestress]: {words}")
-        outcome = tune(scene, demand, beats.run, say)
-        return _write(options, scene, demand, outcome, beats)
+        return _write(options, scene, demand, tune(scene, demand, beats.run, say), beats)
 
 
 def decided(scene: Scene, demand: Demand) -> list[str]:

@@ -70,10 +70,9 @@ class Unknowns:
     def values(self, unknowns: np.ndarray) -> dict[str, Windkessel]:
         factors = np.exp(unknowns)
         case = self.model.case
-        if self.each:
-            whole = dict(zip(self.names, factors))
-        else:
-            whole = {name: factors[0] * case[name].resistance for name in self.names}
+        whole = (
+            dict(zip(self.names, factors)) if self.each else {n: factors[0] * case[n].resistance for n in self.names}
+        )
         if not self.pulse:
             return {n: self.rule.law(law, whole[n], law.compliance) for n, law in case.items()}
         laws = {n: self.rule.law(law, whole[n], 1.0) for n, law in case.items()}

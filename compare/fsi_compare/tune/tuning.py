@@ -119,8 +119,7 @@ def tune(scene: Scene, demand: Demand, run_beat: RunBeat, tell: Callable[[str], 
         stored = model.state(values).stored
         starts = {n: float(f"{float(stored[n][0]) + offset[n]:.{DIGITS}g}") for n in values}
         settings = settings_of(scene, values, starts)
-    cut = cut_off(ran.curves, demand.targets, scene.period)
-    outcome.lines += [*_missed(outcome.beats[-1], demand), *cut, *limits]
+    outcome.lines += [*_missed(outcome.beats[-1], demand), *cut_off(ran.curves, demand.targets, scene.period), *limits]
     return outcome
 
 
@@ -158,8 +157,7 @@ def _beat(
     repeats = repetitions(curves, values, starts, period)
     largest = max(float(np.abs(pressure).max()) for pressure in late.pressure.values())
     away = max(one.distance for one in repeats.values()) / largest
-    vessel = fitted_vessel(late, scene.elastic)
-    return Beat(number, values, starts, got, foreseen, repeats, vessel, away, ran.seconds)
+    return Beat(number, values, starts, got, foreseen, repeats, fitted_vessel(late, scene.elastic), away, ran.seconds)
 
 
 def _words(beat: Beat, demand: Demand) -> str:

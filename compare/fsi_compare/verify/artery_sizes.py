@@ -80,10 +80,7 @@ def with_numbers(words: list[str], mesh_maker: Path) -> list[str]:
 def artery_words(words: Sequence[str], factor: float) -> list[str]:
     """Counts times the factor, sizes by it."""
     options = options_of(words)
-    changed: dict[str, str] = {}
-    for name in CELLS:
-        if name in options:
-            changed[name] = str(max(1, round(float(options[name]) * factor)))
+    changed = {n: str(max(1, round(float(options[n]) * factor))) for n in CELLS if n in options}
     for name in SIZE_OPTIONS:
         if name in options:
             changed[name] = f"{float(options[name]) / factor:.8g}"

@@ -148,8 +148,7 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
     """--error: on to settings that reach it."""
     requests = maker.requests
     demand = Demand(options.error, options.budget and 60 * options.budget, options.of, times)
-    levels = list(range(-1, options.levels + 1))
-    ratio = requests.recipe.ratio(levels)
+    ratio = requests.recipe.ratio(list(range(-1, options.levels + 1)))
     facts, longest = requests.facts, step_within(requests.facts)
     start = starting_member(requests.recipe, facts.static, ratio, options.levels, maker.nodes, longest)
     search = Search(maker, demand, ratio, options.levels, start)
@@ -157,8 +156,7 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
     if sample(maker, first) != first:
         search = Search(maker, demand, ratio, options.levels, Member(1.0, 1.0))
     outcome = search.go()
-    others = [name.removeprefix("fsi-") for name in programs]
-    seconds = by_each_driver(maker, outcome, others)
+    seconds = by_each_driver(maker, outcome, [name.removeprefix("fsi-") for name in programs])
     for name, run in seconds.items():
         took = duration(run.seconds) if run.done else f"{run.status}, {run.message}"
         outcome.lines.append(f"fsi-{name} with these settings: {took}.")

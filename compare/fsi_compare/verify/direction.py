@@ -89,8 +89,7 @@ def part_of_curves(
     known, spread = norm(own - y[-1]), float(np.max(lengths))
     if spread <= 2 * noise or len(x) < 3:
         return _silent_or_lacking(spread, noise, expected)
-    falling = np.append(np.cumsum(lengths[::-1])[::-1], 0.0)
-    part = _of_monotone(x, falling, expected, noise, known)
+    part = _of_monotone(x, np.append(np.cumsum(lengths[::-1])[::-1], 0.0), expected, noise, known)
     if part.state == OUTSIDE:
         return part
     if part.state == AS_EXPECTED and norm.cosine(steps[-2], steps[-1]) < SAME_SHAPE:

@@ -160,8 +160,7 @@ def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: 
     steps = [STEP_RATIO, 1.0, 1 / STEP_RATIO] if finer else [STEP_RATIO**2, STEP_RATIO, 1.0]
     found = [Member(m, 1.0) for m in meshes] + [Member(1.0, s) for s in steps if s != 1]
     corner = (min(meshes), min(steps)) if finer else (meshes[-2], steps[1])
-    loose = Member(1.0, 1.0, True) if finer else Member(1.0, steps[0], True)
-    found += [loose, Member(*corner), *beside]
+    found += [Member(1.0, 1.0, True) if finer else Member(1.0, steps[0], True), Member(*corner), *beside]
     return sorted(dict.fromkeys(found), key=lambda member: (work(member, 2.0), member.looser))
 
 

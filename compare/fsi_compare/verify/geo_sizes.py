@@ -51,9 +51,7 @@ class GeoSizes:
 def read_sizes(script: Path) -> GeoSizes:
     """Reads a script. Raises InputError where it has no constant that says how fine it is."""
     text = without_comments(read_text(script, "give a gmsh script that is there", "give a gmsh script"))
-    constants: dict[str, float] = {}
-    for block in CONSTANTS.findall(text):
-        constants.update((name, float(value)) for name, value in CONSTANT.findall(block))
+    constants = {n: float(value) for block in CONSTANTS.findall(text) for n, value in CONSTANT.findall(block)}
     sizes, counts = (_used(text, constants, patterns) for patterns in (SIZES, COUNTS))
     both = sorted(set(sizes) & set(counts))
     if both:
@@ -70,10 +68,8 @@ def read_sizes(script: Path) -> GeoSizes:
 
 
 def _used(text: str, constants: dict[str, float], patterns: Sequence["re.Pattern[str]"]) -> dict[str, float]:
-    words: list[str] = []
-    for pattern in patterns:
-        for expression in pattern.findall(text):
-            words += re.findall(r"[A-Za-z_]\w*", expression)
+    expressions = " ".join(expression for pattern in patterns for expression in pattern.findall(text))
+    words = re.findall(r"[A-Za-z_]\w*", expressions)
     return {name: value for name, value in constants.items() if name in words}
 
 

@@ -116,8 +116,7 @@ class Maker:
     def single(self, member: Member, driver: str, settings: Mapping[str, Any]) -> StudyRun:
         """A run that is no member: with settings of its own."""
         request = self.requests.of(member, driver)
-        merged = {**request.settings, **settings}
-        run = self.runner.run([replace(request, settings=merged)])[0]
+        run = self.runner.run([replace(request, settings={**request.settings, **settings})])[0]
         self.others[shlex.join([driver, str(run.folder)])] = run
         self._learn_scheme(driver, run)
         return run

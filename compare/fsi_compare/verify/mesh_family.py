@@ -56,9 +56,7 @@ class Recipe:
     def counts(self) -> list[float]:
         if self.geo is not None:
             return [self.given.get(name, value) for name, value in self.geo.counts.items()]
-        if self.chain:
-            return [count for command in self.chain for count in command.counts]
-        return cells_of(self.words)
+        return [count for command in self.chain for count in command.counts] if self.chain else cells_of(self.words)
 
     def mesh(self, factor: float, folder: Path, case: str) -> StudyMesh | None:
         """The mesh finer by `factor`; None: the case's own file as it stands."""
@@ -77,12 +75,8 @@ class Recipe:
     def unrefined(self, sizes: Sequence[float], folder: Path) -> dict[str, int]:
         """Layers of a wall with as many elements in meshes of all these sizes, relative to the case's, by name."""
         layers = [sized(command.finer(1 / size, folder), "").elements for command in self.chain for size in sizes]
-        kept: dict[str, int] = {}
-        for command in self.chain:
-            for name, number in command.elements.items():
-                if all(one.get(name, number) == number for one in layers):
-                    kept[name] = number
-        return kept
+        own = {name: number for command in self.chain for name, number in command.elements.items()}
+        return {name: n for name, n in own.items() if all(one.get(name, n) == n for one in layers)}
 
     def geo_words(self, factor: float, folder: Path) -> list[str]:
         assert self.geo is not None
@@ -93,10 +87,9 @@ class Recipe:
             script.parent.mkdir(parents=True, exist_ok=True)
             with replacing(script) as temporary:
                 temporary.write_text(text, encoding="utf-8")
-        words = [str(script), *without(self.words, ("--set",))]
-        for name, value in self.geo.settings(factor, dict(self.given)).items():
-            words += ["--set", f"{name}={value:.10g}"]
-        return words
+        settings = self.geo.settings(factor, dict(self.given)).items()
+        words = [word for name, value in settings for word in ("--set", f"{name}={value:.10g}")]
+        return [str(script), *without(self.words, ("--set",)), *words]
 
 
 @dataclass(frozen=True)

@@ -36,8 +36,7 @@ def write_page(
     report.list(notes)
     report.section("Error bars")
     report.table(bars_table(judged))
-    outside = [one for one in judged if one.bar.verdict == NOT_IN_RANGE]
-    if outside:
+    if any(one.bar.verdict == NOT_IN_RANGE for one in judged):
         report.text(
             "No error can be given of quantities whose values do not come nearer to each other as mesh and step are refined, or "
             "which swing. What to refine stands beside them."

@@ -62,8 +62,7 @@ def sample(maker: Maker, start: Member = OWN) -> Member:
 
 
 def samples_nothing(facts: CaseFacts) -> InputError:
-    remedy = "ask for a point: [output.points] with NAME = [x, y, z]"
-    return InputError(facts.path, "output", "samples nothing", remedy)
+    return InputError(facts.path, "output", "samples nothing", "ask for a point: [output.points] with NAME = [x, y, z]")
 
 
 def within_budget(options: argparse.Namespace, maker: Maker, family: Sequence[Member]) -> Sequence[Member]:

@@ -54,8 +54,7 @@ class Curve:
     @property
     def is_pressure(self) -> bool:
         """Whether it is a pressure or of its order: stresses, forces, gradients of what is solved for."""
-        words = self.name.rpartition(": ")[2]
-        return self.derived or any(word in words for word in ("pressure", "stress", "force"))
+        return self.derived or any(word in self.name.rpartition(": ")[2] for word in ("pressure", "stress", "force"))
 
 
 Reading = Callable[[Curve], float]
@@ -89,8 +88,7 @@ class Asked:
 def curves_of(folder: Path) -> dict[str, Curve]:
     """Curves of a finished run, by name. Raises InputError for tables that cannot be read."""
     found: dict[str, Curve] = {}
-    tables = list(TABLES) + ([] if is_file(folder / "openings.csv") else ["flow.csv"])
-    for table in tables:
+    for table in list(TABLES) + ([] if is_file(folder / "openings.csv") else ["flow.csv"]):
         if is_file(folder / table):
             for sample, samples in read_samples(folder / table).items():
                 for curve in _curves(sample or WITHOUT_NAMES.get(table, table), samples):

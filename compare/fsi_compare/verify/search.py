@@ -97,9 +97,7 @@ class Search:
         return recipe.coarsens and not isinstance(recipe, Adapted) and not facts.static
 
     def _corner(self, centre: Member) -> Member:
-        return Member(
-            self._size(centre.mesh * self.ratio ** (self.levels - 1)), same_size(centre.step * STEP_RATIO**2)
-        )
+        return self._member(centre.mesh * self.ratio ** (self.levels - 1), centre.step * STEP_RATIO**2)
 
     def _members(self) -> list[Member]:
         recipe, facts, centre = self.maker.requests.recipe, self.maker.requests.facts, self.centre
@@ -116,9 +114,7 @@ class Search:
             relative = lean(meshes, facts.static)
         else:
             relative = members(recipe, facts, self.ratio, self.levels, True)
-        return [
-            replace(m, mesh=self._size(m.mesh * centre.mesh), step=same_size(m.step * centre.step)) for m in relative
-        ]
+        return [self._member(m.mesh * centre.mesh, m.step * centre.step, m.looser, m.other) for m in relative]
 
     def _family(self) -> list[Judged]:
         """Its bars, after its members have run."""
@@ -182,7 +178,10 @@ class Search:
         """The centre moved by one ratio."""
         mesh = self.centre.mesh / self.ratio if what != "step" else self.centre.mesh
         step = self.centre.step / STEP_RATIO if what != "mesh" else self.centre.step
-        return Member(self._size(mesh), same_size(step))
+        return self._member(mesh, step)
+
+    def _member(self, mesh: float, step: float, *others: bool) -> Member:
+        return Member(self._size(mesh), same_size(step), *others)
 
     def _size(self, mesh: float) -> float:
         """The power of the ratio that it is but for round-off, so that a mesh has one size whatever way leads to it."""
@@ -199,7 +198,7 @@ class Search:
         if mesh >= 1 and step >= 1:
             return None
         self.maker.tell(f"predicted for {self._words(best.mesh, best.step)}: {100 * best.error:.2g} %")
-        return Member(self._size(self.centre.mesh * min(mesh, 1.0)), same_size(self.centre.step * min(step, 1.0)))
+        return self._member(self.centre.mesh * min(mesh, 1.0), self.centre.step * min(step, 1.0))
 
     def _words(self, mesh: float, step: float) -> str:
         return f"elements of {mesh * self.centre.mesh:.3g} and steps of {step * self.centre.step:.3g} of the case's"
@@ -250,8 +249,7 @@ class Search:
 
     def _good_enough(self) -> list[Member]:
         """The cheapest member whose own bars are within the demand; empty: none."""
-        done = self._kept().done
-        for member, _ in sorted(done.items(), key=lambda pair: pair[1].seconds):
+        for member, _ in sorted(self._kept().done.items(), key=lambda pair: pair[1].seconds):
             if not (member.looser or member.other):
                 judged = self._judged(member)
                 if judged and reached(judged, self.demand.error):

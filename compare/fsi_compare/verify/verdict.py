@@ -163,8 +163,7 @@ def _together(
 
 def _judged(mesh: Part, step: Part, together: float, solver: float, negligible: float) -> tuple[str, str]:
     total = mesh.bar + step.bar + together + solver
-    named = (("mesh", mesh), ("step", step))
-    counting = [(name, part) for name, part in named if part.bar > SMALL * total]
+    counting = [(name, part) for name, part in (("mesh", mesh), ("step", step)) if part.bar > SMALL * total]
     outside = [name for name, part in counting if part.state == OUTSIDE and part.bar > negligible]
     if outside:
         return NOT_IN_RANGE, _advice(outside, [name for name, part in counting if part.lacking])
