@@ -69,7 +69,7 @@ def quantities_of_field(medium: MediumFields, field: str) -> list[Quantity]:
             Quantity(f"{field}:{i + 1}", field, f"{name} principal stress", unit, True, _component(i))
             for i, name in enumerate(names)
         ]
-    along = (
-        Quantity(f"{field}:{c}", field, f"{words}, {c}", unit, True, _component(i)) for i, c in enumerate(COMPONENTS)
-    )
-    return [Quantity(field, field, words, unit, False, _magnitude), *along]
+    found = [Quantity(field, field, words, unit, False, _magnitude)]
+    for i, c in enumerate(COMPONENTS):
+        found.append(Quantity(f"{field}:{c}", field, f"{words}, {c}", unit, True, _component(i)))
+    return found

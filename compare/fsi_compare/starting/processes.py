@@ -200,7 +200,8 @@ def answer(command: Sequence, time_limit: float) -> str:
 
 def message_of(code: int, said: str) -> str:
     """Why a program ended, from what it said on its error stream; empty when it ended well. Warnings are no reason."""
-    lines = [line.strip() for line in without_chatter(said).splitlines() if line.strip() and not _is_no_reason(line)]
+    lines = [line.strip() for line in without_chatter(said).splitlines() if line.strip()]
+    lines = [line for line in lines if ": warning: " not in line and ": note: " not in line]
     if code < 0:
         try:
             name = signal.Signals(-code).name
@@ -211,7 +212,3 @@ def message_of(code: int, said: str) -> str:
         return f"ended with code {code} without a message" if code else ""
     head, mark, rest = lines[-1].partition(": error: ")
     return rest if mark and " " not in head else lines[-1]
-
-
-def _is_no_reason(line: str) -> bool:
-    return ": warning: " in line or ": note: " in line

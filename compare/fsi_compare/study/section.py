@@ -63,18 +63,14 @@ class Section:
         return value
 
     def number(self, name: str, default: float | None = None) -> float:
-        if name not in self.entries and default is not None:
-            return default
-        value = self.entries.get(name)
+        value = self.entries.get(name, default)
         if not is_positive(value):
             problem = "is missing" if value is None else f"{value} is not a positive number"
             raise self.wrong(name, problem, "give a number" if default is None else f"leave it out for {default:g}")
-        return float(self.entries[name])
+        return float(value)
 
     def numbers(self, name: str, default: Sequence[float] | None = None) -> list[float]:
-        if name not in self.entries and default is not None:
-            return list(default)
-        values = self.entries.get(name)
+        values = self.entries.get(name, default and list(default))
         if not isinstance(values, list) or not values or not all(map(is_positive, values)):
             problem = "is missing" if values is None else "is not a list of positive numbers"
             raise self.wrong(name, problem, "write [a, b, ...]" if default is None else f"write {list(default)}")

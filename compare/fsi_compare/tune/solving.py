@@ -70,9 +70,8 @@ class Unknowns:
     def values(self, unknowns: np.ndarray) -> dict[str, Windkessel]:
         factors = np.exp(unknowns)
         case = self.model.case
-        whole = (
-            dict(zip(self.names, factors)) if self.each else {n: factors[0] * case[n].resistance for n in self.names}
-        )
+        shared = {} if self.each else {n: factors[0] * law.resistance for n, law in case.items()}
+        whole = shared or dict(zip(self.names, factors))
         if not self.pulse:
             return {n: self.rule.law(law, whole[n], law.compliance) for n, law in case.items()}
         laws = {n: self.rule.law(law, whole[n], 1.0) for n, law in case.items()}

@@ -215,11 +215,11 @@ class Search:
         seconds = self.maker.predicted(dict.fromkeys([*self._members(), target]))
         memory = f", {costs.memory(target.mesh):.0f} MiB" if costs is not None else ""
         words = f"{self._words(1, 1)}: about {duration(seconds)}{memory} for the family"
-        if self._fits(seconds):
+        left = math.inf if self.demand.budget is None else self.demand.budget - self.maker.seconds
+        if seconds <= left:
             self.maker.tell(f"next, {words}")
             return True
-        left = max(0.0, (self.demand.budget or 0.0) - self.maker.seconds)
-        lines.append(f"Out of reach: {words}, and {duration(left)} of the budget are left.")
+        lines.append(f"Out of reach: {words}, and {duration(max(0.0, left))} of the budget are left.")
         self.centre, self.corner = before
         return False
 
@@ -231,10 +231,6 @@ class Search:
         mesh = mesh if mesh <= corner.mesh * self.ratio * (1 + 1e-6) else corner.mesh
         step = step if step <= corner.step * STEP_RATIO * (1 + 1e-6) else corner.step
         self.corner = Member(mesh, step)
-
-    def _fits(self, seconds: float) -> bool:
-        budget = self.demand.budget
-        return budget is None or self.maker.seconds + seconds <= budget
 
     def _finish(self, asked: Sequence[Judged], lacking: bool) -> Outcome:
         """The cheapest run so far that is good enough, with tolerances that suit the demand. `lacking`: quantities

@@ -146,11 +146,8 @@ def _together(
 ) -> float:
     """Error by mesh and step together, from the finest of the members refined in both. Where row and column are not the
     user's own mesh and step, the sum of both parts is off by c (row^p + column^q - 1)."""
-
-    def is_corner(m: float, s: float) -> bool:
-        return m != row and s != column and {(m, column), (row, s), (row, column)} <= table.keys()
-
-    corners = [(m, s) for m, s in table if is_corner(m, s)]
+    known = table.keys()
+    corners = [(m, s) for m, s in known if m != row and s != column and {(m, column), (row, s), (row, column)} <= known]
     if not corners:
         return 0.0
     m, s = min(corners, key=lambda corner: corner[0] * corner[1])
