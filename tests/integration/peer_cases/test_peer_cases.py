@@ -316,7 +316,7 @@ class PeerCases(FolderTest):
             (
                 good.replace('Add_BC name="lumen_outlet"', 'Add_BC name="lumen_outlte"'),
                 "no face 'lumen_outlte'",
-                "lumen_outlet?",
+                "'lumen_outlet'?",
             ),
             (peer.rigid(inlet), "lumen_wall: has no Add_BC, and is not flat"),
             (good.replace("mesh/wall/mesh-complete.mesh.vtu", "mesh/wall/none.vtu"), "there is no file", "none.vtu"),
