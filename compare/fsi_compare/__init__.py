@@ -14,22 +14,8 @@ if TYPE_CHECKING:
     from .library import *
     from .reporting.plots import plot_energy as plot_energy, plot_line as plot_line, plot_openings as plot_openings
 
-__all__ = [
-    "InputError",
-    "Line",
-    "LineDifference",
-    "MediumFields",
-    "MissingColumn",
-    "Opening",
-    "RunResults",
-    "Surface",
-    "Table",
-    "difference",
-    "open_run",
-    "plot_energy",
-    "plot_line",
-    "plot_openings",
-]
+__all__ = ["InputError", "Line", "LineDifference", "MediumFields", "MissingColumn", "Opening", "RunResults", "Surface"]
+__all__ += ["Table", "difference", "open_run", "plot_energy", "plot_line", "plot_openings"]
 
 
 def __getattr__(name: str) -> Any:

@@ -3,15 +3,10 @@
 from typing import Any, Mapping
 
 _NEWTON = ("mode", "error_tolerance", "residual_tolerance", "max_iterations")
-RENAMED = {
-    **{f"monolithic.{name}": f"newton.{name}" for name in _NEWTON},
-    "monolithic.newton_tolerance": "newton.tolerance",
-    "monolithic.linear_tolerance": "linear.tolerance",
-    "monolithic.max_linear_iterations": "linear.max_iterations",
-    "monolithic.krylov_restart": "linear.restart",
-    "monolithic.direct_below": "linear.direct_below",
-    "partitioned.direct_below": "linear.direct_below",
-}
+RENAMED = {f"monolithic.{name}": f"newton.{name}" for name in _NEWTON} | {"monolithic.krylov_restart": "linear.restart"}
+RENAMED |= {f"monolithic.{name}_tolerance": f"{name}.tolerance" for name in ("newton", "linear")}
+RENAMED |= {f"{section}.direct_below": "linear.direct_below" for section in ("monolithic", "partitioned")}
+RENAMED["monolithic.max_linear_iterations"] = "linear.max_iterations"
 
 
 def short_name(key: str) -> str:

@@ -24,22 +24,13 @@ LAWS = dict.fromkeys(("nHK", "nHK91", "neoHookean", "neoHookeanSimo91"), "neoHoo
 LAWS |= dict.fromkeys(("stVK", "stVenantKirchhoff"), "stVK") | dict.fromkeys(("MR", "Mooney-Rivlin"), "MR")
 LAWS["HGO"] = "HGO"
 # Of the same program, without a law of ours that has their energy.
-OTHERS = {
-    name: law
-    for law, names in {
-        "a modified law of St. Venant and Kirchhoff": ("m-stVK", "modified-stVK", "modified-stVenantKirchhoff"),
-        "Guccione's law of the heart": ("Guccione", "Gucci"),
-        "Holzapfel and Ogden's law of the heart": (
-            "HO",
-            "HolzapfelOgden",
-            "HO_ma",
-            "HolzapfelOgden-ModifiedAnisotropy",
-        ),
-        "a stress mu I without strain": ("lin", "linear"),
-        "a law by a network": ("CANN", "AnisoHyper"),
-    }.items()
-    for name in names
-}
+MODIFIED = ("m-stVK", "modified-stVK", "modified-stVenantKirchhoff")
+HOLZAPFEL_OGDEN = ("HO", "HolzapfelOgden", "HO_ma", "HolzapfelOgden-ModifiedAnisotropy")
+OTHERS = dict.fromkeys(MODIFIED, "a modified law of St. Venant and Kirchhoff")
+OTHERS |= dict.fromkeys(HOLZAPFEL_OGDEN, "Holzapfel and Ogden's law of the heart")
+OTHERS |= dict.fromkeys(("Guccione", "Gucci"), "Guccione's law of the heart")
+OTHERS |= dict.fromkeys(("lin", "linear"), "a stress mu I without strain")
+OTHERS |= dict.fromkeys(("CANN", "AnisoHyper"), "a law by a network")
 PENALTIES = dict.fromkeys(("quad", "Quad", "quadratic", "Quadratic"), "quad")
 PENALTIES |= dict.fromkeys(("ST91", "Simo-Taylor91"), "ST91") | dict.fromkeys(("M94", "Miehe94"), "M94")
 # By how much of itself the penalty's pressure is below K (J - 1), per change of volume, J - 1.

@@ -3,7 +3,7 @@
 import textwrap
 import warnings
 from pathlib import Path
-from typing import Callable, Sequence
+from typing import Any, Callable, Sequence
 
 from matplotlib.artist import Artist
 import matplotlib
@@ -42,21 +42,10 @@ METADATA: dict[str, dict[str, None]] = {
 }
 
 # Whatever the user's own matplotlib settings say, the same data give the same picture, byte by byte.
-STYLE = {
-    "font.family": ["DejaVu Sans", "sans-serif"],
-    "font.size": 9,
-    "axes.titlesize": 9,
-    "axes.grid": True,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "grid.color": "#dddddd",
-    "grid.linewidth": 0.5,
-    "legend.frameon": False,
-    "legend.handlelength": 3.4,
-    "lines.scale_dashes": True,
-    "svg.fonttype": "none",
-    "svg.hashsalt": "fsi-compare",
-}
+STYLE: dict[str, Any] = {"font.family": ["DejaVu Sans", "sans-serif"], "font.size": 9, "axes.titlesize": 9}
+STYLE |= {"axes.grid": True, "axes.spines.top": False, "axes.spines.right": False}
+STYLE |= {"grid.color": "#dddddd", "grid.linewidth": 0.5, "legend.frameon": False, "legend.handlelength": 3.4}
+STYLE |= {"lines.scale_dashes": True, "svg.fonttype": "none", "svg.hashsalt": "fsi-compare"}
 
 
 def write_pressure_waves(

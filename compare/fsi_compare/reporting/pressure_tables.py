@@ -111,14 +111,10 @@ def write_json(path: Path, comparison: Comparison) -> None:
     runs = []
     for i, (label, made) in enumerate(zip(comparison.labels, comparison.conditions)):
         peaks = zip(comparison.times, comparison.peaks[i])
-        run: dict[str, Any] = {
-            "run": label,
-            "mesh": made.mesh or None,
-            "step_ms": [made.smallest_step, made.largest_step],
-            "end_ms": made.end,
-            "speed_mm_per_ms": comparison.speeds[i],
-            "peaks": [{"time_ms": time, "pressure_Pa": crest.pressure, "z_mm": crest.z} for time, crest in peaks],
-        }
+        run: dict[str, Any] = {"run": label, "mesh": made.mesh or None}
+        run |= {"step_ms": [made.smallest_step, made.largest_step], "end_ms": made.end}
+        run["speed_mm_per_ms"] = comparison.speeds[i]
+        run["peaks"] = [{"time_ms": time, "pressure_Pa": crest.pressure, "z_mm": crest.z} for time, crest in peaks]
         if i > 0:
             over_time = comparison.over_time[i - 1]
             at_times = zip(comparison.times, comparison.at_times[i - 1])

@@ -109,20 +109,12 @@ class ReportScene:
 
     def values(self) -> dict[str, Any]:
         """The data of the page's element."""
-        content: dict[str, Any] = {
-            "runs": [self._run(run) for run in self.runs],
-            "quantities": self._quantities(),
-            "first": self.runs[0].scene.first,
-            "start": self.runs[0].scene.peak(self.runs[0].scene.first),
-            "views": self._views(),
-            "plane": self._plane(),
-            "box": self._box(),
-            "flat": self.runs[0].scene.meshes.flat,
-            "turned": self.runs[0].scene.meshes.geometry == "axisymmetric",
-            "angles": short(angles()),
-            "percentile": PERCENTILE,
-            "maps": {name: plain_bytes(table(name)) for name in (SEQUENTIAL, DIVERGING)},
-        }
+        scene, maps = self.runs[0].scene, {name: plain_bytes(table(name)) for name in (SEQUENTIAL, DIVERGING)}
+        content: dict[str, Any] = {"runs": [self._run(run) for run in self.runs], "quantities": self._quantities()}
+        content |= {"first": scene.first, "start": scene.peak(scene.first), "views": self._views()}
+        content |= {"plane": self._plane(), "box": self._box(), "flat": scene.meshes.flat}
+        content |= {"turned": scene.meshes.geometry == "axisymmetric", "angles": short(angles())}
+        content |= {"percentile": PERCENTILE, "maps": maps}
         return {"content": content, "notes": list(dict.fromkeys(self.notes))}
 
     def _run(self, run: RunScene) -> dict[str, Any]:
@@ -134,17 +126,12 @@ class ReportScene:
         fields = {name: values for name, values in run.fields.items() if name.startswith(prefix)}
         if run.apart:
             fields = {name: values - first[name] for name, values in fields.items()}
-        return {
-            "name": part.name,
-            "group": part.group,
-            "medium": part.surface.medium.name,
-            "corners": part.surface.triangles.shape[1],
-            "points": packed_numbers(part.surface.points),
-            "cells": packed_counts(part.surface.triangles),
-            "nodes": packed_counts(part.surface.nodes),
-            "between": part.group == "cut",
-            "fields": {name.removeprefix(prefix): packed_numbers(values) for name, values in fields.items()},
-        }
+        surface = part.surface
+        made: dict[str, Any] = {"name": part.name, "group": part.group, "medium": surface.medium.name}
+        made |= {"corners": surface.triangles.shape[1], "points": packed_numbers(surface.points)}
+        made |= {"cells": packed_counts(surface.triangles), "nodes": packed_counts(surface.nodes)}
+        packed = {name.removeprefix(prefix): packed_numbers(values) for name, values in fields.items()}
+        return {**made, "between": part.group == "cut", "fields": packed}
 
     def _quantities(self) -> list[dict[str, Any]]:
         keys: dict[str, Quantity] = {}

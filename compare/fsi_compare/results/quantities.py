@@ -8,15 +8,9 @@ import numpy as np
 from .fields import MediumFields
 
 COMPONENTS = ("x", "y", "z")
-WORDS = {
-    "rrt": "relative residence time",
-    "osi": "oscillatory shear index",
-    "tawss": "time-averaged wall shear stress",
-    "von_mises_stress": "von Mises stress",
-    "thickness": "thickness of the wall at rest",
-    "fibre_stress_1": "stress of the first fibres",
-    "fibre_stress_2": "stress of the second fibres",
-}
+WORDS = {"rrt": "relative residence time", "osi": "oscillatory shear index", "tawss": "time-averaged wall shear stress"}
+WORDS |= {"von_mises_stress": "von Mises stress", "thickness": "thickness of the wall at rest"}
+WORDS |= {"fibre_stress_1": "stress of the first fibres", "fibre_stress_2": "stress of the second fibres"}
 
 
 @dataclass(frozen=True)

@@ -56,18 +56,10 @@ class _Each(dict):
 
 Shape = Callable[[Any], str | None] | Mapping[str, Any]
 SHAPE: Mapping[str, Shape] = {
-    "title": _text,
-    "version": _text,
-    "case": _text,
-    "element": _text,
-    "geometry": _text,
-    "coupling_kind": _text,
-    "coupling_pass": _text,
-    "threads": _count,
-    "processes": _count,
+    **dict.fromkeys(("title", "version", "case", "element", "geometry", "coupling_kind", "coupling_pass"), _text),
+    **dict.fromkeys(("threads", "processes", "restarted_from_step"), _count),
     "per_process": {**{name: _spread for name in PER_PROCESS}, "phases": _Each(entry=_spread)},
     "peak_memory_MiB": _number,
-    "restarted_from_step": _count,
     "mesh": {"name": _text, "nodes": _count, "hash": _text},
     "unknowns": {"coupled": _count},
     "phases": _Each(entry={"calls": _count, "seconds": _number}),
@@ -123,14 +115,12 @@ def _require_done(path: Path, summary: Mapping[str, Any]) -> None:
     if status == "done":
         return
     log = path.parent / "run.log"
+    change = f"see {log}, change the solver's settings and run it again"
     known: dict[Any, tuple[str, str]] = {
         None: ("is missing", "run it again"),
         "running": ("the run is not finished", f"wait for its end or resume it with {resume}"),
         "interrupted": ("the run was interrupted", f"resume it with {resume}, or run it again"),
-        "not converged": (
-            "the run stopped without converging",
-            f"see {log}, change the solver's settings and run it again",
-        ),
+        "not converged": ("the run stopped without converging", change),
         "failed": ("the run failed", f"see {log}"),
     }
     problem = known.get(status) if isinstance(status, (str, type(None))) else None

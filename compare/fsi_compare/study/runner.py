@@ -251,18 +251,10 @@ class Runner:
         status, message = judge(folder, end)
         command = shlex.join(self._command(request, folder))
         make_folder(folder)
-        record = {
-            "fingerprint": key,
-            "status": status,
-            "message": message,
-            "seconds": end.seconds,
-            "command": command,
-            "run": request.label,
-            "ended": time.strftime("%Y-%m-%d %H:%M:%S"),
-            "executable": self._program(request).digest,
-            "interrupted": is_interrupted(end.code) and not end.out_of_time,
-        }
-        write_record(folder, record)
+        record = {"fingerprint": key, "status": status, "message": message, "seconds": end.seconds, "command": command}
+        record |= {"run": request.label, "ended": time.strftime("%Y-%m-%d %H:%M:%S")}
+        record |= {"executable": self._program(request).digest}
+        write_record(folder, {**record, "interrupted": is_interrupted(end.code) and not end.out_of_time})
         return StudyRun(request, folder, status, message, end.seconds, command)
 
 

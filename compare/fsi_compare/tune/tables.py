@@ -104,12 +104,9 @@ def write_results(
     written = write_tables(folder, tables, "tune.md", f"Tuning of {printable(scene.path.stem)}")
     last = outcome.beats[-1]
     begins = {name: one.begin for name, one in last.repeats.items()}
-    said: dict[str, Any] = {
-        "case": str(absolute(scene.path)),
-        "program": program,
-        "period_ms": scene.period,
-        "proximal": demand.rule.words,
-        "tolerance": demand.tolerance,
+    said: dict[str, Any] = {"case": str(absolute(scene.path)), "program": program, "period_ms": scene.period}
+    said |= {"proximal": demand.rule.words, "tolerance": demand.tolerance}
+    said |= {
         "reached": outcome.reached,
         "notes": outcome.lines,
         "targets": [{**target.about, "found": float(got)} for target, got in zip(demand.targets, last.got)],
