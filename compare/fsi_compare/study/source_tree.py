@@ -5,8 +5,8 @@ from pathlib import Path
 from ..base.errors import InputError
 
 OF_ONE_NAME = ("accuracy-cost", "calibration", "coupling", "paper", "references", "scaling", "skip", "stability")
-STUDIES = (*OF_ONE_NAME, "peers", "space", "turek-hron")
-KINDS = (*OF_ONE_NAME, "scenes")
+STUDIES = tuple(sorted((*OF_ONE_NAME, "peers", "space", "turek-hron")))
+KINDS = tuple(sorted((*OF_ONE_NAME, "scenes")))
 COMMANDS = ("solvers",)
 
 
