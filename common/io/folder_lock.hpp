@@ -17,7 +17,7 @@ constexpr const char* lock_name = "run.lock";
 /// "fsi-monolithic, process 4711 on host gauss". On a file system without such locks the file itself is the lock, and
 /// stays behind when the process is killed.
 ///
-/// fsi-compare locks the folders of its studies in the same way (compare/fsi_compare/starting/folder_lock.py).
+/// fsi-compare locks the folders of its studies in the same way (compare/fsi_compare/base/folder_lock.py).
 class FolderLock {
  public:
   /// Makes the folder where needed and takes its lock. Takes over a lock that a process of this host has left behind,

@@ -8,35 +8,14 @@ As a library (docs/guide/reports.md#python):
     run.time, run.centre_line["pressure"], run.openings["outlet"].flow, run.fields["wall"].at(3.0, "displacement")
 """
 
-from typing import TYPE_CHECKING, Any, List
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .base.errors import InputError as InputError
+    from .library import *
     from .reporting.plots import plot_energy as plot_energy, plot_line as plot_line, plot_openings as plot_openings
-    from .results.comparison import LineDifference as LineDifference, difference as difference
-    from .results.fields import MediumFields as MediumFields
-    from .results.line import Line as Line
-    from .results.openings import Opening as Opening
-    from .results.run import RunResults as RunResults, open_run as open_run
-    from .results.surfaces import Surface as Surface
-    from .results.table import MissingColumn as MissingColumn, Table as Table
 
-__all__ = [
-    "InputError",
-    "Line",
-    "LineDifference",
-    "MediumFields",
-    "MissingColumn",
-    "Opening",
-    "RunResults",
-    "Surface",
-    "Table",
-    "difference",
-    "open_run",
-    "plot_energy",
-    "plot_line",
-    "plot_openings",
-]
+__all__ = ["InputError", "Line", "LineDifference", "MediumFields", "MissingColumn", "Opening", "RunResults", "Surface"]
+__all__ += ["Table", "difference", "open_run", "plot_energy", "plot_line", "plot_openings"]
 
 
 def __getattr__(name: str) -> Any:
@@ -52,5 +31,5 @@ def __getattr__(name: str) -> Any:
     return getattr(library, name)
 
 
-def __dir__() -> List[str]:
+def __dir__() -> list[str]:
     return sorted([*globals(), *__all__])

@@ -28,11 +28,8 @@ class _Parser(argparse.ArgumentParser):
 
 def parser(version: str, catalogue: Catalogue = OWN, more: Sequence[Any] = ()) -> argparse.ArgumentParser:
     """`more`: commands that the source tree adds."""
-    top = _Parser(
-        prog="fsi-compare",
-        description="Compares finished runs, and makes runs to judge a case by: studies, error bars, tuned openings.",
-        allow_abbrev=False,
-    )
+    about = "Compares finished runs, and makes runs to judge a case by: studies, error bars, tuned openings."
+    top = _Parser(prog="fsi-compare", description=about, allow_abbrev=False)
     top.add_argument("--version", action="version", version=f"fsi-compare {version}")
     commands = top.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     for command in (*OF_RESULTS, *more):

@@ -4,7 +4,7 @@ import os
 import sys
 import traceback
 from pathlib import Path
-from typing import Callable, NoReturn, Optional, Sequence, TypeAlias
+from typing import Callable, NoReturn, Sequence, TypeAlias
 
 from .base import interruption
 from .base.errors import PROBLEM_LIMIT, PROGRAM, InputError, say_error, shortened
@@ -21,10 +21,7 @@ def program(version: str = "unknown") -> NoReturn:
 
 
 def main(
-    arguments: Sequence[str],
-    version: str = "unknown",
-    to_the_end: bool = False,
-    load: Optional[Callable[[], Run]] = None,
+    arguments: Sequence[str], version: str = "unknown", to_the_end: bool = False, load: Callable[[], Run] | None = None
 ) -> int:
     """Exit code: 0 done, 1 wrong use or bad input, 2 done but something did not converge; 128 + n ended by signal n.
     `load`: imports the command line, which takes a while; None: that of cli.py."""
@@ -48,7 +45,8 @@ def _guarded_main(arguments: Sequence[str], version: str, load: Callable[[], Run
         print(f"{PROGRAM}: interrupted by {signal}{_what_stays(arguments)}", file=sys.stderr)
         return signal.code
     except MemoryError:
-        say_error(f"out of memory; {_less(arguments)}, or take a larger machine")
+        less = LESS.get(arguments[0] if arguments else "", "compare fewer or smaller runs")
+        say_error(f"out of memory; {less}, or take a larger machine")
         return 1
     except ReaderLeft:
         return 0  # the reader, e.g. `head`, has seen enough
@@ -75,12 +73,11 @@ def _loaded(load: Callable[[], Run]) -> Run:
         return load()
     except EOFError:  # what Python says of byte code that was cut by a full disk; none is written today
         folder = Path(__file__).parent
-        raise InputError(
-            str(folder), "", "byte code beside the sources is damaged", f"remove the folders __pycache__ in {folder}"
-        ) from None
+        remedy = f"remove the folders __pycache__ in {folder}"
+        raise InputError(folder, "", "byte code beside the sources is damaged", remedy) from None
 
 
-LESS = {  # by command; others compare runs
+LESS = {  # advice for a command that ran out of memory: what to give it less of; others compare runs
     "report": "give fewer runs, or fewer times by --frames",
     "picture": "take a run with fewer nodes",
     "watch": "leave --page out",
@@ -94,11 +91,6 @@ LESS = {  # by command; others compare runs
     "verify": "give --coarser, sample fewer points, or take a coarser case; finished runs are kept",
     "tune": "take a coarser case; finished runs are kept",
 }
-
-
-def _less(arguments: Sequence[str]) -> str:
-    """Advice for a command that ran out of memory: what to give it less of."""
-    return LESS.get(arguments[0] if arguments else "", "compare fewer or smaller runs")
 
 
 def _what_stays(arguments: Sequence[str]) -> str:

@@ -10,7 +10,7 @@ four fifths of the swinging mass: a scheme that treats this added mass wrongly s
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.gallery.layered_tube import holding_pressure, place, swing
+from known_solutions.layered_tube import holding_pressure, place, swing
 from fsi_compare.gallery.scene import Number
 
 MESH = "geo ring.geo --order 2"

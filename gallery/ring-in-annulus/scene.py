@@ -14,9 +14,9 @@ to the ring's ovality.
 
 from matplotlib.figure import Figure
 
-from fsi_compare.gallery.ring_modes import Ring
+from known_solutions.ring_modes import Ring
 from fsi_compare.gallery.scene import Number
-from fsi_compare.gallery.swings import free_swing
+from known_solutions.swings import free_swing
 
 MESH = "geo ring.geo --order 2"
 QUICK_MESH = "geo ring.geo --order 2 --set around=12 --set through=1 --set across=6"

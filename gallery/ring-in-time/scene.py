@@ -9,7 +9,7 @@ Second order in time shows in how little the swing is damped: the energy table o
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.gallery.layered_tube import holding_pressure, place, swing
+from known_solutions.layered_tube import holding_pressure, place, swing
 from fsi_compare.gallery.scene import Number
 
 MESH = "geo tube.geo --order 2"

@@ -10,7 +10,7 @@ There is no time and no fluid in it: the case has a load in steps, and one drive
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.gallery.layered_tube import holding_pressure, place
+from known_solutions.layered_tube import holding_pressure, place
 from fsi_compare.gallery.scene import Number
 
 MESH = "geo tube.geo --order 2"

@@ -8,7 +8,7 @@ Drag and lift are the sums of the fluid's own residuals over the surface, which 
 stresses. All scenes of the benchmark share one mesh; this case has no structure, so the flag is a rigid obstacle.
 """
 
-from fsi_compare.gallery.turek_hron import CHANNEL, COARSE_CHANNEL, Benchmark, Known
+from known_solutions.turek_hron import CHANNEL, COARSE_CHANNEL, Benchmark, Known
 
 MESH = CHANNEL
 QUICK_MESH = COARSE_CHANNEL

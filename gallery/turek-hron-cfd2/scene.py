@@ -3,7 +3,7 @@
 CFD1 at five times the speed, 1 m/s on average. The Reynolds number is 100 and the flow still steady.
 """
 
-from fsi_compare.gallery.turek_hron import CHANNEL, COARSE_CHANNEL, Benchmark, Known
+from known_solutions.turek_hron import CHANNEL, COARSE_CHANNEL, Benchmark, Known
 
 MESH = CHANNEL
 QUICK_MESH = COARSE_CHANNEL

@@ -11,7 +11,7 @@ Marked, because more than half a percent off: the drag's own swing, 1.0 % of a h
 frequency is 1 over 0.2275 s; if that was read off samples of 2.5 ms it tells no more.
 """
 
-from fsi_compare.gallery.turek_hron import COARSE_CHANNEL, FINE_CHANNEL, Benchmark, Known
+from known_solutions.turek_hron import COARSE_CHANNEL, FINE_CHANNEL, Benchmark, Known
 
 MESH = FINE_CHANNEL
 QUICK_MESH = COARSE_CHANNEL

@@ -6,7 +6,7 @@ by a fifth of its length. Its material is Saint Venant's and Kirchhoff's. There 
 All scenes of the benchmark share one mesh: volumes and surfaces that a case does not name are left out.
 """
 
-from fsi_compare.gallery.turek_hron import CHANNEL, COARSE_CHANNEL, Benchmark, Known
+from known_solutions.turek_hron import CHANNEL, COARSE_CHANNEL, Benchmark, Known
 
 MESH = CHANNEL
 QUICK_MESH = COARSE_CHANNEL

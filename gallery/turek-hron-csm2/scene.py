@@ -3,7 +3,7 @@
 The flag of CSM1, four times as stiff: it bends by a twentieth of its length.
 """
 
-from fsi_compare.gallery.turek_hron import CHANNEL, COARSE_CHANNEL, Benchmark, Known
+from known_solutions.turek_hron import CHANNEL, COARSE_CHANNEL, Benchmark, Known
 
 MESH = CHANNEL
 QUICK_MESH = COARSE_CHANNEL

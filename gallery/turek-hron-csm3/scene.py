@@ -8,7 +8,7 @@ down from period to period, and how fast depends on the time step, 5 ms here as 
 read off the tenth second, and so is this.
 """
 
-from fsi_compare.gallery.turek_hron import CHANNEL, COARSE_CHANNEL, Benchmark, Known
+from known_solutions.turek_hron import CHANNEL, COARSE_CHANNEL, Benchmark, Known
 
 MESH = CHANNEL
 QUICK_MESH = COARSE_CHANNEL

@@ -7,7 +7,7 @@ The benchmark's tip displacement is 0.82 mm across a channel of 410 mm, so it as
 wall at once.
 """
 
-from fsi_compare.gallery.turek_hron import CHANNEL, COARSE_CHANNEL, Benchmark, Known
+from known_solutions.turek_hron import CHANNEL, COARSE_CHANNEL, Benchmark, Known
 
 MESH = CHANNEL
 QUICK_MESH = COARSE_CHANNEL

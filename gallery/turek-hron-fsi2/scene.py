@@ -9,7 +9,7 @@ time step and a tighter Newton tolerance change it by less than 0.03 %. u_x goes
 spread is allowed; the swing of u_x is 2.8 % off, which is marked.
 """
 
-from fsi_compare.gallery.turek_hron import COARSE_CHANNEL, FINE_CHANNEL, Benchmark, Known
+from known_solutions.turek_hron import COARSE_CHANNEL, FINE_CHANNEL, Benchmark, Known
 
 MESH = FINE_CHANNEL
 QUICK_MESH = COARSE_CHANNEL

@@ -8,7 +8,7 @@ amplitude of u_y by 3.4 %. Half the time step changes it by less than 0.1 %; hal
 brings it from 3.2 to 0.8 % of what is published. u_x goes with the square of u_y: twice its spread is allowed.
 """
 
-from fsi_compare.gallery.turek_hron import COARSE_CHANNEL, FINE_CHANNEL, Benchmark, Known
+from known_solutions.turek_hron import COARSE_CHANNEL, FINE_CHANNEL, Benchmark, Known
 
 MESH = FINE_CHANNEL
 QUICK_MESH = COARSE_CHANNEL

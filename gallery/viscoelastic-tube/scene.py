@@ -15,7 +15,7 @@ G = mu + i w eta/2 + G_1 i w tau/(1 + i w tau) of the wall.
 
 import numpy as np
 
-from fsi_compare.gallery.dispersion import (
+from known_solutions.dispersion import (
     draw_swings,
     incompressible_waves,
     lack,

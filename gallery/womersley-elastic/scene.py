@@ -13,7 +13,7 @@ Both exact numbers are those of small waves in a thick compressible tube filled 
 
 import numpy as np
 
-from fsi_compare.gallery.dispersion import (
+from known_solutions.dispersion import (
     compressible_waves,
     draw_swings,
     incompressible_waves,

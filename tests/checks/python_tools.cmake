@@ -9,7 +9,7 @@ foreach(tool black mypy)
 endforeach()
 
 add_test(NAME black
-  COMMAND ${of_version} ${BLACK} 23 ${BLACK} --check --diff --quiet --config pyproject.toml compare scripts tests
+  COMMAND ${of_version} ${BLACK} 23 ${BLACK} --check --diff --quiet --config pyproject.toml compare gallery/known_solutions scripts tests
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 add_test(NAME mypy
   COMMAND ${of_version} ${MYPY} 1.0 ${MYPY} --config-file pyproject.toml --python-executable ${FSI_PYTHON}

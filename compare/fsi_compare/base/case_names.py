@@ -1,17 +1,12 @@
 """Keys of case files that earlier versions named otherwise, as common/case/renamed_keys.cpp has them."""
 
-from typing import Any, Dict, Mapping
+from typing import Any, Mapping
 
 _NEWTON = ("mode", "error_tolerance", "residual_tolerance", "max_iterations")
-RENAMED = {
-    **{f"monolithic.{name}": f"newton.{name}" for name in _NEWTON},
-    "monolithic.newton_tolerance": "newton.tolerance",
-    "monolithic.linear_tolerance": "linear.tolerance",
-    "monolithic.max_linear_iterations": "linear.max_iterations",
-    "monolithic.krylov_restart": "linear.restart",
-    "monolithic.direct_below": "linear.direct_below",
-    "partitioned.direct_below": "linear.direct_below",
-}
+RENAMED = {f"monolithic.{name}": f"newton.{name}" for name in _NEWTON} | {"monolithic.krylov_restart": "linear.restart"}
+RENAMED |= {f"monolithic.{name}_tolerance": f"{name}.tolerance" for name in ("newton", "linear")}
+RENAMED |= {f"{section}.direct_below": "linear.direct_below" for section in ("monolithic", "partitioned")}
+RENAMED["monolithic.max_linear_iterations"] = "linear.max_iterations"
 
 
 def short_name(key: str) -> str:
@@ -20,7 +15,7 @@ def short_name(key: str) -> str:
     return f"{section}_{name}" if section in ("newton", "linear") else name
 
 
-def with_present_names(entries: Mapping[str, Any]) -> Dict[str, Any]:
+def with_present_names(entries: Mapping[str, Any]) -> dict[str, Any]:
     """The entries of a case with their present names. Where both are given the drivers refuse the case."""
     found = dict(entries)
     for former, present in RENAMED.items():

@@ -2,7 +2,6 @@
 
 import sys
 from pathlib import Path
-from typing import Union
 
 PROGRAM = "fsi-compare"
 # Characters that each part may take, as in the C++ programs (common/base/error.cpp). The user's input is in the
@@ -17,27 +16,22 @@ class InputError(Exception):
     The message reads `FILE: KEY: PROBLEM; REMEDY`; empty parts are left out, long ones shortened.
     """
 
-    def __init__(self, file: Union[str, Path], key: str, problem: str, remedy: str = "") -> None:
-        parts = (
-            shortened_path(str(file), FILE_LIMIT),
-            shortened(key, KEY_LIMIT),
-            shortened(" ".join(problem.split()), PROBLEM_LIMIT),
-        )
-        text = ": ".join(part for part in parts if part)
+    def __init__(self, file: str | Path, key: str, problem: str, remedy: str = "") -> None:
+        text = _joined(file, key, shortened(" ".join(problem.split()), PROBLEM_LIMIT))
         super().__init__(f"{text}; {shortened(' '.join(remedy.split()), REMEDY_LIMIT)}" if remedy else text)
 
 
 class ProgramError(InputError):
     """Carries the message of a program, which has parts of its own, in the place of the problem."""
 
-    def __init__(self, file: Union[str, Path], key: str, message: str, remedy: str = "") -> None:
-        parts = (
-            shortened_path(str(file), FILE_LIMIT),
-            shortened(key, KEY_LIMIT),
-            shortened(message, FILE_LIMIT + KEY_LIMIT + PROBLEM_LIMIT + REMEDY_LIMIT),
-        )
-        text = ": ".join(part for part in parts if part)
+    def __init__(self, file: str | Path, key: str, message: str, remedy: str = "") -> None:
+        text = _joined(file, key, shortened(message, FILE_LIMIT + KEY_LIMIT + PROBLEM_LIMIT + REMEDY_LIMIT))
         Exception.__init__(self, f"{text}; {remedy}" if remedy else text)
+
+
+def _joined(file: str | Path, key: str, problem: str) -> str:
+    parts = shortened_path(str(file), FILE_LIMIT), shortened(key, KEY_LIMIT), problem
+    return ": ".join(part for part in parts if part)
 
 
 def printable(text: str) -> str:

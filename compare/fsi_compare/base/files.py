@@ -9,7 +9,7 @@ import tempfile
 import tomllib
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any, Dict, Iterator, List
+from typing import Any, Callable, Iterator
 
 from .errors import InputError
 
@@ -77,18 +77,14 @@ def read_text(path: Path, missing: str, broken: str, largest: float = float("inf
 def read_json(path: Path, missing: str, broken: str) -> Any:
     text = read_text(path, missing, broken, LARGEST)
     try:
-        value = json.loads(text)
+        return _plain(path, lambda: json.loads(text), broken)
     except json.JSONDecodeError as error:
         raise InputError(path, f"line {error.lineno}", f"is not JSON: {error.msg}", broken) from None
     except ValueError as error:  # a number of more digits than Python converts
         raise InputError(path, "", f"is not JSON: {error}", broken) from None
-    except RecursionError:
-        raise InputError(path, "", f"has more than {DEEPEST} levels", broken) from None
-    _require_plain(path, value, broken)
-    return value
 
 
-def read_object(path: Path, missing: str, broken: str) -> Dict[str, Any]:
+def read_object(path: Path, missing: str, broken: str) -> dict[str, Any]:
     """Reads a JSON file that holds an object. Raises InputError."""
     value = read_json(path, missing, broken)
     if not isinstance(value, dict):
@@ -96,21 +92,22 @@ def read_object(path: Path, missing: str, broken: str) -> Dict[str, Any]:
     return value
 
 
-def read_toml(path: Path, missing: str, broken: str) -> Dict[str, Any]:
+def read_toml(path: Path, missing: str, broken: str) -> dict[str, Any]:
     """Reads a TOML file. Raises InputError."""
     text = read_text(path, missing, broken, LARGEST)
     try:
-        value = tomllib.loads(text)
+        found: dict[str, Any] = _plain(path, lambda: tomllib.loads(text), broken)
     except ValueError as error:
         raise InputError(path, "", f"is not TOML: {error}", "mend that line") from None
+    return found
+
+
+def _plain(path: Path, read: Callable[[], Any], broken: str) -> Any:
+    """Refuses values so deep that a walk through them would fail, and texts that cannot be written again."""
+    try:
+        value = read()
     except RecursionError:
         raise InputError(path, "", f"has more than {DEEPEST} levels", broken) from None
-    _require_plain(path, value, broken)
-    return value
-
-
-def _require_plain(path: Path, value: Any, broken: str) -> None:
-    """Refuses values so deep that a walk through them would fail, and texts that cannot be written again."""
     waiting = [(value, 0)]
     while waiting:
         entry, depth = waiting.pop()
@@ -122,12 +119,13 @@ def _require_plain(path: Path, value: Any, broken: str) -> None:
             waiting += [(part, depth + 1) for part in entry]
         elif isinstance(entry, str) and any(0xD800 <= ord(c) < 0xE000 for c in entry):
             raise InputError(path, "", f"holds a text with half a character: {entry}", broken)
+    return value
 
 
-def make_folder(folder: Path) -> List[Path]:
+def make_folder(folder: Path) -> list[Path]:
     """Creates the output folder and its parents; returns new ones, the outermost first. Raises InputError on
     failure."""
-    made: List[Path] = []
+    made: list[Path] = []
     try:
         place = folder
         while not exists(place) and place != place.parent:
@@ -142,7 +140,7 @@ def make_folder(folder: Path) -> List[Path]:
         raise InputError(folder, "--output", f"cannot be made: {error.strerror}", "name another folder") from None
 
 
-def remove_empty(folders: List[Path]) -> None:
+def remove_empty(folders: list[Path]) -> None:
     """Removes those of `folders`, the innermost last, that hold nothing."""
     with suppress(OSError):
         for folder in reversed(folders):
@@ -214,7 +212,7 @@ def _synchronise(path: str) -> None:
         os.close(handle)
 
 
-def listed(folder: Path) -> List[str]:
+def listed(folder: Path) -> list[str]:
     """Names in a folder; none where it cannot be read."""
     try:
         return sorted(os.listdir(folder))

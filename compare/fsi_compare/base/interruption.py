@@ -8,12 +8,12 @@ import os
 import signal
 import threading
 from contextlib import contextmanager
-from typing import Callable, Dict, Iterator, List
+from typing import Callable, Iterator
 
 WATCHED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
-_noted: List[int] = []
-_last_words: List[Callable[[], None]] = []  # what must still be done when a second signal ends the program
+_noted: list[int] = []
+_last_words: list[Callable[[], None]] = []  # what must still be done when a second signal ends the program
 
 
 class Interrupted(BaseException):
@@ -55,7 +55,7 @@ def watched(to_the_end: bool = False) -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before: Dict[int, object] = {}
+    before: dict[int, object] = {}
     for watched_number in WATCHED:
         if signal.getsignal(watched_number) is not signal.SIG_IGN:
             before[watched_number] = signal.signal(watched_number, _note)

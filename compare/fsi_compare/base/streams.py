@@ -68,9 +68,8 @@ class _Output(io.TextIOBase):
             return
         if isinstance(error, BrokenPipeError):
             raise ReaderLeft from None
-        raise InputError(
-            "standard output", "", f"cannot be written: {error.strerror}", "the files named by -o are complete"
-        ) from None
+        problem = f"cannot be written: {error.strerror}"
+        raise InputError("standard output", "", problem, "the files named by -o are complete") from None
 
 
 @contextmanager

@@ -1,7 +1,6 @@
 """Where one looks from: parallel projection, so that lengths can be compared."""
 
 from dataclasses import dataclass
-from typing import Tuple
 
 import numpy as np
 
@@ -46,7 +45,7 @@ def longest_directions(points: np.ndarray) -> np.ndarray:
     return rows
 
 
-def fitted(places: np.ndarray, width: int, height: int) -> Tuple[float, np.ndarray]:
+def fitted(places: np.ndarray, width: int, height: int) -> tuple[float, np.ndarray]:
     """Pixels for each mm, and the place in the picture's plane that is its middle, of (points, 2)."""
     low, high = places.min(axis=0), places.max(axis=0)
     spans = np.maximum(high - low, 1e-12) * MARGIN

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass
-from typing import Iterable, List
+from typing import Iterable
 
 import numpy as np
 
@@ -45,9 +45,9 @@ def scale_of(levels: Iterable[np.ndarray], signed: bool) -> Scale:
     """Scale of values at some times and places. A single node cannot stretch it: of each array the 99th percentile
     counts, and of these the largest (below: the 1st, the least). Unsigned values begin at zero. Signed ones are centred
     about zero when both signs matter."""
-    lows: List[float] = []
-    highs: List[float] = []
-    ends: List[float] = []
+    lows: list[float] = []
+    highs: list[float] = []
+    ends: list[float] = []
     for values in levels:
         finite = values[np.isfinite(values)]
         if len(finite):
@@ -71,7 +71,7 @@ def scale_of_difference(levels: Iterable[np.ndarray]) -> Scale:
     return Scale(-found.high, found.high, True, -found.largest, found.largest)
 
 
-def round_ticks(low: float, high: float) -> List[float]:
+def round_ticks(low: float, high: float) -> list[float]:
     """Numbers for the legend of a range: multiples of 1, 2 or 5 times a power of ten, three to six of them, with zero
     where the range holds it. The page has the same (`vesselCurve.ticks`)."""
     raw = (high - low) / TICK_STEPS

@@ -2,7 +2,7 @@
 server."""
 
 from dataclasses import dataclass
-from typing import List, Optional, Sequence, Tuple
+from typing import Sequence
 
 import numpy as np
 
@@ -21,19 +21,14 @@ class Mesh:
 
     points: np.ndarray  # (points, 3)
     triangles: np.ndarray  # (triangles, 3)
-    places: Optional[np.ndarray]  # (points,)
+    places: np.ndarray | None  # (points,)
     lit: bool = True  # shaded by the angle to the eye; sections are not
-    beyond: Optional[np.ndarray] = None  # (points,): what is positive, linear between points, is cut away
+    beyond: np.ndarray | None = None  # (points,): what is positive, linear between points, is cut away
 
 
 def rendered(
-    meshes: Sequence[Mesh],
-    camera: Camera,
-    width: int,
-    height: int,
-    colours: np.ndarray,
-    fit: Optional[np.ndarray] = None,
-) -> Tuple[np.ndarray, float]:
+    meshes: Sequence[Mesh], camera: Camera, width: int, height: int, colours: np.ndarray, fit: np.ndarray | None = None
+) -> tuple[np.ndarray, float]:
     """Red, green, blue of 0 to 255, (height, width, 3), and the pixels for each mm. `colours` (256, 3). The picture
     holds all points, or those of `fit` (points, 3)."""
     wide, high = SAMPLES * width, SAMPLES * height
@@ -55,7 +50,7 @@ def _draw(
     mesh: Mesh,
     screen: np.ndarray,
     eye: np.ndarray,
-    size: Tuple[int, int],
+    size: tuple[int, int],
     image: np.ndarray,
     depth: np.ndarray,
     colours: np.ndarray,
@@ -86,18 +81,15 @@ def _draw(
             image[pixel] = np.where(known[:, None], colours[at], GREY) * shade
 
 
-def _chunks(corners: np.ndarray) -> List[np.ndarray]:
+def _chunks(corners: np.ndarray) -> list[np.ndarray]:
     """Triangles that cover few enough pixels to be drawn at once."""
     spans = np.ptp(corners[:, :, :2], axis=1) + 1
     covered = np.cumsum(spans[:, 0] * spans[:, 1])
-    return [
-        part
-        for part in np.split(np.arange(len(corners)), np.flatnonzero(np.diff(covered // MOST_AT_ONCE)) + 1)
-        if len(part)
-    ]
+    parts = np.split(np.arange(len(corners)), np.flatnonzero(np.diff(covered // MOST_AT_ONCE)) + 1)
+    return [part for part in parts if len(part)]
 
 
-def _covered(corners: np.ndarray, size: Tuple[int, int]) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _covered(corners: np.ndarray, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Pixels whose middles are in a triangle: (numbers, weights of the corners, triangle). Row by row: a row of pixels
     meets a triangle in the interval between its sides."""
     x, y = corners[:, :, 0], corners[:, :, 1]
@@ -115,11 +107,10 @@ def _covered(corners: np.ndarray, size: Tuple[int, int]) -> Tuple[np.ndarray, np
     right = np.clip(np.floor(np.where(np.isfinite(first), last, 0.0) - 0.5) + 1, 0, size[0]).astype(int)
     line, column = _enumerated(left, right)
     row, triangle = row[line], triangle[line]
-    weights = _weights(corners[:, :, :2], triangle, column + 0.5, row + 0.5)
-    return row * size[0] + column, weights, triangle
+    return row * size[0] + column, _weights(corners[:, :, :2], triangle, column + 0.5, row + 0.5), triangle
 
 
-def _enumerated(first: np.ndarray, end: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+def _enumerated(first: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(which, number): all numbers from first[which] to below end[which]."""
     counts = np.maximum(end - first, 0)
     which = np.repeat(np.arange(len(first)), counts)

@@ -1,6 +1,5 @@
 """A half plane of radius (x) and axis (z), turned about the axis."""
 
-from typing import Tuple
 
 import numpy as np
 
@@ -21,7 +20,7 @@ def turned(points: np.ndarray, angle: float) -> np.ndarray:
     return np.stack([c * x - s * y, s * x + c * y, z], axis=1)
 
 
-def swept(points: np.ndarray, edges: np.ndarray) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+def swept(points: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Surface of edges: points, triangles, and the point of the half plane that each point comes from."""
     around = angles()
     made = np.concatenate([turned(points, angle) for angle in around])

@@ -3,11 +3,11 @@
 import argparse
 import sys
 
-from ..base.errors import InputError, printable, say_error
+from ..base.errors import printable, say_error
 from ..base.files import folder, make_folder
-from ..base.options import Commands, add_command, add_drivers, add_output, add_usual, positive
-from ..starting.folder_lock import locked
-from ..starting.programs import find_mesh_maker, find_program
+from ..base.options import Commands, add_command, add_count, add_drivers, add_output, add_usual
+from ..base.folder_lock import locked
+from ..starting.programs import find_drivers, need_mesh_maker
 from .running import Programs, make_runs
 from .scene import BOTH, PEERS, READY, Number, find_scenes
 
@@ -20,32 +20,19 @@ Exit code 2: a run failed, or a number is further from what is known than it may
 
 
 def add_parser(commands: Commands, version: str) -> None:
-    command = add_command(
-        commands, "gallery", gallery, "runs the scenes of the gallery and makes its page", DESCRIPTION
-    )
+    help = "runs the scenes of the gallery and makes its page"
+    command = add_command(commands, "gallery", gallery, help, DESCRIPTION)
     command.add_argument("scenes", metavar="SCENE", nargs="*", help="names of scenes (default: all but the long ones)")
     add_output(command, "results/gallery")
-    command.add_argument(
-        "--from", metavar="FOLDER", type=folder, dest="source", default=READY, help="a gallery of your own"
-    )
-    command.add_argument(
-        "--peers",
-        action="store_const",
-        const=READY / PEERS,
-        dest="source",
-        help="cases of other programs (docs/evidence/peers.md)",
-    )
+    text = "a gallery of your own"
+    command.add_argument("--from", metavar="FOLDER", type=folder, dest="source", default=READY, help=text)
+    text = "cases of other programs (docs/evidence/peers.md)"
+    command.add_argument("--peers", action="store_const", const=READY / PEERS, dest="source", help=text)
     command.add_argument("--long", action="store_true", help="all scenes, those that take minutes, too")
     command.add_argument("--quick", action="store_true", help="the short forms, a second or two each")
     command.add_argument("--list", action="store_true", help="say what there is, and run nothing")
-    command.add_argument("--jobs", metavar="N", type=positive("--jobs"), default=2, help="runs at once (default: 2)")
-    command.add_argument(
-        "--processes",
-        metavar="N",
-        type=positive("--processes"),
-        default=1,
-        help="of each run, by mpirun (default: 1, without mpirun)",
-    )
+    add_count(command, "--jobs", "runs at once (default: 2)", 2)
+    add_count(command, "--processes", "of each run, by mpirun (default: 1, without mpirun)", 1)
     add_drivers(command)
     add_usual(command, version, "accepted as by all programs; a run has one thread")
 
@@ -59,11 +46,8 @@ def gallery(options: argparse.Namespace) -> int:
         return 0
     if not options.scenes and not options.long:
         scenes = [scene for scene in scenes if not scene.long]
-    named = {"fsi-monolithic": options.monolithic, "fsi-partitioned": options.partitioned}
-    drivers = {name: find_program(name, named[name], "--" + name.removeprefix("fsi-")) for name in BOTH}
-    mesh_maker = find_mesh_maker(drivers["fsi-monolithic"])
-    if mesh_maker is None:
-        raise InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
+    drivers = find_drivers(options, BOTH)
+    mesh_maker = need_mesh_maker(drivers["fsi-monolithic"])
 
     def said(text: str) -> None:
         if not options.quiet:

@@ -13,7 +13,7 @@ import shlex
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, List, Optional, Sequence, Tuple
+from typing import Any, Sequence
 
 from ..base.errors import InputError
 from ..base.files import TEMPORARY, is_file, make_folder, read_bytes
@@ -28,15 +28,15 @@ READ = (".geo", ".msh", ".csv", ".vtp", ".ply", ".obj", ".stl", SCRIPT)  # what 
 class Link:
     """One command, with the file that it takes and the one that it makes."""
 
-    words: Tuple[str, ...]
-    source: Optional[Path]  # None: the first
+    words: tuple[str, ...]
+    source: Path | None  # None: the first
     made: Path
 
     @property
     def is_script(self) -> bool:
         return self.words[0].endswith(SCRIPT)
 
-    def command(self, mesh_maker: Any, python: Sequence[Any], quiet: bool) -> List[Any]:
+    def command(self, mesh_maker: Any, python: Sequence[Any], quiet: bool) -> list[Any]:
         name, *others = self.words
         if self.is_script:
             return [*python, name, *others, "-o", self.made]
@@ -44,21 +44,16 @@ class Link:
         return [mesh_maker, name, *before, *others, *(["-q"] if quiet else []), "-o", self.made]
 
 
-def commands_of(words: Sequence[str]) -> List[List[str]]:
+def commands_of(words: Sequence[str]) -> list[list[str]]:
     """The words of each command."""
-    parts: List[List[str]] = [[]]
-    for word in words:
-        if word == MARK:
-            parts.append([])
-        else:
-            parts[-1].append(word)
-    return parts
+    marks = [place for place, word in enumerate(words) if word == MARK]
+    return [list(words[first + 1 : end]) for first, end in zip([-1, *marks], [*marks, len(words)])]
 
 
-def links(words: Sequence[str], target: Path, source: str) -> List[Link]:
+def links(words: Sequence[str], target: Path, source: str) -> list[Link]:
     """`target`: file of the last; those of the others lie beside it. `source`: where the words are. Raises InputError."""
     parts = commands_of(words)
-    found: List[Link] = []
+    found: list[Link] = []
     for number, part in enumerate(parts, 1):
         if not part:
             raise InputError(source, "", "a command of the mesh is empty", "give the words of an fsi-mesh command")
@@ -66,19 +61,17 @@ def links(words: Sequence[str], target: Path, source: str) -> List[Link]:
         made = target if number == len(parts) else target.with_name(f"{target.stem}-{number}{ending}")
         found.append(Link(tuple(part), found[-1].made if found else None, made))
         if found[-1].is_script and (number > 1 or number == len(parts)):
-            remedy = f'write "{Path(part[0]).name} | lumen ..."'
-            raise InputError(
-                source, "", "a script makes a surface, so that it comes first and a command follows", remedy
-            )
+            problem = "a script makes a surface, so that it comes first and a command follows"
+            raise InputError(source, "", problem, f'write "{Path(part[0]).name} | lumen ..."')
     return found
 
 
-def as_typed(words: Sequence[str], target: Path, source: str) -> List[str]:
+def as_typed(words: Sequence[str], target: Path, source: str) -> list[str]:
     """The commands as a user would type them. Raises InputError."""
     return [shlex.join(map(str, link.command("fsi-mesh", ["python3"], False))) for link in links(words, target, source)]
 
 
-def make_mesh(words: Sequence[str], target: Path, mesh_maker: Path, source: str, kept: Optional[Path] = None) -> End:
+def make_mesh(words: Sequence[str], target: Path, mesh_maker: Path, source: str, kept: Path | None = None) -> End:
     """Makes `target`. Returns how the last command that was started ended: code 0 where all are done. Files between are
     removed, or, with `kept`, stay in that folder, named by their recipe, so that other chains take them up."""
     chain = links(words, target, source)
@@ -115,10 +108,10 @@ def _make(link: Link, mesh_maker: Path, whole: bool) -> End:
     return end
 
 
-def _with_kept(chain: Sequence[Link], folder: Path) -> List[Link]:
+def _with_kept(chain: Sequence[Link], folder: Path) -> list[Link]:
     """The same commands; files, but for the last one, named by what each is made of."""
-    found: List[Link] = []
-    words: List[str] = []
+    found: list[Link] = []
+    words: list[str] = []
     for link in chain:
         words += [*link.words, MARK]
         digest = hashlib.sha256("\0".join([*words, *contents(words)]).encode()).hexdigest()
@@ -128,12 +121,12 @@ def _with_kept(chain: Sequence[Link], folder: Path) -> List[Link]:
     return found
 
 
-def contents(words: Sequence[str]) -> List[str]:
+def contents(words: Sequence[str]) -> list[str]:
     """Digests of the files that the words name."""
     named = [Path(word) for word in words if word.endswith(READ) and is_file(Path(word))]
     return [hashlib.sha256(read_bytes(path, "make it again", "make it again")).hexdigest() for path in named]
 
 
-def with_places(words: Sequence[str], folder: Path) -> List[str]:
+def with_places(words: Sequence[str], folder: Path) -> list[str]:
     """Files of `folder` by their full names; other words as they are."""
     return [str(folder / word) if word.endswith(READ) and is_file(folder / word) else word for word in words]

@@ -2,7 +2,7 @@
 
 from os.path import normpath
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Sequence, Tuple
+from typing import Any, Mapping, Sequence
 
 from ..reporting.column import Column
 from ..reporting.layout import Table
@@ -18,7 +18,7 @@ from ..reporting.work_column import work_column
 TITLE = "fsi-duo: gallery"
 
 
-def write_page(folder: Path, outcomes: Sequence[Outcome], quick: bool, at_once: int) -> Tuple[Report, List[Number]]:
+def write_page(folder: Path, outcomes: Sequence[Outcome], quick: bool, at_once: int) -> tuple[Report, list[Number]]:
     """Writes the page; also what was measured, of all scenes. A scene of which a run failed says so."""
     report = Report(folder, TITLE + (", short form" if quick else ""))
     report.text(
@@ -27,14 +27,14 @@ def write_page(folder: Path, outcomes: Sequence[Outcome], quick: bool, at_once: 
         '"Differs by" is relative to the known value, or to the scale that the scene gives: phases to 1 rad, leads to '
         "90 degrees, the lift of FSI1 to its drag."
     )
-    measured: List[Number] = []
+    measured: list[Number] = []
     for outcome in outcomes:
         measured += _scene(report, outcome, quick, at_once)
     report.write()
     return report, measured
 
 
-def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[Number]:
+def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> list[Number]:
     scene = outcome.scene
     stem = scene.name.replace("-", "_")
     report.section(scene.title)
@@ -65,13 +65,11 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[
     return numbers
 
 
-def _mesh_commands(scene: Scene, place: str, quick: bool) -> List[str]:
+def _mesh_commands(scene: Scene, place: str, quick: bool) -> list[str]:
     """The commands as a user would type them in the sources' folder."""
     words = scene.mesh_words(quick)
-    named = [
-        normpath(f"{place}/{word}") if full != word else word
-        for word, full in zip(words, with_places(words, scene.folder))
-    ]
+    pairs = zip(words, with_places(words, scene.folder))
+    named = [normpath(f"{place}/{word}") if full != word else word for word, full in pairs]
     return as_typed(named, Path(f"{scene.name}.msh"), place)
 
 
@@ -82,13 +80,21 @@ def add_still(report: Report, stem: str, run: RunResults, asked: Mapping[str, An
         return
     key = asked.get("field", run.scene.first)
     run.scene.check(key)
-    words: Dict[str, Any] = {"time": run.scene.peak(key), "factor": run.scene.visible_factor(), **asked}
+    words: dict[str, Any] = {"time": run.scene.peak(key), "factor": run.scene.visible_factor(), **asked}
     caption = run.scene.quantity(key).words
     report.still(stem, lambda: run.picture(**words), f"{caption[0].upper()}{caption[1:]} at {words['time']:g} ms.")
 
 
 def driver(program: str) -> str:
     return program.removeprefix("fsi-")
+
+
+def differs(number: Number) -> str:
+    return percent(number.error) + ("" if number.holds else " (!)")
+
+
+def quantity(number: Number) -> str:
+    return number.what + (f" [{number.unit}]" if number.unit else "")
 
 
 def percent(share: float) -> str:
@@ -100,22 +106,18 @@ def total(run: SceneRun, name: str) -> Any:
 
 
 NUMBERS: Sequence[Column[Number]] = (
-    Column(
-        "quantity", "quantity", lambda n: n.what, text=lambda n: n.what + (f" [{n.unit}]" if n.unit else ""), left=True
-    ),
+    Column("quantity", "quantity", lambda n: n.what, text=quantity, left=True),
     Column(csv="unit", value=lambda n: n.unit),
     Column("driver", "program", lambda n: n.program, driver, left=True),
     Column("known from", "source", lambda n: n.source, left=True),
     Column("value", "value", lambda n: n.value, ".5g"),
     Column("known", "reference", lambda n: n.reference, ".5g"),
-    Column(
-        "differs by", "relative_error", lambda n: n.error, text=lambda n: percent(n.error) + ("" if n.holds else " (!)")
-    ),
+    Column("differs by", "relative_error", lambda n: n.error, text=differs),
     Column("may by", "tolerance", lambda n: n.tolerance, percent),
 )
 
 # Of (program, its run).
-COSTS: Sequence[Column[Tuple[str, SceneRun]]] = (
+COSTS: Sequence[Column[tuple[str, SceneRun]]] = (
     Column("driver", "program", lambda r: r[0], left=True, text=lambda r: r[1].words),
     Column(csv="coupling_kind", value=lambda r: coupling_kind(r[1].summary), behind=True),
     Column("unknowns", "unknowns", lambda r: r[1].summary.get("unknowns", {}).get("coupled")),

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Mapping, Sequence
+from typing import Any, Callable, Mapping, Sequence
 
 from ..base.errors import InputError, ProgramError
 from ..base.files import absolute, make_folder, remove_tree
@@ -24,8 +24,8 @@ class Outcome:
     """The finished runs of a scene, and why others are missing."""
 
     scene: Scene
-    runs: Dict[str, SceneRun] = field(default_factory=dict)
-    failures: Dict[str, str] = field(default_factory=dict)  # by program
+    runs: dict[str, SceneRun] = field(default_factory=dict)
+    failures: dict[str, str] = field(default_factory=dict)  # by program
 
     def finished(self, quick: bool) -> SceneRuns:
         return SceneRuns({name: self.runs[name] for name in self.scene.drivers if name in self.runs}, quick)
@@ -39,11 +39,11 @@ def make_runs(
     at_once: int,
     said: Callable[[str], None],
     processes: int = 1,
-) -> List[Outcome]:
+) -> list[Outcome]:
     """Runs each scene with its drivers, each on `processes` of one thread, `at_once` at a time:
     `folder/NAME/monolithic` and so on."""
     outcomes = [Outcome(scene) for scene in scenes]
-    jobs: List[Job] = []
+    jobs: list[Job] = []
     places = []
     for outcome in outcomes:
         scene = outcome.scene
@@ -72,19 +72,17 @@ def _make_mesh(scene: Scene, place: Path, mesh_maker: Path, quick: bool) -> Path
     make_folder(place)
     mesh = place / f"{scene.name}.msh"
     words = scene.mesh_words(quick)
-    if len(words) < 1:
+    if not words:
         raise InputError(scene.folder / "scene.py", "MESH", "is empty", "give the words of an fsi-mesh command")
-    source = f"{scene.folder / 'scene.py'}: MESH"
-    end = make_mesh(with_places(words, scene.folder), mesh, mesh_maker, source)
+    end = make_mesh(with_places(words, scene.folder), mesh, mesh_maker, f"{scene.folder / 'scene.py'}: MESH")
     if end.code:
         raise ProgramError(scene.folder / "scene.py", "MESH", end.message, "mend the scene's mesh")
     return mesh
 
 
-def _command(scene: Scene, program: Program, mesh: Path, place: Path, quick: bool) -> List[Any]:
-    settings = dict(scene.quick) if quick else {}
-    settings["mesh.file"] = str(absolute(mesh))
-    words: List[Any] = [program.path, scene.case, "-o", place, "-q", "--threads", "1"]
+def _command(scene: Scene, program: Program, mesh: Path, place: Path, quick: bool) -> list[Any]:
+    settings = {**(scene.quick if quick else {}), "mesh.file": str(absolute(mesh))}
+    words: list[Any] = [program.path, scene.case, "-o", place, "-q", "--threads", "1"]
     for name, value in settings.items():
         words += ["--set", f"{name}={value}"]
     return words

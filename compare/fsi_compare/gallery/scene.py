@@ -17,10 +17,11 @@ and may hold
 """
 
 import shlex
+import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Dict, List, Mapping, Sequence, Tuple
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
 from ..base.files import exists, is_file, is_folder, listed, read_text
@@ -56,11 +57,6 @@ class Number:
         return abs(self.value - self.reference) / (self.scale or abs(self.reference))
 
     @property
-    def of_other_driver(self) -> bool:
-        """Whether the reference is no more than what the other driver gives."""
-        return self.source in ("the other driver", "the monolithic driver", "the partitioned driver")
-
-    @property
     def holds(self) -> bool:
         return self.error <= self.tolerance  # a NaN does not
 
@@ -71,7 +67,7 @@ class SceneRun:
 
     folder: Path
     program: str
-    summary: Dict[str, Any]
+    summary: dict[str, Any]
     seconds: float
 
     @property
@@ -109,9 +105,9 @@ class Scene:
     folder: Path
     name: str
     title: str
-    paragraphs: Tuple[str, ...]
+    paragraphs: tuple[str, ...]
     mesh: str
-    drivers: Tuple[str, ...]
+    drivers: tuple[str, ...]
     module: ModuleType = field(repr=False)
     quick_mesh: str = ""
     long: bool = False
@@ -127,10 +123,10 @@ class Scene:
         above = f"{PEERS}/" if self.folder.parent.name == PEERS else ""
         return f"gallery/{above}{self.name}"
 
-    def mesh_words(self, quick: bool) -> List[str]:
+    def mesh_words(self, quick: bool) -> list[str]:
         return shlex.split((quick and self.quick_mesh) or self.mesh)
 
-    def numbers(self, runs: SceneRuns) -> List[Number]:
+    def numbers(self, runs: SceneRuns) -> list[Number]:
         return list(self.module.numbers(runs))
 
     def known_curve(self, name: str, times: Any) -> Any:
@@ -139,16 +135,16 @@ class Scene:
         return None if known is None else known(name, times)
 
 
-def scene_names(folder: Path = READY) -> List[str]:
+def scene_names(folder: Path = READY) -> list[str]:
     return [name for name in listed(folder) if is_file(folder / name / "scene.py")]
 
 
-def ready_scenes() -> List[str]:
+def ready_scenes() -> list[str]:
     """Names of all scenes that come with the program, from its gallery's folder on: `womersley`, `peers/mok-flap`."""
     return [*scene_names(), *(f"{PEERS}/{name}" for name in scene_names(READY / PEERS))]
 
 
-def find_scenes(wanted: Sequence[str], folder: Path = READY) -> List[Scene]:
+def find_scenes(wanted: Sequence[str], folder: Path = READY) -> list[Scene]:
     """The scenes named, all when none is. Raises InputError for a name that is no scene's."""
     names = scene_names(folder)
     if not names:
@@ -161,6 +157,8 @@ def find_scenes(wanted: Sequence[str], folder: Path = READY) -> List[Scene]:
 
 def read_scene(folder: Path) -> Scene:
     """Reads a scene's folder. Raises InputError."""
+    if str(READY) not in sys.path:
+        sys.path.append(str(READY))  # scenes import from known_solutions
     path = folder / "scene.py"
     if not is_folder(folder) or not exists(path):
         raise InputError(path, "", "no such file", "a scene is a folder with scene.py and a case")

@@ -7,21 +7,15 @@ sections on triangular and on tetrahedral solid elements."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Dict, Iterable, Iterator, List, Mapping, NamedTuple, NoReturn, Optional, Sequence, Tuple
+from typing import Iterable, Iterator, Mapping, NamedTuple, NoReturn, Sequence
 
 import numpy as np
 
 from ..base.errors import InputError
 from ..base.files import read_bytes
-from .raw_mesh import RawMesh
+from .raw_mesh import RawMesh, sides_in_order
 
-# Nodes of faces S1, S2, ...: corners, then middles of edges.
-FACES: Dict[str, Tuple[str, Tuple[Tuple[int, ...], ...]]] = {
-    "tetra": ("triangle", ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))),
-    "tetra10": ("triangle6", ((0, 1, 2, 4, 5, 6), (0, 3, 1, 7, 8, 4), (1, 3, 2, 8, 9, 5), (2, 3, 0, 9, 7, 6))),
-    "triangle": ("line", ((0, 1), (1, 2), (2, 0))),
-    "triangle6": ("line3", ((0, 1, 3), (1, 2, 4), (2, 0, 5))),
-}
+FACES = sides_in_order((3, 2, 0, 1))  # S1, S2, ...
 # Types of elements begin with one of these, by dimension; the number of nodes follows, then letters of the formulation.
 FAMILIES = {
     3: ("DC3D", "AC3D", "C3D"),
@@ -53,10 +47,10 @@ class Part:
     """A part, whose nodes and elements have numbers of their own. What is outside of parts has an empty name."""
 
     name: str
-    nodes: Dict[int, int] = field(default_factory=dict)  # number -> place among all points
-    elements: Dict[int, Tuple[str, int]] = field(default_factory=dict)  # number -> block, place in it
-    node_sets: Dict[Tuple[str, str], List[int]] = field(default_factory=dict)  # scope and name in upper case -> numbers
-    element_sets: Dict[Tuple[str, str], List[int]] = field(default_factory=dict)
+    nodes: dict[int, int] = field(default_factory=dict)  # number -> place among all points
+    elements: dict[int, tuple[str, int]] = field(default_factory=dict)  # number -> block, place in it
+    node_sets: dict[tuple[str, str], list[int]] = field(default_factory=dict)  # scope and name in upper case -> numbers
+    element_sets: dict[tuple[str, str], list[int]] = field(default_factory=dict)
 
 
 def read_abaqus(path: Path) -> RawMesh:
@@ -65,7 +59,7 @@ def read_abaqus(path: Path) -> RawMesh:
     return _Deck(path).mesh()
 
 
-def _lines(path: Path, depth: int = 0, asked: Optional[Line] = None) -> Iterator[Line]:
+def _lines(path: Path, depth: int = 0, asked: Line | None = None) -> Iterator[Line]:
     """Lines without comments and empty ones; those of included files in their place."""
     missing = "give the deck with all that it includes"
     try:
@@ -76,7 +70,7 @@ def _lines(path: Path, depth: int = 0, asked: Optional[Line] = None) -> Iterator
         raise InputError(asked.file, f"line {asked.number}", f"{asked.text}: {error}") from None
     if b"\0" in data[:4096]:
         raise InputError(path, "", "is no text, as decks are", "write the mesh as .inp, or as .vtu")
-    begun: Optional[Line] = None  # a keyword that goes on in the next line
+    begun: Line | None = None  # a keyword that goes on in the next line
     for number, raw in enumerate(data.decode("utf-8", "replace").splitlines(), 1):
         text = raw.strip()
         if not text or text.startswith("**"):
@@ -99,7 +93,7 @@ def _lines(path: Path, depth: int = 0, asked: Optional[Line] = None) -> Iterator
         yield from _lines(path.parent / options["INPUT"], depth + 1, line)
 
 
-def _keyword(text: str) -> Tuple[str, Dict[str, str]]:
+def _keyword(text: str) -> tuple[str, dict[str, str]]:
     """NODE and {NSET: name} of "*Node, nset=name"; options without a value have an empty one."""
     head, *rest = [part.strip() for part in text[1:].split(",")]
     options = {}
@@ -113,18 +107,18 @@ def _refuse(line: Line, problem: str, remedy: str = REMEDY) -> NoReturn:
     raise InputError(line.file, f"line {line.number}", problem, remedy)
 
 
-def _wanted(key: Line, options: Dict[str, str], name: str) -> str:
+def _wanted(key: Line, options: dict[str, str], name: str) -> str:
     value = options.get(name, "")
     if not value:
         _refuse(key, f"{key.text.split(',')[0]} has no {name}=")
     return value
 
 
-def _words(line: Line) -> List[str]:
+def _words(line: Line) -> list[str]:
     return [word.strip() for word in line.text.split(",") if word.strip()]
 
 
-def _shape(said: str) -> Tuple[int, int]:
+def _shape(said: str) -> tuple[int, int]:
     """Dimension and nodes of a type of elements: 3 and 10 of C3D10MH; 0 for one that is not known."""
     for name, found in OTHER_TYPES.items():
         if said.startswith(name):
@@ -141,21 +135,21 @@ def _shape(said: str) -> Tuple[int, int]:
 class _Deck:
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.points: List[Tuple[float, ...]] = []
-        self.blocks: Dict[str, List[List[int]]] = {}  # kind -> nodes of each element
-        self.facets: Dict[str, List[np.ndarray]] = {}  # kind -> nodes of those of surfaces
-        self.parts: Dict[str, Part] = {"": Part("")}
+        self.points: list[tuple[float, ...]] = []
+        self.blocks: dict[str, list[list[int]]] = {}  # kind -> nodes of each element
+        self.facets: dict[str, list[np.ndarray]] = {}  # kind -> nodes of those of surfaces
+        self.parts: dict[str, Part] = {"": Part("")}
         self.current = self.parts[""]
-        self.instances: Dict[str, Part] = {}  # by name in upper case
+        self.instances: dict[str, Part] = {}  # by name in upper case
         # By scope, the part or nothing, and the first spelling of a name, since decks do not tell cases apart: block,
         # places.
-        self.sets: Dict[Tuple[str, str], List[Tuple[str, List[int]]]] = {}
-        self.surfaces: Dict[Tuple[str, str], List[Tuple[str, List[int]]]] = {}
-        self.point_sets: Dict[Tuple[str, str], List[int]] = {}
-        self.spelling: Dict[str, str] = {}
-        self.passed_over: Dict[str, None] = {}
-        key: Optional[Line] = None
-        data: List[Line] = []
+        self.sets: dict[tuple[str, str], list[tuple[str, list[int]]]] = {}
+        self.surfaces: dict[tuple[str, str], list[tuple[str, list[int]]]] = {}
+        self.point_sets: dict[tuple[str, str], list[int]] = {}
+        self.spelling: dict[str, str] = {}
+        self.passed_over: dict[str, None] = {}
+        key: Line | None = None
+        data: list[Line] = []
         for line in _lines(path):
             if line.text.startswith("*"):
                 self._section(key, data)
@@ -176,19 +170,15 @@ class _Deck:
         sets = {}
         for table, word in ((self.sets, ""), (self.surfaces, ":surface")):
             for key, entries in table.items():
-                places: List[List[int]] = [[] for _ in blocks]
+                places: list[list[int]] = [[] for _ in blocks]
                 for block, there in entries:
                     places[order[block]] += there
                 name = _shown(key, table)
-                sets[name + (word if name in sets else "")] = [np.unique(np.array(p, dtype=np.int64)) for p in places]
-        points = {
-            _shown(key, self.point_sets): np.unique(np.array(p, dtype=np.int64)) for key, p in self.point_sets.items()
-        }
-        return RawMesh(
-            np.array(self.points), blocks, cell_sets=sets, point_sets=points, passed_over=list(self.passed_over)
-        )
+                sets[name + (word if name in sets else "")] = list(map(_places, places))
+        at = {_shown(key, self.point_sets): _places(places) for key, places in self.point_sets.items()}
+        return RawMesh(np.array(self.points), blocks, cell_sets=sets, point_sets=at, passed_over=list(self.passed_over))
 
-    def _section(self, key: Optional[Line], data: List[Line]) -> None:
+    def _section(self, key: Line | None, data: list[Line]) -> None:
         """A keyword and the lines behind it. Those that say no mesh are left."""
         if key is None:
             return
@@ -200,22 +190,12 @@ class _Deck:
             self.current = self.parts.setdefault(name, Part(name))
         elif word in ("END PART", "ASSEMBLY", "END ASSEMBLY"):
             self.current = self.parts[""]
-        elif word == "INSTANCE":
-            self._instance(key, options, data)
-        elif word == "NODE":
-            self._nodes(key, options, data)
-        elif word == "ELEMENT":
-            self._elements(key, options, data)
-        elif word == "NSET":
-            self._node_set(key, options, data)
-        elif word == "ELSET":
-            self._element_set(key, options, data)
-        elif word == "SURFACE":
-            self._surface(key, options, data)
+        elif word in self._TAKING:
+            self._TAKING[word](self, key, options, data)
         elif word in MOVING:
             _refuse(key, f"*{word} makes or moves nodes or elements, which is not read", "write the mesh itself out")
 
-    def _instance(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
+    def _instance(self, key: Line, options: dict[str, str], data: list[Line]) -> None:
         part = self.parts.get(_wanted(key, options, "PART").upper())
         if part is None:
             _refuse(key, f"there is no part {options['PART']}")
@@ -225,7 +205,7 @@ class _Deck:
             _refuse(key, f"a second instance of the part {options['PART']} is not read", "write the mesh in its place")
         self.instances[_wanted(key, options, "NAME").upper()] = part
 
-    def _nodes(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
+    def _nodes(self, key: Line, options: dict[str, str], data: list[Line]) -> None:
         if options.get("SYSTEM", "R").upper() != "R":
             _refuse(key, f"coordinates of the system {options['SYSTEM']} are not read", "write x, y and z")
         numbers = []
@@ -246,7 +226,7 @@ class _Deck:
         if options.get("NSET"):
             self._take_nodes(self.current, options["NSET"], numbers)
 
-    def _elements(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
+    def _elements(self, key: Line, options: dict[str, str], data: list[Line]) -> None:
         said = _wanted(key, options, "TYPE").upper()
         dimension, count = _shape(said)
         if not dimension:
@@ -254,20 +234,18 @@ class _Deck:
         kind = OF_COUNT[dimension][count]
         rows = self.blocks.setdefault(kind, [])
         numbers, nodes = self._element_rows(data, said, count)
-        self.current.elements.update(
-            zip(numbers, ((kind, place) for place in range(len(rows), len(rows) + len(nodes))))
-        )
+        self.current.elements.update((number, (kind, place)) for place, number in enumerate(numbers, len(rows)))
         rows += nodes
         if options.get("ELSET"):
             self._take_elements(self.current, options["ELSET"], numbers)
 
-    def _element_rows(self, data: List[Line], said: str, count: int) -> Tuple[List[int], List[List[int]]]:
+    def _element_rows(self, data: list[Line], said: str, count: int) -> tuple[list[int], list[list[int]]]:
         """Numbers and nodes of elements; one may go on in the next line."""
         known, taken = self.current.nodes, self.current.elements
-        numbers: List[int] = []
-        rows: List[List[int]] = []
+        numbers: list[int] = []
+        rows: list[list[int]] = []
         fresh = set()
-        words: List[str] = []
+        words: list[str] = []
         for line in data:
             words += line.text.rstrip(",").split(",")
             if len(words) <= count:
@@ -290,7 +268,7 @@ class _Deck:
             _refuse(data[-1], f"element {words[0]} has {len(words) - 1} nodes, its type {said} {count}")
         return numbers, rows
 
-    def _owner(self, key: Line, options: Dict[str, str]) -> Part:
+    def _owner(self, key: Line, options: dict[str, str]) -> Part:
         """The part whose numbers a set has."""
         if not options.get("INSTANCE"):
             return self.current
@@ -299,11 +277,10 @@ class _Deck:
             _refuse(key, f"there is no instance {options['INSTANCE']}")
         return part
 
-    def _node_set(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
+    def _node_set(self, key: Line, options: dict[str, str], data: list[Line]) -> None:
         name, part = _wanted(key, options, "NSET"), self._owner(key, options)
-        numbers = _set_numbers(
-            options, data, part.nodes, self._known(part, part.node_sets), f"the set {name} has the node"
-        )
+        known = self._known(part, part.node_sets)
+        numbers = _set_numbers(options, data, part.nodes, known, f"the set {name} has the node")
         if options.get("ELSET"):  # the nodes of a set of elements
             elements = self._known(part, part.element_sets).get(options["ELSET"].upper())
             if elements is None:
@@ -313,35 +290,31 @@ class _Deck:
             numbers += sorted(number_of[place] for place in places)
         self._take_nodes(part, name, numbers)
 
-    def _element_set(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
+    def _element_set(self, key: Line, options: dict[str, str], data: list[Line]) -> None:
         name, part = _wanted(key, options, "ELSET"), self._owner(key, options)
         known = self._known(part, part.element_sets)
         numbers = _set_numbers(options, data, part.elements, known, f"the set {name} has the element")
         # Sets that Abaqus/CAE makes for surfaces are marked so.
         self._take_elements(part, name, numbers, "INTERNAL" not in options)
 
-    def _spelled(self, name: str) -> str:
-        return self.spelling.setdefault(name.upper(), name)
-
-    def _key(self, name: str) -> Tuple[str, str]:
+    def _key(self, name: str) -> tuple[str, str]:
         """Scope and name of a set or surface of the current part or assembly; another part may use the same name."""
-        return self.current.name, self._spelled(name)
+        return self.current.name, self.spelling.setdefault(name.upper(), name)
 
-    def _known(self, part: Part, sets: Dict[Tuple[str, str], List[int]]) -> Dict[str, List[int]]:
+    def _known(self, part: Part, sets: dict[tuple[str, str], list[int]]) -> dict[str, list[int]]:
         """A part's sets by the names that hold here: its own, overridden by those that the assembly made of it."""
-        own = {name: numbers for (scope, name), numbers in sets.items() if scope == part.name}
-        return own | {name: numbers for (scope, name), numbers in sets.items() if scope == self.current.name}
+        return _of_scope(part.name, sets) | _of_scope(self.current.name, sets)
 
-    def _take_nodes(self, part: Part, name: str, numbers: List[int]) -> None:
+    def _take_nodes(self, part: Part, name: str, numbers: list[int]) -> None:
         part.node_sets.setdefault((self.current.name, name.upper()), []).extend(numbers)
         self.point_sets.setdefault(self._key(name), []).extend(part.nodes[n] for n in numbers)
 
-    def _take_elements(self, part: Part, name: str, numbers: List[int], shown: bool = True) -> None:
+    def _take_elements(self, part: Part, name: str, numbers: list[int], shown: bool = True) -> None:
         part.element_sets.setdefault((self.current.name, name.upper()), []).extend(numbers)
         if shown:
             self.sets.setdefault(self._key(name), []).extend(_by_block(part, numbers))
 
-    def _surface(self, key: Line, options: Dict[str, str], data: List[Line]) -> None:
+    def _surface(self, key: Line, options: dict[str, str], data: list[Line]) -> None:
         name, kind = _wanted(key, options, "NAME"), options.get("TYPE", "ELEMENT").upper()
         if kind not in ("ELEMENT", "NODE"):
             self.passed_over[f"{name} (a surface of the type {kind})"] = None
@@ -359,7 +332,7 @@ class _Deck:
         if not entries:
             del self.surfaces[self._key(name)]
 
-    def _faces(self, line: Line, block: str, places: List[int], side: str) -> Tuple[str, List[int]]:
+    def _faces(self, line: Line, block: str, places: list[int], side: str) -> tuple[str, list[int]]:
         """Block and places of the facets that a line of a surface names; of shells these are the elements."""
         if side in ("", "SPOS", "SNEG"):
             if block.startswith("tetra"):
@@ -375,7 +348,7 @@ class _Deck:
         known.append(rows)
         return f"facets {facet}", list(range(start, start + len(rows)))
 
-    def _named(self, line: Line, entry: str, nodes: bool) -> Tuple[Part, List[int]]:
+    def _named(self, line: Line, entry: str, nodes: bool) -> tuple[Part, list[int]]:
         """Part and numbers of "SET", "INSTANCE.SET" or of one number. Sets that an assembly names are of their part."""
         instance, dot, rest = entry.partition(".")
         parts: Iterable[Part] = [self.current] if self.current.name else self.parts.values()
@@ -385,26 +358,31 @@ class _Deck:
         for part in parts:
             sets = part.node_sets if nodes else part.element_sets
             # INSTANCE.SET is the part's own.
-            known = (
-                {name: n for (scope, name), n in sets.items() if scope == part.name}
-                if whole
-                else self._known(part, sets)
-            )
-            there: Mapping[int, object] = part.nodes
-            if not nodes:
-                there = part.elements
+            known = _of_scope(part.name, sets) if whole else self._known(part, sets)
+            there = part.nodes.keys() if nodes else part.elements.keys()
             if entry.upper() in known:
                 return part, known[entry.upper()]
             if entry.isdigit() and int(entry) in there:
                 return part, [int(entry)]
         _refuse(line, f"there is no set of {'nodes' if nodes else 'elements'} {entry}")
 
+    _TAKING = {"INSTANCE": _instance, "NODE": _nodes, "ELEMENT": _elements}  # by keyword
+    _TAKING |= {"NSET": _node_set, "ELSET": _element_set, "SURFACE": _surface}
+
+
+def _of_scope(scope: str, sets: Mapping[tuple[str, str], list[int]]) -> dict[str, list[int]]:
+    return {name: numbers for (of, name), numbers in sets.items() if of == scope}
+
+
+def _places(places: Sequence[int]) -> np.ndarray:
+    return np.unique(np.array(places, dtype=np.int64))
+
 
 def _set_numbers(
-    options: Dict[str, str], data: List[Line], there: Mapping[int, object], known: Dict[str, List[int]], words: str
-) -> List[int]:
+    options: dict[str, str], data: list[Line], there: Mapping[int, object], known: dict[str, list[int]], words: str
+) -> list[int]:
     """Numbers of a set, which may name other sets. `words` begin the message for one that is not there."""
-    numbers: List[int] = []
+    numbers: list[int] = []
     for line in data:
         entries, found = _words(line), []
         if "GENERATE" in options:
@@ -428,14 +406,14 @@ def _set_numbers(
     return numbers
 
 
-def _shown(key: Tuple[str, str], table: Mapping[Tuple[str, str], object]) -> str:
+def _shown(key: tuple[str, str], table: Mapping[tuple[str, str], object]) -> str:
     """A name, with its part before it where others have the same."""
     scope, name = key
     return f"{scope}/{name}" if scope and sum(other == name for _, other in table) > 1 else name
 
 
-def _by_block(part: Part, numbers: Sequence[int]) -> List[Tuple[str, List[int]]]:
-    found: Dict[str, List[int]] = {}
+def _by_block(part: Part, numbers: Sequence[int]) -> list[tuple[str, list[int]]]:
+    found: dict[str, list[int]] = {}
     for number in numbers:
         block, place = part.elements[number]
         found.setdefault(block, []).append(place)

@@ -1,6 +1,6 @@
 """Groups of a mesh as a gmsh file, and checks of the mesh."""
 
-from typing import Dict, List, Sequence, TextIO, Tuple
+from typing import Sequence, TextIO
 
 import numpy as np
 
@@ -8,12 +8,12 @@ from ..base.errors import InputError, say_warning
 from .groups import Group, as_sides
 from .joining import distances_to
 from .parts import FoundMesh
-from .raw_mesh import ELEMENTS, KINDS, Block
+from .raw_mesh import ELEMENTS, KINDS, TURNED, Block
 from .sources import Source
 from .touching import contacts, doubled_words, gap_words
 
 
-def require_sides(file: str, mesh: FoundMesh, groups: List[Group], sources: Sequence[Source]) -> None:
+def require_sides(file: str, mesh: FoundMesh, groups: list[Group], sources: Sequence[Source]) -> None:
     """Facets of another file than the cells' are to be sides of cells."""
     missing = as_sides(mesh, groups)
     if not missing or len(sources) == 1:
@@ -32,9 +32,9 @@ def require_sides(file: str, mesh: FoundMesh, groups: List[Group], sources: Sequ
     raise InputError(at, group.name, problem, f"give --join {1.1 * farthest:.2g}, if that is a small part of an edge")
 
 
-def warn_of_gaps(mesh: FoundMesh, groups: List[Group]) -> None:
+def warn_of_gaps(mesh: FoundMesh, groups: list[Group]) -> None:
     """A volume that shares no side with another one is alone: no interface."""
-    volumes: Dict[str, List[Block]] = {}
+    volumes: dict[str, list[Block]] = {}
     for group in groups:
         if group.dimension == mesh.dimension:
             volumes.setdefault(group.name, []).extend(group.parts)
@@ -50,37 +50,30 @@ def warn_of_gaps(mesh: FoundMesh, groups: List[Group]) -> None:
         say_warning(doubled)
 
 
-def turn(mesh: FoundMesh, groups: List[Group]) -> int:
+def turn(mesh: FoundMesh, groups: list[Group]) -> int:
     """Turns linear and quadratic tetrahedra of negative volume; how many there were."""
-    swap = {"tetra": (0, 2, 1, 3), "tetra10": (0, 2, 1, 3, 6, 5, 4, 7, 9, 8)}
     count = 0
-    for group in groups:
-        for block in group.parts:
-            if block.kind not in swap:
-                continue
-            a, b, c, d = (mesh.points[block.nodes[:, k]] for k in range(4))
-            wrong = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) < 0
-            count += int(wrong.sum())
-            block.nodes[wrong] = block.nodes[wrong][:, list(swap[block.kind])]
+    for block in (block for group in groups for block in group.parts if block.kind in TURNED):
+        a, b, c, d = (mesh.points[block.nodes[:, k]] for k in range(4))
+        wrong = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) < 0
+        count += int(wrong.sum())
+        block.nodes[wrong] = block.nodes[wrong][:, list(TURNED[block.kind])]
     return count
 
 
-def write_gmsh(out: TextIO, mesh: FoundMesh, groups: List[Group]) -> None:
+def write_gmsh(out: TextIO, mesh: FoundMesh, groups: list[Group]) -> None:
     """Writes gmsh's format. meshio's own writer takes a name once only, and volumes and surfaces may share one."""
     used = np.unique(np.concatenate([block.nodes.ravel() for group in groups for block in group.parts]))
     number = np.zeros(len(mesh.points), dtype=np.int64)
     number[used] = np.arange(1, len(used) + 1)
-    names: dict = {}
-    for group in groups:
-        names.setdefault((group.dimension, group.name), len(names) + 1)
-    out.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n")
-    out.write(f"{len(names)}\n")
+    names = {key: i for i, key in enumerate(dict.fromkeys((group.dimension, group.name) for group in groups), 1)}
+    out.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(names)}\n")
     for (dimension, name), tag in names.items():
         out.write(f'{dimension} {tag} "{name}"\n')
     out.write(f"$EndPhysicalNames\n$Nodes\n{len(used)}\n")
     for i, (x, y, z) in enumerate(mesh.points[used].tolist(), 1):
         out.write(f"{i} {x!r} {y!r} {z!r}\n")
-    blocks: List[Tuple[int, Block]] = [(names[g.dimension, g.name], block) for g in groups for block in g.parts]
+    blocks: list[tuple[int, Block]] = [(names[g.dimension, g.name], block) for g in groups for block in g.parts]
     out.write(f"$EndNodes\n$Elements\n{sum(len(block.nodes) for _, block in blocks)}\n")
     at = 0
     for tag, block in blocks:

@@ -3,7 +3,7 @@ cells and facets beside it (`domains`, `boundaries`), each with points and eleme
 takes .h5 for another format, and does not read these."""
 
 from pathlib import Path
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 import h5py
 import numpy as np
@@ -27,8 +27,8 @@ def _read(path: Path, file: Any) -> RawMesh:
     if not isinstance(file.get("mesh"), h5py.Group) or "topology" not in file["mesh"]:
         raise InputError(path, "mesh", "is no mesh of dolfin", "give a mesh that dolfin's HDF5File wrote, or a .vtu")
     points, cells = _mesh(path, "mesh", file["mesh"])
-    blocks: List[Tuple[str, np.ndarray]] = [(KINDS[cells.shape[1]], cells)]
-    values: Dict[str, List[np.ndarray]] = {}
+    blocks: list[tuple[str, np.ndarray]] = [(KINDS[cells.shape[1]], cells)]
+    values: dict[str, list[np.ndarray]] = {}
     passed_over = []
     for name, group in file.items():
         if name == "mesh" or not isinstance(group, h5py.Group):
@@ -52,14 +52,13 @@ def _read(path: Path, file: Any) -> RawMesh:
         names = [name for name, parts in values.items() if len(parts) - 1 in whole]
         raise InputError(path, ", ".join(names), "are two functions of the cells", "leave one in the file")
     kept = [i for i in range(len(blocks)) if i != 0 or len(whole) == 1]
-    data = {
-        name: [(parts[i] if i < len(parts) else np.full(len(blocks[i][1]), np.nan)) for i in kept]
-        for name, parts in values.items()
-    }
+    for parts in values.values():
+        parts += [np.full(len(nodes), np.nan) for _, nodes in blocks[len(parts) :]]
+    data = {name: [parts[i] for i in kept] for name, parts in values.items()}
     return RawMesh(points, [blocks[i] for i in kept], data, passed_over=passed_over)
 
 
-def _mesh(path: Path, name: str, group: Any) -> Tuple[np.ndarray, np.ndarray]:
+def _mesh(path: Path, name: str, group: Any) -> tuple[np.ndarray, np.ndarray]:
     points, nodes = np.asarray(group["coordinates"], dtype=float), np.asarray(group["topology"])
     if points.ndim != 2 or nodes.ndim != 2 or nodes.shape[1] not in KINDS or nodes.dtype.kind not in "iu":
         raise InputError(path, name, "has no points and simplices", "write the file anew")

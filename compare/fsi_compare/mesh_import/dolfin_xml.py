@@ -6,7 +6,7 @@ meshio 5.0.0 reads every NAME_*.xml as a function of the cells of another form t
 
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from .raw_mesh import RawMesh
 KINDS = {"tetrahedron": "tetra", "triangle": "triangle"}  # dolfin's name of a cell: meshio's
 FACETS = {"tetra": "triangle", "triangle": "line"}
 COMPANIONS = ("physical_region", "facet_region")
+DAMAGES = (KeyError, ValueError, TypeError, OverflowError)
 REMEDY = "write it anew as XML, or as HDF5 by dolfin's HDF5File"
 
 
@@ -29,24 +30,26 @@ def read_dolfin_xml(path: Path) -> RawMesh:
         raise InputError(path, "", problem, f"give the mesh, NAME.xml, with NAME_{COMPANIONS[0]}.xml beside it")
     try:
         points, kind, cells = _points_and_cells(mesh)
-        blocks: List[Tuple[str, np.ndarray]] = [(kind, cells)]
+        blocks: list[tuple[str, np.ndarray]] = [(kind, cells)]
         found = RawMesh(points, blocks)
         for function in mesh.findall("domains/mesh_value_collection"):
             _add(path, found, f"domains_{function.get('dim')}", function)
-    except (KeyError, ValueError, TypeError, OverflowError) as error:
-        raise InputError(path, "", f"cannot be read as dolfin's XML: {error}", REMEDY) from None
+    except DAMAGES as error:
+        raise _damaged(path, error) from None
     for name in COMPANIONS:
         beside = path.with_name(f"{path.stem}_{name}.xml")
-        if not exists(beside):
-            continue
-        for function in _functions(_root(beside)):
+        for function in _functions(_root(beside)) if exists(beside) else ():
             try:
                 _add(beside, found, name, function)
-            except (KeyError, ValueError, TypeError, OverflowError) as error:
-                raise InputError(beside, "", f"cannot be read as dolfin's XML: {error}", REMEDY) from None
+            except DAMAGES as error:
+                raise _damaged(beside, error) from None
     for name, parts in found.cell_data.items():
         parts += [np.full(len(nodes), np.nan) for _, nodes in found.blocks[len(parts) :]]
     return found
+
+
+def _damaged(path: Path, error: Exception) -> InputError:
+    return InputError(path, "", f"cannot be read as dolfin's XML: {error}", REMEDY)
 
 
 def _root(path: Path) -> Any:
@@ -59,12 +62,12 @@ def _root(path: Path) -> Any:
     return root
 
 
-def _functions(root: Any) -> List[Any]:
+def _functions(root: Any) -> list[Any]:
     """Collections of values stand within a function, or alone."""
     return root.findall(".//mesh_value_collection") or root.findall("mesh_function")
 
 
-def _points_and_cells(mesh: Any) -> Tuple[np.ndarray, str, np.ndarray]:
+def _points_and_cells(mesh: Any) -> tuple[np.ndarray, str, np.ndarray]:
     cell = mesh.get("celltype")
     if cell not in KINDS:
         raise ValueError(f"has cells of the type {cell}, no tetrahedra or triangles")
@@ -74,7 +77,7 @@ def _points_and_cells(mesh: Any) -> Tuple[np.ndarray, str, np.ndarray]:
     return points, KINDS[cell], _rows(rows, mesh.iter(cell), count).astype(np.int64)
 
 
-def _rows(rows: List[List[Any]], elements: Any, width: int) -> np.ndarray:
+def _rows(rows: list[list[Any]], elements: Any, width: int) -> np.ndarray:
     """Rows sorted by the index that each element states."""
     places = np.array([int(element.get("index")) for element in elements], dtype=np.int64)
     if not np.array_equal(np.sort(places), np.arange(len(rows))):
@@ -89,7 +92,7 @@ def _add(path: Path, mesh: RawMesh, name: str, function: Any) -> None:
     kind, cells = mesh.blocks[0]
     top = cells.shape[1] - 1
     dimension = int(function.get("dim"))
-    entries: Dict[str, str] = {"mesh_function": "entity", "mesh_value_collection": "value"}
+    entries: dict[str, str] = {"mesh_function": "entity", "mesh_value_collection": "value"}
     rows = list(function.iter(entries[function.tag]))
     values = np.array([float(row.get("value")) for row in rows])
     if dimension == top:
@@ -112,7 +115,7 @@ def _add(path: Path, mesh: RawMesh, name: str, function: Any) -> None:
         mesh.passed_over.append(f"{path.name} (values of {what})")
 
 
-def _places(path: Path, name: str, texts: List[Any], count: int) -> np.ndarray:
+def _places(path: Path, name: str, texts: list[Any], count: int) -> np.ndarray:
     places = np.array([int(text) for text in texts], dtype=np.int64)
     if np.any((places < 0) | (places >= count)):
         raise InputError(path, name, "names a cell or side that is not there", "give the function of this very mesh")

@@ -8,37 +8,31 @@ Yarberry, EXODUS II: A Finite Element Data Model, SAND92-2137."""
 import re
 import warnings
 from pathlib import Path
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 import numpy as np
 
 from ..base.errors import InputError
-from .raw_mesh import RawMesh
+from .raw_mesh import RawMesh, nothing, sides_in_order
 
 # By the letters with which a block's type begins, longest first, and how many nodes its elements have.
 SHAPES = ["TRISHELL", "TRIANGLE", "TETRA", "TRUSS", "BEAM", "BAR", "TET", "TRI", "SHELL", "QUAD", "HEX", "WEDGE"]
 SHAPES += ["PYRAMID", "SPHERE", "CIRCLE", "NODE"]
 KIND_OF = {
-    **{(name, count): kind for name in ("TETRA", "TET") for count, kind in ((4, "tetra"), (10, "tetra10"))},
-    **{
-        (name, count): kind
-        for name in ("TRISHELL", "TRIANGLE", "TRI")
-        for count, kind in ((3, "triangle"), (6, "triangle6"))
-    },
-    **{(name, count): kind for name in ("TRUSS", "BEAM", "BAR") for count, kind in ((2, "line"), (3, "line3"))},
-    ("SHELL", 3): "triangle",
-    ("SHELL", 6): "triangle6",
+    (name, count): kind
+    for names, kinds in (
+        (("TETRA", "TET"), {4: "tetra", 10: "tetra10"}),
+        (("TRISHELL", "TRIANGLE", "TRI", "SHELL"), {3: "triangle", 6: "triangle6"}),
+        (("TRUSS", "BEAM", "BAR"), {2: "line", 3: "line3"}),
+    )
+    for name in names
+    for count, kind in kinds.items()
 }
 OTHERS = {"SHELL": "quad", "QUAD": "quad", "HEX": "hexahedron", "WEDGE": "wedge", "PYRAMID": "pyramid"}
 POINTS = ("SPHERE", "CIRCLE", "NODE")
-# Nodes of sides 1, 2, ...: corners, then middles of edges. Shells of triangles, which all triangles in space are to the
-# Exodus library, whatever their type says, have two faces before them.
-SIDES: Dict[str, Tuple[str, Tuple[Tuple[int, ...], ...]]] = {
-    "tetra": ("triangle", ((0, 1, 3), (1, 2, 3), (0, 3, 2), (0, 2, 1))),
-    "tetra10": ("triangle6", ((0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6), (0, 2, 1, 6, 5, 4))),
-    "triangle": ("line", ((0, 1), (1, 2), (2, 0))),
-    "triangle6": ("line3", ((0, 1, 3), (1, 2, 4), (2, 0, 5))),
-}
+# Nodes of sides 1, 2, ... Shells of triangles, which all triangles in space are to the Exodus library, whatever their
+# type says, have two faces before them.
+SIDES = sides_in_order((2, 0, 1, 3))
 REMEDY = "write it anew as Exodus II"
 
 
@@ -64,15 +58,14 @@ def _read(path: Path, file: Any) -> RawMesh:
         raise InputError(path, "", "holds no mesh of Exodus", REMEDY)
     mesh = RawMesh(_points(file), [])
     space = mesh.points.shape[1]
-    nothing = np.zeros(0, dtype=np.int64)
     names = _names(file, "eb", "block", "num_el_blk")
-    shells: List[bool] = []  # whether elements have two faces, by block
+    shells: list[bool] = []  # whether elements have two faces, by block
     starts = [0]  # elements are numbered through all blocks
     for number, name in enumerate(names, 1):
         connectivity = file.variables.get(f"connect{number}")
         if connectivity is None:  # a block without elements
             starts.append(starts[-1])
-            mesh.blocks.append(("vertex", np.zeros((0, 1), dtype=np.int64)))
+            mesh.blocks.append(("vertex", nothing().reshape(0, 1)))
             shells.append(False)
             continue
         nodes = np.asarray(connectivity[:], dtype=np.int64) - 1
@@ -82,9 +75,7 @@ def _read(path: Path, file: Any) -> RawMesh:
         starts.append(starts[-1] + len(nodes))
     count = len(names)
     for number, name in enumerate(names):
-        _join(
-            mesh, name, [np.arange(len(nodes)) if i == number else nothing for i, (_, nodes) in enumerate(mesh.blocks)]
-        )
+        _join(mesh, name, [np.arange(len(nodes) if i == number else 0) for i, (_, nodes) in enumerate(mesh.blocks)])
     for number, name in enumerate(_names(file, "ss", "sideset", "num_side_sets"), 1):
         if f"elem_ss{number}" not in file.variables:
             continue
@@ -95,7 +86,7 @@ def _read(path: Path, file: Any) -> RawMesh:
         if f"node_ns{number}" in file.variables:
             mesh.point_sets[name] = np.asarray(file.variables[f"node_ns{number}"][:], dtype=np.int64) - 1
     for entries in mesh.cell_sets.values():
-        entries += [nothing] * (len(mesh.blocks) - len(entries))
+        entries += [nothing()] * (len(mesh.blocks) - len(entries))
     mesh.unnamed = {name for name in mesh.cell_sets if name.startswith(("block:", "sideset:"))}
     for number, name in enumerate(_texts(file, "name_elem_var"), 1):
         _add_values(file, mesh, number, name, count)
@@ -109,19 +100,18 @@ def _points(file: Any) -> np.ndarray:
     return np.stack(axes, axis=1).astype(float)
 
 
-def _texts(file: Any, variable: str) -> List[str]:
+def _texts(file: Any, variable: str) -> list[str]:
     if variable not in file.variables:
         return []
     rows = np.asarray(file.variables[variable][:])
     return [b"".join(row.tolist()).split(b"\0")[0].decode("utf-8", "replace").strip() for row in rows]
 
 
-def _names(file: Any, short: str, word: str, dimension: str) -> List[str]:
+def _names(file: Any, short: str, word: str, dimension: str) -> list[str]:
     count = len(file.dimensions[dimension]) if dimension in file.dimensions else 0
     texts = _texts(file, f"{short}_names")
-    numbers = (
-        file.variables[f"{short}_prop1"][:].tolist() if f"{short}_prop1" in file.variables else range(1, count + 1)
-    )
+    numbered = f"{short}_prop1"
+    numbers = file.variables[numbered][:].tolist() if numbered in file.variables else range(1, count + 1)
     return [(texts[i] if i < len(texts) else "") or f"{word}:{numbers[i]}" for i in range(count)]
 
 
@@ -137,15 +127,15 @@ def _kind(path: Path, block: str, said: str, count: int) -> str:
     raise InputError(path, block, problem, "mesh it by tetrahedra of 4 or 10 nodes, or by triangles of 3 or 6")
 
 
-def _join(mesh: RawMesh, name: str, places: List[np.ndarray]) -> None:
+def _join(mesh: RawMesh, name: str, places: list[np.ndarray]) -> None:
     """Blocks and sets of one name are one part."""
     known = mesh.cell_sets.get(name, [])
-    known += [np.zeros(0, dtype=np.int64)] * (len(places) - len(known))
+    known += [nothing()] * (len(places) - len(known))
     mesh.cell_sets[name] = [np.concatenate(pair) for pair in zip(known, places)]
 
 
 def _add_sides(
-    path: Path, mesh: RawMesh, name: str, elements: np.ndarray, sides: np.ndarray, starts: List[int], shells: List[bool]
+    path: Path, mesh: RawMesh, name: str, elements: np.ndarray, sides: np.ndarray, starts: list[int], shells: list[bool]
 ) -> None:
     """A block of facets for each kind, and the set that holds them."""
     count = len(shells)
@@ -158,26 +148,22 @@ def _add_sides(
             continue
         for facet, rows in _facets(path, name, kind, shells[block], nodes[elements[here] - starts[block]], sides[here]):
             mesh.blocks.append((facet, rows))
-            places = [np.zeros(0, dtype=np.int64) for _ in mesh.blocks]
-            places[-1] = np.arange(len(rows))
-            _join(mesh, name, places)
+            _join(mesh, name, [nothing()] * (len(mesh.blocks) - 1) + [np.arange(len(rows))])
 
 
 def _facets(
     path: Path, name: str, kind: str, shell: bool, nodes: np.ndarray, sides: np.ndarray
-) -> List[Tuple[str, np.ndarray]]:
+) -> list[tuple[str, np.ndarray]]:
     """Sides of elements of one kind, `nodes` and `sides` one a row; of shells faces and edges apart."""
     if kind not in SIDES:
         raise InputError(path, name, f"holds sides of a {kind}", "mesh it by tetrahedra or triangles")
     facet, corners = SIDES[kind]
     faces = 2 if shell else 0
     if np.any((sides < 1) | (sides > faces + len(corners))):
-        last = f"names side {int(sides.max())} of a {kind}, which has {faces + len(corners)}"
-        raise InputError(path, name, last, REMEDY)
+        problem = f"names side {int(sides.max())} of a {kind}, which has {faces + len(corners)}"
+        raise InputError(path, name, problem, REMEDY)
     edges = sides > faces
-    found = []
-    if not edges.all():
-        found.append((kind, nodes[~edges]))
+    found = [] if edges.all() else [(kind, nodes[~edges])]
     if edges.any():
         found.append((facet, np.take_along_axis(nodes[edges], np.array(corners)[sides[edges] - faces - 1], axis=1)))
     return found

@@ -1,24 +1,24 @@
 """Which elements of a mesh bear which name: of cells, and of facets of their boundary, by the parts of a file."""
 
 from dataclasses import dataclass
-from typing import Dict, List, Sequence, Tuple
+from typing import Sequence
 
 import numpy as np
 
 from ..base.errors import InputError
 from ..base.suggestions import nearest
 from .parts import FoundMesh, dimensions_of, known_parts
-from .raw_mesh import CORNERS, Block
+from .raw_mesh import CORNERS, SIDES, Block
 
 
 @dataclass
 class Group:
     name: str
     dimension: int
-    parts: List[Block]
+    parts: list[Block]
 
 
-def choose_groups(file: str, mesh: FoundMesh, wanted: Sequence[Tuple[str, str]]) -> List[Group]:
+def choose_groups(file: str, mesh: FoundMesh, wanted: Sequence[tuple[str, str]]) -> list[Group]:
     """Groups by the names that are wanted, (name, what the file calls it); all parts with a name of their own when none
     is. Raises InputError."""
     if not wanted:
@@ -26,50 +26,46 @@ def choose_groups(file: str, mesh: FoundMesh, wanted: Sequence[Tuple[str, str]])
         if not wanted:
             problem = "is not given, and the file names no parts"
             raise InputError(file, "--group", problem, f"give NAME=PART; {known_parts(mesh)}")
-    groups: List[Group] = []
-    taken: Dict[str, Tuple[str, List[np.ndarray]]] = {}  # group -> its last part, whether it has an element, by block
+    groups: list[Group] = []
+    taken: dict[str, tuple[str, list[np.ndarray]]] = {}  # group -> its last part, whether it has an element, by block
     for name, part in wanted:
         if part in mesh.cells:
             groups += _of_cells(file, mesh, name, part, taken)
         elif part in mesh.points_of:
             blocks = facets_between(mesh, mesh.points_of[part])
             if not blocks:
-                raise InputError(
-                    file, f"--group {name}", f"no side of the mesh has all its points in {part}", known_parts(mesh)
-                )
+                problem = f"no side of the mesh has all its points in {part}"
+                raise InputError(file, f"--group {name}", problem, known_parts(mesh))
             groups.append(Group(name, mesh.dimension - 1, blocks))
         else:
-            names = [*mesh.cells, *mesh.points_of]
-            problem = f"the file has no part {part}"
-            raise InputError(
-                file, f"--group {name}", problem, f"did you mean {nearest(part, names)}? {known_parts(mesh)}"
-            )
+            remedy = f"did you mean {nearest(part, [*mesh.cells, *mesh.points_of])}? {known_parts(mesh)}"
+            raise InputError(file, f"--group {name}", f"the file has no part {part}", remedy)
     if not any(group.dimension == mesh.dimension for group in groups):
         what = "volume" if mesh.dimension == 3 else "surface"
         raise InputError(file, "--group", f"names no {what}", f"give fluid=PART; {known_parts(mesh)}")
     return groups
 
 
-def named_parts(mesh: FoundMesh) -> List[str]:
+def named_parts(mesh: FoundMesh) -> list[str]:
     """Parts of cells or facets with a name of their own."""
     return [name for name in mesh.cells if name not in mesh.numbered and _dimensions(mesh, name)]
 
 
-def left_out(mesh: FoundMesh) -> List[str]:
+def left_out(mesh: FoundMesh) -> list[str]:
     """Named parts that become groups where --group asks for them, or never: for the log."""
     sets = [name for name in mesh.cells if name not in mesh.numbered and not _dimensions(mesh, name)]
     points = [name for name in mesh.points_of if name not in mesh.numbered]
     return [f"{name} (no cells or sides)" for name in sets] + [f"{name} (points)" for name in points]
 
 
-def _dimensions(mesh: FoundMesh, part: str) -> List[int]:
+def _dimensions(mesh: FoundMesh, part: str) -> list[int]:
     """Dimensions of the part's cells and facets."""
     return [d for d in dimensions_of(mesh, mesh.cells[part]) if d >= mesh.dimension - 1]
 
 
 def _of_cells(
-    file: str, mesh: FoundMesh, name: str, part: str, taken: Dict[str, Tuple[str, List[np.ndarray]]]
-) -> List[Group]:
+    file: str, mesh: FoundMesh, name: str, part: str, taken: dict[str, tuple[str, list[np.ndarray]]]
+) -> list[Group]:
     """Groups of the part's elements that the name does not have yet. A cell is of one medium: sets of a file may
     overlap, groups of volumes may not."""
     places = mesh.cells[part]
@@ -77,9 +73,8 @@ def _of_cells(
         what = "cells or sides" if any(len(p) for p in places) else "elements"
         raise InputError(file, f"--group {name}", f"the part {part} has no {what}", known_parts(mesh))
     for other, (others_part, has) in taken.items():
-        shared = sum(
-            int(h[p].sum()) for block, p, h in zip(mesh.blocks, places, has) if block.dimension == mesh.dimension
-        )
+        cells = [h[p] for block, p, h in zip(mesh.blocks, places, has) if block.dimension == mesh.dimension]
+        shared = sum(int(there.sum()) for there in cells)
         if other != name and shared:
             problem = f"{part} shares {shared} cells with {others_part}, which is {other}"
             remedy = "name parts by --group that have no cell in common, as the command of --list does"
@@ -91,28 +86,16 @@ def _of_cells(
     taken[name] = (part, has)
     groups = []
     for dimension in _dimensions(mesh, part):
-        blocks = [
-            Block(block.kind, block.nodes[p])
-            for block, p in zip(mesh.blocks, fresh)
-            if block.dimension == dimension and len(p)
-        ]
+        pairs = [(block, p) for block, p in zip(mesh.blocks, fresh) if block.dimension == dimension and len(p)]
+        blocks = [Block(block.kind, block.nodes[p]) for block, p in pairs]
         if blocks:
             groups.append(Group(name, dimension, blocks))
     return groups
 
 
-# Vertices of a cell's sides, and the nodes in the middles of their edges behind them, in meshio's (VTK's) numbers.
-SIDES: Dict[str, Tuple[str, Tuple[Tuple[int, ...], ...]]] = {
-    "triangle": ("line", ((0, 1), (1, 2), (2, 0))),
-    "triangle6": ("line3", ((0, 1, 3), (1, 2, 4), (2, 0, 5))),
-    "tetra": ("triangle", ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))),
-    "tetra10": ("triangle6", ((1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6), (0, 1, 3, 4, 8, 7), (0, 2, 1, 6, 5, 4))),
-}
-
-
-def sides_of(blocks: Sequence[Block], dimension: int) -> List[Block]:
+def sides_of(blocks: Sequence[Block], dimension: int) -> list[Block]:
     """All sides of the cells of this dimension, one block for each kind of side."""
-    found: Dict[str, List[np.ndarray]] = {}
+    found: dict[str, list[np.ndarray]] = {}
     for block in blocks:
         if block.dimension == dimension:
             kind, sides = SIDES[block.kind]
@@ -132,17 +115,16 @@ def corner_keys(kind: str, nodes: np.ndarray) -> np.ndarray:
     return keys
 
 
-def boundary_of(blocks: Sequence[Block], dimension: int) -> List[Block]:
+def boundary_of(blocks: Sequence[Block], dimension: int) -> list[Block]:
     """Sides of one cell only."""
     found = []
     for block in sides_of(blocks, dimension):
-        keys = corner_keys(block.kind, block.nodes)
-        _, first, uses = np.unique(keys, return_index=True, return_counts=True)
+        _, first, uses = np.unique(corner_keys(block.kind, block.nodes), return_index=True, return_counts=True)
         found.append(Block(block.kind, block.nodes[np.sort(first[uses == 1])]))
     return found
 
 
-def facets_between(mesh: FoundMesh, points: np.ndarray) -> List[Block]:
+def facets_between(mesh: FoundMesh, points: np.ndarray) -> list[Block]:
     """Sides of cells on the mesh's boundary with all nodes among these points; with all corners where the set holds
     corners only, as sets of quadratic cells in Abaqus decks may."""
     mask = np.zeros(len(mesh.points), dtype=bool)
@@ -150,16 +132,14 @@ def facets_between(mesh: FoundMesh, points: np.ndarray) -> List[Block]:
     blocks = []
     for block in boundary_of(mesh.blocks, mesh.dimension):
         corners = CORNERS[block.kind]
-        if not mask[block.nodes[:, corners:]].any():
-            inside = block.nodes[mask[block.nodes[:, :corners]].all(axis=1)]
-        else:
-            inside = block.nodes[mask[block.nodes].all(axis=1)]
+        count = block.nodes.shape[1] if mask[block.nodes[:, corners:]].any() else corners
+        inside = block.nodes[mask[block.nodes[:, :count]].all(axis=1)]
         if len(inside):
             blocks.append(Block(block.kind, inside))
     return blocks
 
 
-def as_sides(mesh: FoundMesh, groups: Sequence[Group]) -> List[Tuple[Group, np.ndarray]]:
+def as_sides(mesh: FoundMesh, groups: Sequence[Group]) -> list[tuple[Group, np.ndarray]]:
     """Gives facets the nodes of the cells' sides that have their corners: facets of first order fit cells of second.
     Returns the groups with facets that are sides of no cell of the groups, and the corners of these."""
     cells = [block for group in groups if group.dimension == mesh.dimension for block in group.parts]
@@ -176,8 +156,5 @@ def as_sides(mesh: FoundMesh, groups: Sequence[Group]) -> List[Tuple[Group, np.n
             there |= sides
             if sides.all():
                 block.kind, block.nodes = side.kind, side.nodes[at]
-    return [
-        (group, block.nodes[~there][:, : CORNERS[block.kind]])
-        for (group, block), there in zip(facets, found)
-        if not there.all()
-    ]
+    missing = [(group, block, ~there) for (group, block), there in zip(facets, found) if not there.all()]
+    return [(group, block.nodes[loose][:, : CORNERS[block.kind]]) for group, block, loose in missing]

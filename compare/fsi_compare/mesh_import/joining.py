@@ -5,7 +5,6 @@ work is that of sorting.
 """
 
 from itertools import product
-from typing import Tuple
 
 import numpy as np
 
@@ -23,7 +22,7 @@ def _keys(cubes: np.ndarray) -> np.ndarray:
         return a * np.uint64(73856093) ^ b * np.uint64(19349663) ^ c * np.uint64(83492791)
 
 
-def near_pairs(first: np.ndarray, second: np.ndarray, tolerance: float) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+def near_pairs(first: np.ndarray, second: np.ndarray, tolerance: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """All pairs at most `tolerance` > 0 apart: places in the first, in the second, distances.
 
     Raises TooMany beyond MOST_PAIRS a point.

@@ -3,31 +3,24 @@
 import shlex
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Sequence, Tuple
+from typing import Sequence
 
 import numpy as np
 
 from ..base.errors import printable
 from .groups import facets_between
-from .parts import WHOLE, FoundMesh, count_in, dimensions_of, shown_names
+from .parts import WHOLE, FoundMesh, count_in, dimensions_of, is_surface, shown_names
 from .raw_mesh import CORNERS, ELEMENTS, Block
 from .sources import Source
-from .touching import contacts, doubled_words, gap_words
+from .touching import contacts, doubled_words, gap_words, lonely, touch_words
 
 UNITS = (("mm", 1.0), ("cm", 10.0), ("m", 1000.0))
 # The longest extent of vessels, mm: one of 0.7 in the file's unit is hardly 0.7 mm, one of 70 hardly 700 mm.
 LONGEST, SHORTEST = 700.0, 0.7
+Volumes = dict[str, list[Block]]  # by name
 FLAT = 1e-3  # area of a flat part over that of its facets, less than 1 by this
-FLUID, SOLID = ("fluid", "lumen", "blood"), (
-    "wall",
-    "solid",
-    "structure",
-    "tissue",
-    "vessel",
-    "artery",
-    "media",
-    "adventitia",
-)
+FLUID = ("fluid", "lumen", "blood")
+SOLID = ("wall", "solid", "structure", "tissue", "vessel", "artery", "media", "adventitia")
 MOST_VOLUMES = 4  # whose distances are looked for, each with each; of more what touches what
 MOST_LINES = 200  # of parts
 
@@ -41,7 +34,7 @@ class _Extent:
     flat: bool = False
 
 
-def listing(mesh: FoundMesh, words: Sequence[str], sources: Sequence[Source], scale: float, join: float) -> List[str]:
+def listing(mesh: FoundMesh, words: Sequence[str], sources: Sequence[Source], scale: float, join: float) -> list[str]:
     """Lines. `words` are the files as the user gave them; the mesh is scaled already."""
     lines = _table(mesh, scale)
     volumes = separate_volumes(mesh)
@@ -53,7 +46,7 @@ def listing(mesh: FoundMesh, words: Sequence[str], sources: Sequence[Source], sc
     return lines + _command(mesh, volumes, words, sources, factor, join)
 
 
-def _cells(mesh: FoundMesh, name: str) -> List[Block]:
+def _cells(mesh: FoundMesh, name: str) -> list[Block]:
     places = mesh.cells[name]
     top = max(dimensions_of(mesh, places), default=0)
     return [Block(b.kind, b.nodes[p]) for b, p in zip(mesh.blocks, places) if b.dimension == top and len(p)]
@@ -98,7 +91,7 @@ def _are_flat(areas: np.ndarray) -> bool:
     return bool((np.abs(areas @ axis) / np.linalg.norm(axis)).sum() > (1 - FLAT) * sizes.sum())
 
 
-def _table(mesh: FoundMesh, scale: float) -> List[str]:
+def _table(mesh: FoundMesh, scale: float) -> list[str]:
     """One line a part: its elements, its measure, its size under each guess of the unit, or by the given scale."""
     units = UNITS if scale == 1 else (("mm", 1.0),)
     rows = [["part", "elements", "measure", *(f"size, mm, if in {unit}" for unit, _ in units)]]
@@ -111,12 +104,11 @@ def _table(mesh: FoundMesh, scale: float) -> List[str]:
         unit = ("mm" if scale != 1 else "unit") + ("" if top == 1 else f"^{top}")
         words = {3: "volume", 2: "area", 1: "length"}
         measure = f"{words[top]} {extent.measure:.4g} {unit}" if top else ""
-        rows.append([name, counts or "none", measure + (", flat" if extent.flat and mesh.dimension == 3 else "")])
-        rows[-1] += [" x ".join(f"{x * factor:.3g}" for x in extent.box) for _, factor in units]
+        flat = ", flat" if extent.flat and mesh.dimension == 3 else ""
+        rows.append([name, counts or "none", measure + flat, *_sizes(extent.box, units)])
     for name, points in mesh.points_of.items():
         box = np.ptp(mesh.points[points], axis=0) if len(points) else np.zeros(3)
-        rows.append([name, f"{len(points)} points", ""])
-        rows[-1] += [" x ".join(f"{x * factor:.3g}" for x in box) for _, factor in units]
+        rows.append([name, f"{len(points)} points", "", *_sizes(box, units)])
     left = len(rows) - 1 - MOST_LINES
     rows = rows[: MOST_LINES + 1]
     widths = [max(len(printable(row[k])) for row in rows) for k in range(len(rows[0]))]
@@ -124,9 +116,13 @@ def _table(mesh: FoundMesh, scale: float) -> List[str]:
     return lines + ([f"... and {left} parts more"] if left > 0 else [])
 
 
-def separate_volumes(mesh: FoundMesh) -> Dict[str, List[Block]]:
+def _sizes(box: np.ndarray, units: Sequence[tuple[str, float]]) -> list[str]:
+    return [" x ".join(f"{x * factor:.3g}" for x in box) for _, factor in units]
+
+
+def separate_volumes(mesh: FoundMesh) -> Volumes:
     """Parts of cells, none of which shares a cell with another: named ones first."""
-    found: Dict[str, List[Block]] = {}
+    found: Volumes = {}
     taken = [np.zeros(len(block.nodes), dtype=bool) for block in mesh.blocks]
     for name in sorted(mesh.cells, key=lambda name: (name == WHOLE, *_rank(mesh, name))):
         places = mesh.cells[name]
@@ -138,29 +134,19 @@ def separate_volumes(mesh: FoundMesh) -> Dict[str, List[Block]]:
     return found
 
 
-def _rank(mesh: FoundMesh, name: str) -> Tuple[bool, bool, bool]:
+def _rank(mesh: FoundMesh, name: str) -> tuple[bool, bool, bool]:
     """Sort key of names for the same elements. The least tells most: gmsh, for one, writes "Volume1" beside "fluid"."""
     known = any(word in name.lower() for word in (*FLUID, *SOLID))
     return name in mesh.numbered, not known, name[-1:].isdigit()
 
 
-def _touching(mesh: FoundMesh, volumes: Dict[str, List[Block]]) -> List[str]:
-    sides = "triangles" if mesh.dimension == 3 else "edges"
+def _touching(mesh: FoundMesh, volumes: Volumes) -> list[str]:
     few = len(volumes) <= MOST_VOLUMES
     found = contacts(mesh.points, volumes, mesh.dimension, distances=few)
-    lines = []
-    for contact in found:
-        if contact.sides:
-            lines.append(
-                f"{contact.first} and {contact.second} touch: {contact.sides} {sides}, {contact.points} points."
-            )
-        elif few:
-            lines.append(f"{gap_words(contact)}.")
-    touching = {name for contact in found if contact.sides for name in (contact.first, contact.second)}
-    if not few and len(touching) < len(volumes):
-        lines.append(
-            f"No side in common with another one has: {shown_names([n for n in volumes if n not in touching])}."
-        )
+    lines = [f"{(touch_words if contact.sides else gap_words)(contact)}." for contact in found if contact.sides or few]
+    alone = lonely(volumes, found)
+    if not few and alone:
+        lines.append(f"No side in common with another one has: {shown_names(alone)}.")
     doubled = doubled_words(mesh.points, [block for blocks in volumes.values() for block in blocks])
     lines = lines[:MOST_LINES] + ([f"... and {len(lines) - MOST_LINES} more"] if len(lines) > MOST_LINES else [])
     return [printable(line) for line in lines + ([f"{doubled}."] if doubled else [])]
@@ -170,20 +156,20 @@ def unit_words(longest: float) -> str:
     """A warning for a mesh that is taken in mm but is no vessel's in that unit; empty where it may be."""
     if SHORTEST <= longest <= LONGEST:
         return ""
-    fits = [
-        f"--scale {factor:g} if it is in {unit}" for unit, factor in UNITS if SHORTEST <= longest * factor <= LONGEST
-    ]
+    fits = [f"--scale {factor:g} if it is in {unit}" for unit, factor in _fitting(longest)]
     return f"the mesh is {longest:.3g} mm long: {' or '.join(fits) or 'give --scale FACTOR, from its unit to mm'}"
 
 
-def _unit(longest: float) -> Tuple[float, str]:
+def _fitting(longest: float) -> list[tuple[str, float]]:
+    return [(unit, factor) for unit, factor in UNITS if SHORTEST <= longest * factor <= LONGEST]
+
+
+def _unit(longest: float) -> tuple[float, str]:
     """A factor to mm by the longest extent, in words."""
-    fits = [(unit, factor) for unit, factor in UNITS if SHORTEST <= longest * factor <= LONGEST]
+    fits = _fitting(longest)
     if not fits:
-        return (
-            1.0,
-            f"Unit: no vessel is {longest:.3g} mm, cm or m long; give --scale FACTOR, from the file's unit to mm.",
-        )
+        words = f"no vessel is {longest:.3g} mm, cm or m long; give --scale FACTOR, from the file's unit to mm."
+        return 1.0, f"Unit: {words}"
     options = ", ".join(f"--scale {factor:g} if {unit}" for unit, factor in fits)
     said = "the file does not say it; by its size" if len(fits) > 1 else "by its size"
     unit, factor = fits[0]
@@ -192,13 +178,8 @@ def _unit(longest: float) -> Tuple[float, str]:
 
 
 def _command(
-    mesh: FoundMesh,
-    volumes: Dict[str, List[Block]],
-    words: Sequence[str],
-    sources: Sequence[Source],
-    factor: float,
-    join: float,
-) -> List[str]:
+    mesh: FoundMesh, volumes: Volumes, words: Sequence[str], sources: Sequence[Source], factor: float, join: float
+) -> list[str]:
     """The call that makes the mesh of a case, with names where a guess is to be had."""
     given = [source.name for source in sources if source.name]
     groups = guessed_groups(mesh, volumes, given)
@@ -215,37 +196,28 @@ def _command(
     note = "" if openings or mesh.dimension == 2 or not fluid else " --flat-ends"
     found = ["The command; names are guesses:" if groups else "The command:", printable(f"  {text}{note}")]
     if note:
-        found.append(
-            "  It calls the flat ends of the fluid end_1, end_2 ...; --opening NAME=X,Y,Z names one by a point, mm"
-        )
+        words = "flat ends of the fluid end_1, end_2 ...; --opening NAME=X,Y,Z names one by a point, mm"
+        found.append(f"  It calls the {words}")
     if len(volumes) == 1 and fluid and not given and not any(word in next(iter(volumes)).lower() for word in FLUID):
         found.append(f"  or, where that is a wall without fluid, --group wall={next(iter(volumes))} --wall-faces")
     return found
 
 
-def guessed_groups(
-    mesh: FoundMesh, volumes: Dict[str, List[Block]], given: Sequence[str] = ()
-) -> List[Tuple[str, str]]:
+def guessed_groups(mesh: FoundMesh, volumes: Volumes, given: Sequence[str] = ()) -> list[tuple[str, str]]:
     """Names and parts: roles of the volumes, and flat surfaces, which may be openings. `given` have a name already."""
     groups = [] if given else list(_roles(mesh, volumes).items())
-    cells = [block for blocks in volumes.values() for block in blocks]
-    surfaces = [
-        name
-        for name, places in mesh.cells.items()
-        if dimensions_of(mesh, places) == [mesh.dimension - 1] and name not in given
-    ]
+    surfaces = [name for name in mesh.cells if is_surface(mesh, name) and name not in given]
     if mesh.dimension == 3:
         surfaces = [name for name in surfaces if _extent(mesh.points, _cells(mesh, name)).flat]
-    seen: List[set] = []
-    for name in sorted(
-        surfaces, key=lambda name: _rank(mesh, name)
-    ):  # the same facets under a name and a number are one opening
+    seen: list[set] = []
+    # The same facets under a name and a number are one opening.
+    for name in sorted(surfaces, key=lambda name: _rank(mesh, name)):
         here = {tuple(sorted(row)) for b in _cells(mesh, name) for row in b.nodes[:, : CORNERS[b.kind]].tolist()}
         if not any(here & other for other in seen):
             seen.append(here)
             groups.append((_name(name), name))
     if not surfaces and mesh.dimension == 3 and not given:
-        flat = FoundMesh(mesh.points, cells)
+        flat = FoundMesh(mesh.points, [block for blocks in volumes.values() for block in blocks])
         for name, points in mesh.points_of.items():
             facets = facets_between(flat, points)
             if facets and _extent(mesh.points, facets).flat:
@@ -253,9 +225,9 @@ def guessed_groups(
     return groups
 
 
-def _roles(mesh: FoundMesh, volumes: Dict[str, List[Block]]) -> Dict[str, str]:
+def _roles(mesh: FoundMesh, volumes: Volumes) -> dict[str, str]:
     """Names for the volumes: by what they are called, else the fluid is the one whose box lies within the others'."""
-    roles: Dict[str, str] = {}
+    roles: dict[str, str] = {}
     rest = []
     for part in volumes:
         if "fluid" not in roles and any(word in part.lower() for word in FLUID):

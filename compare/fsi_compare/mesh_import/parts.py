@@ -5,23 +5,23 @@ An array of whole numbers says parts where its values are few, and numbers the e
 """
 
 from dataclasses import dataclass, field
-from typing import Dict, Iterable, List, Optional, Sequence, Tuple
+from typing import Iterable, Sequence
 
 import numpy as np
 
 from ..base.errors import InputError
-from .raw_mesh import ELEMENTS, KINDS, Block, RawMesh
+from .raw_mesh import ELEMENTS, KINDS, Block, RawMesh, nothing
 
 WHOLE = "all"  # the part that every mesh has
 # Arrays that number elements or nodes, in lower case: of SimVascular, VTK and ParaView, Exodus.
-IDENTITIES = frozenset(
-    ("globalelementid", "globalnodeid", "vtkoriginalcellids", "vtkoriginalpointids", "globalids")
-    + ("globalcellids", "globalpointids", "pedigreeelementid", "pedigreenodeid", "objectid")
-)
+IDENTITIES = {"globalelementid", "globalnodeid", "vtkoriginalcellids", "vtkoriginalpointids", "globalids"}
+IDENTITIES |= {"globalcellids", "globalpointids", "pedigreeelementid", "pedigreenodeid", "objectid"}
 # Arrays that say parts, however many values they have.
 REGIONS = frozenset(("modelregionid", "modelfaceid", "gmsh:physical", "gmsh:geometrical", "medit:ref"))
 MOST_VALUES = 1000  # of an array that says parts
+Places = list[np.ndarray]  # in each block
 SHOWN = 12  # names in one line
+SOLIDS = ("hexahedron", "wedge", "pyramid", "quad", "polyhedron", "polygon")  # begin names of kinds
 
 
 @dataclass
@@ -29,11 +29,11 @@ class FoundMesh:
     """A mesh and all that names parts of it."""
 
     points: np.ndarray  # (points, 3), mm
-    blocks: List[Block]
-    cells: Dict[str, List[np.ndarray]] = field(default_factory=dict)  # name -> places in each block
-    points_of: Dict[str, np.ndarray] = field(default_factory=dict)  # name -> places of points
+    blocks: list[Block]
+    cells: dict[str, list[np.ndarray]] = field(default_factory=dict)  # name -> places in each block
+    points_of: dict[str, np.ndarray] = field(default_factory=dict)  # name -> places of points
     numbered: frozenset = frozenset()  # names that are an array's and a number
-    passed_over: List[str] = field(default_factory=list)  # arrays that say no parts, and why
+    passed_over: list[str] = field(default_factory=list)  # arrays that say no parts, and why
 
     @property
     def dimension(self) -> int:
@@ -47,7 +47,7 @@ def found_mesh(file: str, mesh: RawMesh, scale: float) -> FoundMesh:
     kept = [i for i, (kind, nodes) in enumerate(mesh.blocks) if kind in KINDS and len(nodes)]
     others = sorted({kind for i, (kind, _) in enumerate(mesh.blocks) if i not in kept and kind != "vertex"})
     blocks = [Block(mesh.blocks[i][0], np.asarray(mesh.blocks[i][1], dtype=np.int64)) for i in kept]
-    if not blocks or max(block.dimension for block in blocks) < 2 or any(_is_solid(name) for name in others):
+    if not blocks or max(block.dimension for block in blocks) < 2 or any(name.startswith(SOLIDS) for name in others):
         problem = f"holds {', '.join(others) or 'no elements'} in place of tetrahedra or triangles"
         raise InputError(file, "", problem, "mesh it by tetrahedra, or by triangles in two dimensions")
     for block in blocks:
@@ -61,33 +61,22 @@ def found_mesh(file: str, mesh: RawMesh, scale: float) -> FoundMesh:
     for name, entries in mesh.cell_sets.items():
         if any(np.any((e < 0) | (e >= len(n))) for e, (_, n) in zip(entries, mesh.blocks)):
             raise InputError(file, name, "names a cell that is not there", "write the mesh anew")
-    found = FoundMesh(points, blocks, passed_over=list(mesh.passed_over))
-    for name, entries in mesh.cell_sets.items():
-        found.cells[name] = [entries[i] for i in kept]
+    cells = {name: [entries[i] for i in kept] for name, entries in mesh.cell_sets.items()}
+    found = FoundMesh(points, blocks, cells, passed_over=list(mesh.passed_over))
     numbered = set(mesh.unnamed)
     for name, data in mesh.cell_data.items():
-        values = _numbers([data[i] for i in kept])
-        reason = _no_parts(name, values, "cell")
-        if values is None or reason:
-            found.passed_over.append(f"{name} ({reason})")
-            continue
-        for text, places in _by_value(name, values, blocks):
+        values = _saying_parts(found, name, [data[i] for i in kept], "cell")
+        for text, places in _by_value(name, values, blocks) if values else ():
             found.cells.setdefault(text, places)
             numbered.add(text)
-    top = found.dimension
-    whole = [np.arange(len(b.nodes)) if b.dimension == top else np.zeros(0, dtype=np.int64) for b in blocks]
     if WHOLE not in found.cells:
-        found.cells[WHOLE] = whole
+        found.cells[WHOLE] = whole_of(found)
         numbered.add(WHOLE)
     for name, at in mesh.point_sets.items():
         found.points_of[_of_points(found, name)] = at
     for name, at_points in mesh.point_data.items():
-        values = _numbers([at_points])
-        reason = _no_parts(name, values, "point")
-        if values is None or reason:
-            found.passed_over.append(f"{name} ({reason})")
-            continue
-        for value, places in _places_of_values(values):
+        values = _saying_parts(found, name, [at_points], "point")
+        for value, places in _places_of_values(values) if values else ():
             part = _of_points(found, f"{name}:{value}")
             found.points_of[part] = places[0]
             numbered.add(part)
@@ -95,16 +84,17 @@ def found_mesh(file: str, mesh: RawMesh, scale: float) -> FoundMesh:
     return found
 
 
+def whole_of(mesh: FoundMesh) -> list[np.ndarray]:
+    """Places of all its cells, in each block."""
+    return [np.arange(len(b.nodes) if b.dimension == mesh.dimension else 0) for b in mesh.blocks]
+
+
 def _of_points(found: FoundMesh, name: str) -> str:
     """Name for a set of points whose name cells or sides have, too: decks name both alike."""
     return f"{name}:points" if name in found.cells else name
 
 
-def _is_solid(name: str) -> bool:
-    return name.startswith(("hexahedron", "wedge", "pyramid", "quad", "polyhedron", "polygon"))
-
-
-def _numbers(arrays: Sequence[np.ndarray]) -> Optional[List[np.ndarray]]:
+def _numbers(arrays: Sequence[np.ndarray]) -> list[np.ndarray] | None:
     """One whole number, or NaN, an entry; None where they are anything else."""
     found = []
     for array in arrays:
@@ -122,7 +112,16 @@ def _numbers(arrays: Sequence[np.ndarray]) -> Optional[List[np.ndarray]]:
     return found
 
 
-def _no_parts(name: str, values: Optional[List[np.ndarray]], what: str) -> str:
+def _saying_parts(found: FoundMesh, name: str, arrays: Sequence[np.ndarray], what: str) -> list[np.ndarray] | None:
+    """Numbers of an array that says parts; of another one None, and `found` gets a word on it."""
+    values = _numbers(arrays)
+    reason = _no_parts(name, values, what)
+    if reason:
+        found.passed_over.append(f"{name} ({reason})")
+    return None if reason else values
+
+
+def _no_parts(name: str, values: list[np.ndarray] | None, what: str) -> str:
     """Why an array says no parts; empty where it does."""
     if values is None:
         return "no whole numbers"
@@ -137,7 +136,7 @@ def _no_parts(name: str, values: Optional[List[np.ndarray]], what: str) -> str:
     return ""
 
 
-def _places_of_values(values: Sequence[np.ndarray]) -> Iterable[Tuple[int, List[np.ndarray]]]:
+def _places_of_values(values: Sequence[np.ndarray]) -> Iterable[tuple[int, list[np.ndarray]]]:
     """Each value with its places in each of the arrays, in ascending order; NaN is none."""
     every = np.concatenate(values)
     starts = np.cumsum([0] + [len(v) for v in values])
@@ -149,21 +148,23 @@ def _places_of_values(values: Sequence[np.ndarray]) -> Iterable[Tuple[int, List[
         yield int(value), [places[a:b] - start for a, b, start in zip(bounds[:-1], bounds[1:], starts)]
 
 
-def _by_value(
-    name: str, values: Sequence[np.ndarray], blocks: Sequence[Block]
-) -> Iterable[Tuple[str, List[np.ndarray]]]:
+def _by_value(name: str, values: Sequence[np.ndarray], blocks: Sequence[Block]) -> Iterable[tuple[str, Places]]:
     """Parts of an array. A number that elements of several dimensions have is a part for each: gmsh and dolfinx count
     volumes and surfaces apart, so that the same number means nothing."""
-    nothing = np.zeros(0, dtype=np.int64)
     for value, places in _places_of_values(values):
         dimensions = sorted({b.dimension for b, p in zip(blocks, places) if len(p)}, reverse=True)
         for dimension in dimensions:
             text = f"{name}:{value}" + (f":{ELEMENTS[dimension]}" if dimension < dimensions[0] else "")
-            yield text, [p if b.dimension == dimension else nothing for b, p in zip(blocks, places)]
+            yield text, [p if b.dimension == dimension else nothing() for b, p in zip(blocks, places)]
 
 
-def dimensions_of(mesh: FoundMesh, places: Sequence[np.ndarray]) -> List[int]:
+def dimensions_of(mesh: FoundMesh, places: Sequence[np.ndarray]) -> list[int]:
     return sorted({block.dimension for block, p in zip(mesh.blocks, places) if len(p)})
+
+
+def is_surface(mesh: FoundMesh, part: str) -> bool:
+    """Whether it has facets alone."""
+    return dimensions_of(mesh, mesh.cells[part]) == [mesh.dimension - 1]
 
 
 def count_in(mesh: FoundMesh, places: Sequence[np.ndarray], dimension: int) -> int:
@@ -177,8 +178,6 @@ def shown_names(names: Sequence[str]) -> str:
 
 def known_parts(mesh: FoundMesh) -> str:
     """The mesh's parts, for messages."""
-    parts = [
-        f"{name} ({' and '.join(ELEMENTS[d] for d in dimensions_of(mesh, places)) or 'empty'})"
-        for name, places in mesh.cells.items()
-    ]
-    return f"its parts are {shown_names(parts + [f'{name} (points)' for name in mesh.points_of])}"
+    kinds = {name: " and ".join(ELEMENTS[d] for d in dimensions_of(mesh, of)) for name, of in mesh.cells.items()}
+    words = {name: kind or "empty" for name, kind in kinds.items()} | dict.fromkeys(mesh.points_of, "points")
+    return f"its parts are {shown_names([f'{name} ({word})' for name, word in words.items()])}"

@@ -4,7 +4,7 @@ import contextlib
 import io
 import shlex
 from pathlib import Path
-from typing import Callable, Dict
+from typing import Callable
 
 from ..base.errors import InputError
 from ..base.files import exists, is_file, is_folder
@@ -20,16 +20,9 @@ from .xdmf import read_xdmf
 
 # By the end of a file's name, in lower case: what meshio reads wrongly; see the head of each module.
 # What meshio reads well, or reads at all, is left to it.
-READERS: Dict[str, Callable[[Path], RawMesh]] = {
-    ".vtu": read_vtu,
-    ".xdmf": read_xdmf,
-    ".xmf": read_xdmf,
-    ".med": read_med,
-    ".inp": read_abaqus,
-    ".h5": read_dolfin_hdf5,
-    ".xml": read_dolfin_xml,
-    **{name: read_exodus for name in (".e", ".exo", ".ex2", ".exii", ".g", ".gen")},
-}
+READERS: dict[str, Callable[[Path], RawMesh]] = {".vtu": read_vtu, ".xdmf": read_xdmf, ".xmf": read_xdmf}
+READERS |= {".med": read_med, ".inp": read_abaqus, ".h5": read_dolfin_hdf5, ".xml": read_dolfin_xml}
+READERS |= dict.fromkeys((".e", ".exo", ".ex2", ".exii", ".g", ".gen"), read_exodus)
 # What no reader takes, by the end of its name: what it is, and the way in.
 REFUSED = {
     ".unv": ("a universal file of I-DEAS", "turn it by gmsh FILE.unv -save -o FILE.msh, or write it as MED"),
@@ -67,8 +60,7 @@ def _way_into(folder: Path) -> str:
     cells = sorted(folder.glob("*.mesh.vtu")) or sorted(folder.glob("*.vtu"))
     if len(cells) != 1:
         return "give the files in it: fluid=LUMEN.vtu, wall=WALL.vtu and NAME=FACE.vtp for each face"
-    faces = sorted(folder.glob("mesh-surfaces/*.vtp"))
-    ends = [face for face in faces if not face.stem.lower().startswith("wall")]
+    ends = [face for face in sorted(folder.glob("mesh-surfaces/*.vtp")) if not face.stem.lower().startswith("wall")]
     words = [f"fluid={cells[0]}"] + [f"{face.stem}={face}" for face in ends]
     return f"give the files in it: fsi-mesh import {' '.join(map(shlex.quote, words))} -o {folder.name}.msh"
 

@@ -2,15 +2,15 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import List, Sequence, Tuple
+from typing import Sequence
 
 import numpy as np
 
 from ..base.errors import InputError
 from ..base.files import exists
 from .joining import TooMany, first_of_cluster, near_pairs
-from .parts import WHOLE, FoundMesh, found_mesh
-from .raw_mesh import Block
+from .parts import WHOLE, FoundMesh, found_mesh, whole_of
+from .raw_mesh import Block, nothing
 from .readers import read_mesh, read_surface
 
 # Points of two files are one where their places agree in single precision, in which VTK and others write.
@@ -40,7 +40,7 @@ def source_of(text: str) -> Source:
     return Source(name, Path(rest))
 
 
-def read_sources(sources: Sequence[Source], scale: float) -> Tuple[FoundMesh, List[int]]:
+def read_sources(sources: Sequence[Source], scale: float) -> tuple[FoundMesh, list[int]]:
     """The mesh, and how many points the files up to each one have. Points are not joined yet. Raises InputError."""
     names = [source.name for source in sources if source.name]
     for name in names:
@@ -60,9 +60,8 @@ def read_sources(sources: Sequence[Source], scale: float) -> Tuple[FoundMesh, Li
         start, first = len(whole.blocks), end - len(mesh.points)
         whole.blocks += [Block(block.kind, block.nodes + first) for block in mesh.blocks]
 
-        def spread(places: List[np.ndarray]) -> List[np.ndarray]:
-            nothing = np.zeros(0, dtype=np.int64)
-            return [places[i - start] if start <= i < start + len(places) else nothing for i in range(count)]
+        def spread(places: list[np.ndarray]) -> list[np.ndarray]:
+            return [places[i - start] if start <= i < start + len(places) else nothing() for i in range(count)]
 
         def take(known: str) -> str:
             if known in whole.cells or known in whole.points_of or (known in names and known != source.name):
@@ -73,20 +72,19 @@ def read_sources(sources: Sequence[Source], scale: float) -> Tuple[FoundMesh, Li
         if source.name:
             whole.cells[take(source.name)] = spread(mesh.cells[WHOLE])
         stem = source.name or source.path.stem
-        for name, places in mesh.cells.items():
+        for name in [*mesh.cells, *mesh.points_of]:
             if name == WHOLE:
                 continue
-            known = f"{stem}/{name}" if source.name or _taken(name, mesh, meshes) else name
-            whole.cells[take(known)] = spread(places)
+            known = take(f"{stem}/{name}" if source.name or _taken(name, mesh, meshes) else name)
+            if name in mesh.points_of:
+                whole.points_of[known] = mesh.points_of[name] + first
+                continue
+            whole.cells[known] = spread(mesh.cells[name])
             if name in mesh.numbered or source.name:
                 numbered.add(known)
-        for name, points in mesh.points_of.items():
-            known = f"{stem}/{name}" if source.name or _taken(name, mesh, meshes) else name
-            whole.points_of[take(known)] = points + first
         whole.passed_over += [f"{source.path.name}: {text}" for text in mesh.passed_over]
     if WHOLE not in whole.cells:
-        top = whole.dimension
-        whole.cells[WHOLE] = [np.arange(len(b.nodes) if b.dimension == top else 0) for b in whole.blocks]
+        whole.cells[WHOLE] = whole_of(whole)
         numbered.add(WHOLE)
     whole.numbered = frozenset(numbered)
     return whole, ends
@@ -96,7 +94,7 @@ def _taken(name: str, mesh: FoundMesh, meshes: Sequence[FoundMesh]) -> bool:
     return any(name in other.cells or name in other.points_of for other in meshes if other is not mesh)
 
 
-def join(file: str, mesh: FoundMesh, ends: Sequence[int], tolerance: float) -> List[str]:
+def join(file: str, mesh: FoundMesh, ends: Sequence[int], tolerance: float) -> list[str]:
     """Joins points that are at most `tolerance` apart, mm; with 0 those of different files that agree in single
     precision. The first one's place stays. Returns what was done, in sentences. Raises InputError where a cell would
     lose an edge."""

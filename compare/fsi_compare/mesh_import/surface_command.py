@@ -9,13 +9,9 @@ from .vtp import read_vtp, scalar_field
 
 
 def add_parser(commands: Commands, version: str) -> None:
-    command = add_command(
-        commands,
-        "convert-surface",
-        convert_surface,
-        "a surface of VTK (.vtp) as text; use fsi-mesh lumen, which checks it, too",
-        "Prints the surface as OBJ, or its points with one field as a table.",
-    )
+    help = "a surface of VTK (.vtp) as text; use fsi-mesh lumen, which checks it, too"
+    description = "Prints the surface as OBJ, or its points with one field as a table."
+    command = add_command(commands, "convert-surface", convert_surface, help, description)
     command.add_argument("surface", metavar="FILE.vtp", type=folder)
     command.add_argument("--field", metavar="NAME", help="print x,y,z and this field of the points, as CSV")
 

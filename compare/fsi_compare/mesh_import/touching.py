@@ -1,8 +1,8 @@
 """Where volumes of a mesh touch: by which sides, or how far they are apart."""
 
 from dataclasses import dataclass
-from itertools import combinations
-from typing import List, Mapping, Sequence
+from itertools import combinations, product
+from typing import Mapping, Sequence
 
 import numpy as np
 
@@ -17,6 +17,7 @@ class Contact:
 
     first: str
     second: str
+    dimension: int  # of the mesh
     sides: int  # that both have
     points: int  # that both have, on the surfaces
     distance: float  # mm between the nearest points where no side is shared, infinite beyond a tenth of the mesh
@@ -25,15 +26,12 @@ class Contact:
 
 def contacts(
     points: np.ndarray, volumes: Mapping[str, Sequence[Block]], dimension: int, distances: bool = True
-) -> List[Contact]:
+) -> list[Contact]:
     """The contacts between each two volumes, by name. Without distances only of those that share a side."""
     if len(volumes) < 2:
         return []
     surfaces = {name: boundary_of(blocks, dimension) for name, blocks in volumes.items()}
-    nodes = {
-        name: np.unique(np.concatenate([b.nodes[:, : CORNERS[b.kind]].ravel() for b in blocks]))
-        for name, blocks in surfaces.items()
-    }
+    nodes = {name: _vertices(blocks) for name, blocks in surfaces.items()}
     span = float(np.ptp(points[np.concatenate(list(nodes.values()))], axis=0).max())
     boxes = {name: (points[there].min(axis=0), points[there].max(axis=0)) for name, there in nodes.items()}
     found = []
@@ -48,25 +46,33 @@ def contacts(
             near = apart <= span / 10
             distance = nearest_distance(points[nodes[a]], points[nodes[b]], span / 10) if near else float("inf")
         edge = float("inf") if shared else min(shortest_edge(volumes[name], points) for name in (a, b))
-        found.append(Contact(a, b, shared, common, distance, edge))
+        found.append(Contact(a, b, dimension, shared, common, distance, edge))
     return found
+
+
+def _vertices(blocks: Sequence[Block]) -> np.ndarray:
+    return np.unique(np.concatenate([b.nodes[:, : CORNERS[b.kind]].ravel() for b in blocks]))
 
 
 def _shared_sides(first: Sequence[Block], second: Sequence[Block]) -> int:
     count = 0
-    for a in first:
-        for b in second:
-            if CORNERS[a.kind] == CORNERS[b.kind]:
-                corners = CORNERS[a.kind]
-                keys = corner_keys(a.kind, np.concatenate([a.nodes[:, :corners], b.nodes[:, :corners]]))
-                count += len(np.intersect1d(keys[: len(a.nodes)], keys[len(a.nodes) :]))
+    for a, b in product(first, second):
+        corners = CORNERS[a.kind]
+        if corners == CORNERS[b.kind]:
+            keys = corner_keys(a.kind, np.concatenate([a.nodes[:, :corners], b.nodes[:, :corners]]))
+            count += len(np.intersect1d(keys[: len(a.nodes)], keys[len(a.nodes) :]))
     return count
 
 
-def lonely(volumes: Mapping[str, Sequence[Block]], found: Sequence[Contact]) -> List[str]:
+def lonely(volumes: Mapping[str, Sequence[Block]], found: Sequence[Contact]) -> list[str]:
     """Volumes that share no side with another one, where there are several."""
     touching = {name for contact in found if contact.sides for name in (contact.first, contact.second)}
     return [name for name in volumes if name not in touching] if len(volumes) > 1 else []
+
+
+def touch_words(contact: Contact) -> str:
+    sides = "triangles" if contact.dimension == 3 else "edges"
+    return f"{contact.first} and {contact.second} touch: {contact.sides} {sides}, {contact.points} points"
 
 
 def gap_words(contact: Contact) -> str:
@@ -75,12 +81,11 @@ def gap_words(contact: Contact) -> str:
     if contact.distance == float("inf"):
         return f"{what}, and are far apart"
     if contact.distance == 0 and contact.points:
-        return f"{what}"
+        return what
+    near = f"their nearest points are {contact.distance:.3g} mm apart"
     if join_for(contact.distance) > contact.edge / 2:
-        return f"{what}, their nearest points are {contact.distance:.3g} mm apart, as far as points of one of them"
-    return (
-        f"{what}, their nearest points are {contact.distance:.3g} mm apart: try --join {join_for(contact.distance):.2g}"
-    )
+        return f"{what}, {near}, as far as points of one of them"
+    return f"{what}, {near}: try --join {join_for(contact.distance):.2g}"
 
 
 def join_for(distance: float) -> float:
@@ -93,9 +98,8 @@ def shortest_edge(blocks: Sequence[Block], points: np.ndarray) -> float:
     shortest = float("inf")
     for block in blocks:
         corners = points[block.nodes[:, : CORNERS[block.kind]]]
-        for a in range(corners.shape[1]):
-            for b in range(a):
-                shortest = min(shortest, float(np.linalg.norm(corners[:, a] - corners[:, b], axis=1).min()))
+        for a, b in combinations(range(corners.shape[1]), 2):
+            shortest = min(shortest, float(np.linalg.norm(corners[:, a] - corners[:, b], axis=1).min()))
     return shortest
 
 
@@ -103,7 +107,7 @@ def doubled_words(points: np.ndarray, blocks: Sequence[Block]) -> str:
     """A warning about vertices that are nearer to each other than any edge of a cell is long: doubled, or left of an
     interface that does not fit. Empty where there are none."""
     edge = shortest_edge(blocks, points)
-    corners = np.unique(np.concatenate([b.nodes[:, : CORNERS[b.kind]].ravel() for b in blocks]))
+    corners = _vertices(blocks)
     if edge <= 0:
         return ""  # flat cells are the mesh check's
     try:

@@ -10,38 +10,24 @@ import struct
 import xml.etree.ElementTree as ElementTree
 import zlib
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterator, Tuple, TypeVar
+from typing import Any, Callable, Iterator, TypeVar
 
 import numpy as np
 
 from ..base.errors import InputError
 
-TYPES = {
-    f"{kind}{bits}": f"{letter}{bits // 8}"
-    for kind, letter in (("Int", "i"), ("UInt", "u"))
-    for bits in (8, 16, 32, 64)
-}
+TYPES = {f"{kind}{8 * size}": f"{kind[0].lower()}{size}" for kind in ("Int", "UInt") for size in (1, 2, 4, 8)}
 TYPES |= {"Float32": "f4", "Float64": "f8"}
-
+RAW = re.compile(rb"""encoding\s*=\s*["']raw["']""")
 
 EXTENSIONS = {"PolyData": ".vtp", "UnstructuredGrid": ".vtu"}
-UNPACKERS: Dict[str, Callable[[bytes], bytes]] = {
+UNPACKERS: dict[str, Callable[[bytes], bytes]] = {
     "": lambda data: data,
     "vtkZLibDataCompressor": zlib.decompress,
     "vtkLZMADataCompressor": lzma.decompress,
 }
 # What a damaged file raises beside InputError.
-DAMAGES = (
-    OSError,
-    ValueError,
-    struct.error,
-    zlib.error,
-    lzma.LZMAError,
-    IndexError,
-    KeyError,
-    TypeError,
-    OverflowError,
-)
+DAMAGES = (OSError, ValueError, struct.error, zlib.error, lzma.LZMAError, LookupError, TypeError, OverflowError)
 
 
 class VtkFile:
@@ -55,11 +41,11 @@ class VtkFile:
             raise InputError(path, "", "is a pointer of Git LFS in the place of the file", "fetch it by git lfs pull")
         # What is appended raw is no XML: it is cut out, from the underscore on.
         found = re.search(rb"<AppendedData[^>]*>\s*_", text)
-        self.appended = b""
+        self.appended, self.raw = b"", False
         if found:
             end = text.rindex(b"</AppendedData>")
             self.appended = text[found.end() : end]
-            self.raw = b'"raw"' in found.group()
+            self.raw = RAW.search(found.group()) is not None
             text = text[: found.start()] + text[end + len(b"</AppendedData>") :]
         try:
             self.root = ElementTree.fromstring(text)
@@ -83,13 +69,13 @@ class VtkFile:
         form = element.get("format", "ascii")
         if form == "ascii":
             numbers = np.array((element.text or "").split(), dtype=kind)
-        elif form == "binary":
-            numbers = np.frombuffer(
-                self._unpacked(self._coded((element.text or "").strip().encode())), self.order + kind
-            )
         else:
-            data = self.appended[int(element.get("offset", "0")) :]
-            numbers = np.frombuffer(self._unpacked(data if self.raw else self._coded(data)), self.order + kind)
+            binary = form == "binary"
+            if not binary and not self.appended:
+                raise InputError(self.path, element.get("Name", "array"), "is appended to a file without AppendedData")
+            data = (element.text or "").strip().encode() if binary else self.appended[int(element.get("offset", "0")) :]
+            raw = self.raw and not binary
+            numbers = np.frombuffer(self._unpacked(data if raw else self._coded(data)), self.order + kind)
         components = int(element.get("NumberOfComponents") or 1)
         return numbers.reshape(-1, components) if components > 1 else numbers
 
@@ -120,8 +106,8 @@ class VtkFile:
 
 
 def scalars_of(
-    file: VtkFile, piece: Any, place: str, count: int, passed_over: Dict[str, None]
-) -> Dict[str, np.ndarray]:
+    file: VtkFile, piece: Any, place: str, count: int, passed_over: dict[str, None]
+) -> dict[str, np.ndarray]:
     """Arrays of one number an entry below `place` of a piece. Others are not decoded: files of results may have
     hundreds. `passed_over` gets a word on each of these, once."""
     found = {}
@@ -153,7 +139,12 @@ def read_by(reader: Callable[[VtkFile], Read], path: Path, contents: str, what: 
         raise InputError(path, "", f"cannot be read: {error}", remedy) from None
 
 
-def pieces(file: VtkFile) -> Iterator[Tuple[Any, np.ndarray]]:
+def require_points(file: VtkFile, nodes: np.ndarray, count: int) -> None:
+    if np.any((nodes < 0) | (nodes >= count)):
+        raise InputError(file.path, "connectivity", "names a point that is not there", "write the mesh anew")
+
+
+def pieces(file: VtkFile) -> Iterator[tuple[Any, np.ndarray]]:
     """The pieces that have points, and these, (points, 3)."""
     for piece in file.root.iter("Piece"):
         there = piece.find("Points/DataArray")

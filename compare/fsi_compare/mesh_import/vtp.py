@@ -2,13 +2,12 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Dict, List, Optional
 
 import numpy as np
 
 from ..base.errors import InputError
 from .raw_mesh import RawMesh
-from .vtk_xml import VtkFile, pieces, read_by, scalars_of
+from .vtk_xml import VtkFile, pieces, read_by, require_points, scalars_of
 
 
 @dataclass
@@ -16,8 +15,8 @@ class Surface:
     """Points, mm or whatever the file has; polygons as lists of points; fields of the points."""
 
     points: np.ndarray
-    polygons: List[List[int]] = field(default_factory=list)
-    fields: Dict[str, np.ndarray] = field(default_factory=dict)
+    polygons: list[list[int]] = field(default_factory=list)
+    fields: dict[str, np.ndarray] = field(default_factory=dict)
 
 
 def read_vtp(path: Path) -> Surface:
@@ -27,7 +26,7 @@ def read_vtp(path: Path) -> Surface:
 
 def _read(file: VtkFile) -> Surface:
     surface = Surface(np.zeros((0, 3)))
-    parts: Dict[str, List[np.ndarray]] = {}
+    parts: dict[str, list[np.ndarray]] = {}
     for piece, points in pieces(file):
         if int(piece.get("NumberOfStrips") or 0) > 0:
             raise InputError(file.path, "", "holds strips of triangles", "write its surface as polygons")
@@ -49,14 +48,13 @@ def read_faces(path: Path) -> RawMesh:
 
 
 def _read_faces(file: VtkFile) -> RawMesh:
-    points: List[np.ndarray] = []
-    triangles: List[np.ndarray] = []
-    cell_data: Dict[str, List[np.ndarray]] = {}
-    passed_over: Dict[str, None] = {}
+    points: list[np.ndarray] = []
+    triangles: list[np.ndarray] = []
+    cell_data: dict[str, list[np.ndarray]] = {}
+    passed_over: dict[str, None] = {}
     first = 0
     for piece, there in pieces(file):
-        others = [int(piece.get(f"NumberOf{kind}") or 0) for kind in ("Verts", "Lines", "Strips")]
-        if any(others):
+        if any(int(piece.get(f"NumberOf{kind}") or 0) for kind in ("Verts", "Lines", "Strips")):
             raise InputError(file.path, "", "holds vertices, lines or strips", "write its surface as triangles")
         points.append(there)
         arrays = {a.get("Name"): a for a in piece.findall("Polys/DataArray")}
@@ -64,12 +62,11 @@ def _read_faces(file: VtkFile) -> RawMesh:
             nodes, ends = file.array(arrays["connectivity"]).astype(np.int64), file.array(arrays["offsets"])
             if np.any(np.diff(ends.astype(np.int64), prepend=0) != 3) or len(nodes) != 3 * len(ends):
                 raise InputError(file.path, "Polys", "holds polygons that are no triangles", "triangulate the surface")
-            if np.any((nodes < 0) | (nodes >= len(points[-1]))):
-                raise InputError(file.path, "connectivity", "names a point that is not there", "write the mesh anew")
+            require_points(file, nodes, len(there))
             triangles.append(nodes.reshape(-1, 3) + first)
             for name, values in scalars_of(file, piece, "CellData", len(ends), passed_over).items():
                 cell_data.setdefault(name, []).append(values)
-        first += len(points[-1])
+        first += len(there)
     if not triangles:
         raise InputError(file.path, "", "holds no polygons", "write the surface anew as .vtp")
     whole = {name: [np.concatenate(parts)] for name, parts in cell_data.items() if len(parts) == len(triangles)}
@@ -81,6 +78,6 @@ def scalar_field(surface: Surface, name: str, path: Path) -> np.ndarray:
     """A field of one number a point. Raises InputError that lists those there are."""
     scalars = [n for n, values in surface.fields.items() if values.ndim == 1 and len(values) == len(surface.points)]
     if name not in scalars:
-        there: Optional[str] = ", ".join(scalars)
-        raise InputError(path, name, "is no field of one number at each point", f"those there are: {there or 'none'}")
+        remedy = f"those there are: {', '.join(scalars) or 'none'}"
+        raise InputError(path, name, "is no field of one number at each point", remedy)
     return surface.fields[name]

@@ -2,34 +2,18 @@
 appended arrays in base64, which is how VTK writes them; meshio 5.0.0 gives Lagrange cells kinds of their own."""
 
 from pathlib import Path
-from typing import Any, Dict, List, Tuple
+from typing import Any
 
 import numpy as np
 
 from ..base.errors import InputError
-from .raw_mesh import RawMesh
-from .vtk_xml import VtkFile, pieces, read_by, scalars_of
+from .raw_mesh import NODES, RawMesh
+from .vtk_xml import VtkFile, pieces, read_by, require_points, scalars_of
 
-# VTK's numbers of cells: meshio's name and how many nodes.
-CELLS = {
-    1: ("vertex", 1),
-    3: ("line", 2),
-    5: ("triangle", 3),
-    9: ("quad", 4),
-    10: ("tetra", 4),
-    12: ("hexahedron", 8),
-    13: ("wedge", 6),
-    14: ("pyramid", 5),
-    21: ("line3", 3),
-    22: ("triangle6", 6),
-    23: ("quad8", 8),
-    24: ("tetra10", 10),
-    25: ("hexahedron20", 20),
-    26: ("wedge15", 15),
-    27: ("pyramid13", 13),
-    28: ("quad9", 9),
-    29: ("hexahedron27", 27),
-}
+# VTK's numbers of cells: meshio's name.
+CELLS = {1: "vertex", 3: "line", 5: "triangle", 9: "quad", 10: "tetra", 12: "hexahedron", 13: "wedge", 14: "pyramid"}
+CELLS |= {21: "line3", 22: "triangle6", 23: "quad8", 24: "tetra10", 25: "hexahedron20", 26: "wedge15"}
+CELLS |= {27: "pyramid13", 28: "quad9", 29: "hexahedron27"}
 # Lagrange cells of VTK by their number and how many nodes, where they are cells of the table above.
 LAGRANGE = {(68, 2): 3, (68, 3): 21, (69, 3): 5, (69, 6): 22, (71, 4): 10, (71, 10): 24}
 
@@ -41,26 +25,24 @@ def read_vtu(path: Path) -> RawMesh:
 
 
 def _read(file: VtkFile) -> RawMesh:
-    points: List[np.ndarray] = []
-    point_data: Dict[str, List[np.ndarray]] = {}
-    blocks: Dict[int, List[np.ndarray]] = {}  # by kind, of each piece that has such cells
-    cell_data: Dict[str, Dict[int, List[np.ndarray]]] = {}
-    passed_over: Dict[str, None] = {}
+    points: list[np.ndarray] = []
+    point_data: dict[str, list[np.ndarray]] = {}
+    blocks: dict[int, list[np.ndarray]] = {}  # by kind, of each piece that has such cells
+    cell_data: dict[str, dict[int, list[np.ndarray]]] = {}
+    passed_over: dict[str, None] = {}
     first = 0
     for piece, there in pieces(file):
         points.append(there)
-        for name, values in scalars_of(file, piece, "PointData", len(points[-1]), passed_over).items():
+        for name, values in scalars_of(file, piece, "PointData", len(there), passed_over).items():
             point_data.setdefault(name, []).append(values)
         cells = _cells(file, piece)
-        count = sum(len(which) for _, which, _ in cells)
-        fields = scalars_of(file, piece, "CellData", count, passed_over)
+        fields = scalars_of(file, piece, "CellData", sum(len(which) for _, which, _ in cells), passed_over)
         for kind, which, nodes in cells:
-            if np.any((nodes < 0) | (nodes >= len(points[-1]))):
-                raise InputError(file.path, "connectivity", "names a point that is not there", "write the mesh anew")
+            require_points(file, nodes, len(there))
             blocks.setdefault(kind, []).append(nodes + first)
             for name, values in fields.items():
                 cell_data.setdefault(name, {}).setdefault(kind, []).append(values[which])
-        first += len(points[-1])
+        first += len(there)
     # A field that some piece does not have is none of the mesh.
     whole = {
         name: [np.concatenate(of_kinds.get(kind, [])) for kind in blocks]
@@ -69,14 +51,14 @@ def _read(file: VtkFile) -> RawMesh:
     }
     return RawMesh(
         np.concatenate(points) if points else np.zeros((0, 3)),
-        [(CELLS[kind][0], np.concatenate(parts)) for kind, parts in blocks.items()],
+        [(CELLS[kind], np.concatenate(parts)) for kind, parts in blocks.items()],
         whole,
         {name: np.concatenate(parts) for name, parts in point_data.items() if len(parts) == len(points)},
         passed_over=list(passed_over),
     )
 
 
-def _cells(file: VtkFile, piece: Any) -> List[Tuple[int, np.ndarray, np.ndarray]]:
+def _cells(file: VtkFile, piece: Any) -> list[tuple[int, np.ndarray, np.ndarray]]:
     """Kind, places in the piece and nodes of its cells, kind by kind."""
     arrays = {element.get("Name"): file.array(element) for element in piece.findall("Cells/DataArray")}
     if not {"connectivity", "offsets", "types"} <= set(arrays):
@@ -91,14 +73,12 @@ def _cells(file: VtkFile, piece: Any) -> List[Tuple[int, np.ndarray, np.ndarray]
     found = []
     for kind in np.unique(kinds):
         if int(kind) not in CELLS:
-            raise InputError(
-                file.path, "types", f"has a cell of VTK's kind {kind}", "mesh it by tetrahedra, or by triangles"
-            )
+            problem = f"has a cell of VTK's kind {kind}"
+            raise InputError(file.path, "types", problem, "mesh it by tetrahedra, or by triangles")
         which = np.flatnonzero(kinds == kind)
-        count = CELLS[int(kind)][1]
+        count = NODES[CELLS[int(kind)]]
         if np.any(lengths[which] != count):
-            raise InputError(
-                file.path, "offsets", f"a cell of VTK's kind {kind} has not {count} nodes", "write the mesh anew"
-            )
+            problem = f"a cell of VTK's kind {kind} has not {count} nodes"
+            raise InputError(file.path, "offsets", problem, "write the mesh anew")
         found.append((int(kind), which, corners[(ends[which] - count)[:, None] + np.arange(count)]))
     return found

@@ -6,43 +6,26 @@ writes), one grid a document, and no grid that includes the geometry of another 
 import re
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
-from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
 from ..base.errors import InputError
 from ..base.files import exists
 from .groups import corner_keys
-from .raw_mesh import KINDS, RawMesh
+from .raw_mesh import KINDS, NODES, Blocks, RawMesh
 
-# Names of topologies in lower case without underscores: meshio's kind, how many nodes.
-TOPOLOGIES = {
-    "polyvertex": ("vertex", 1),
-    "polyline": ("line", 2),
-    "edge": ("line", 2),
-    "interval": ("line", 2),
-    "line": ("line", 2),
-    "edge3": ("line3", 3),
-    "triangle": ("triangle", 3),
-    "tri3": ("triangle", 3),
-    "triangle6": ("triangle6", 6),
-    "tri6": ("triangle6", 6),
-    "tetrahedron": ("tetra", 4),
-    "tet": ("tetra", 4),
-    "tet4": ("tetra", 4),
-    "tetrahedron10": ("tetra10", 10),
-    "tet10": ("tetra10", 10),
-    "quadrilateral": ("quad", 4),
-    "hexahedron": ("hexahedron", 8),
-    "wedge": ("wedge", 6),
-    "pyramid": ("pyramid", 5),
-}
-# Kinds in a topology "Mixed" by number: those of one size, then those whose size stands behind the number.
+# Names of topologies in lower case without underscores: meshio's kind.
+TOPOLOGIES = {"polyvertex": "vertex", "quadrilateral": "quad"} | {k: k for k in ("hexahedron", "wedge", "pyramid")}
+TOPOLOGIES |= dict.fromkeys(("polyline", "edge", "interval", "line"), "line") | {"edge3": "line3"}
+TOPOLOGIES |= dict.fromkeys(("triangle", "tri3"), "triangle") | dict.fromkeys(("triangle6", "tri6"), "triangle6")
+TOPOLOGIES |= dict.fromkeys(("tetrahedron", "tet", "tet4"), "tetra")
+TOPOLOGIES |= dict.fromkeys(("tetrahedron10", "tet10"), "tetra10")
+# Kinds in a topology "Mixed" by number.
 MIXED = {4: "triangle", 5: "quadrilateral", 6: "tetrahedron", 7: "pyramid", 8: "wedge", 9: "hexahedron"}
-MIXED |= {34: "edge3", 36: "triangle6", 38: "tetrahedron10"}
-MIXED_WITH_SIZE = {1: "polyvertex", 2: "polyline"}
+MIXED |= {34: "edge3", 36: "triangle6", 38: "tetrahedron10", 1: "polyvertex", 2: "polyline"}
+WITH_SIZE = (1, 2)  # those whose size stands behind the number
 TYPES = {"float": "f", "int": "i", "uint": "u", "char": "i", "uchar": "u"}
-DAMAGES = (OSError, ValueError, KeyError, IndexError, TypeError, OverflowError)
+DAMAGES = (OSError, ValueError, LookupError, TypeError, OverflowError)
 REMEDY = "write the mesh anew, for one as .vtu"
 
 
@@ -63,26 +46,25 @@ class _Document:
         domain = root.find("Domain")
         if root.tag.lower() != "xdmf" or domain is None:
             raise InputError(path, "", "holds no domain of XDMF", REMEDY)
-        self.passed_over: Dict[str, None] = {}
+        self.passed_over: dict[str, None] = {}
         self.root = root
         self.grids = list(self._uniform(domain))
 
     def mesh(self) -> RawMesh:
         if not self.grids:
             raise InputError(self.path, "", "holds no grid", REMEDY)
-        points: Optional[np.ndarray] = None
-        blocks: List[Tuple[str, np.ndarray]] = []
-        data: Dict[str, List[Tuple[int, np.ndarray, np.ndarray]]] = {}  # name -> block, places, values
-        point_data: Dict[str, np.ndarray] = {}
+        points: np.ndarray | None = None
+        blocks: Blocks = []
+        data: dict[str, list[tuple[int, np.ndarray, np.ndarray]]] = {}  # name -> block, places, values
+        point_data: dict[str, np.ndarray] = {}
         for grid in self.grids:
             own = self._points(grid)
             if points is None:
                 points = own
             elif own is not None and not np.array_equal(own, points):
                 problem = f"has grids of several geometries, of which '{grid.get('Name', '')}' is one"
-                raise InputError(
-                    self.path, "Geometry", problem, "give each a file: fsi-mesh import ONE.xdmf OTHER.xdmf"
-                )
+                remedy = "give each a file: fsi-mesh import ONE.xdmf OTHER.xdmf"
+                raise InputError(self.path, "Geometry", problem, remedy)
             where, count = [], 0  # block, places in it, places in the grid
             for kind, nodes, places in self._elements(grid):
                 block, at = _placed(blocks, kind, nodes)
@@ -104,27 +86,18 @@ class _Document:
                     self.passed_over[f"{name} ({len(values)} values at {centre}s)"] = None
         if points is None:
             raise InputError(self.path, "Geometry", "is missing", REMEDY)
-        return RawMesh(
-            points,
-            blocks,
-            {name: _spread(blocks, entries) for name, entries in data.items()},
-            point_data,
-            passed_over=list(self.passed_over),
-        )
+        cell_data = {name: _spread(blocks, entries) for name, entries in data.items()}
+        return RawMesh(points, blocks, cell_data, point_data, passed_over=list(self.passed_over))
 
-    def _uniform(self, parent: ElementTree.Element) -> List[ElementTree.Element]:
+    def _uniform(self, parent: ElementTree.Element) -> list[ElementTree.Element]:
         found = []
         for grid in parent.findall("Grid"):
             kind = grid.get("GridType", "Uniform").lower()
-            if kind == "uniform":
-                found.append(grid)
-            elif kind == "collection" and grid.get("CollectionType", "").lower() == "temporal":
-                found += self._uniform(grid)[:1]
-            else:
-                found += self._uniform(grid)
+            temporal = kind == "collection" and grid.get("CollectionType", "").lower() == "temporal"
+            found += [grid] if kind == "uniform" else self._uniform(grid)[: 1 if temporal else None]
         return found
 
-    def _points(self, grid: ElementTree.Element) -> Optional[np.ndarray]:
+    def _points(self, grid: ElementTree.Element) -> np.ndarray | None:
         geometry = grid.find("Geometry")
         if geometry is None:
             return None
@@ -133,7 +106,7 @@ class _Document:
             raise InputError(self.path, "Geometry", f"is of the kind {kind}", "write the points as XYZ")
         return self._array(geometry).reshape(-1, len(kind)).astype(float)
 
-    def _elements(self, grid: ElementTree.Element) -> List[Tuple[str, np.ndarray, np.ndarray]]:
+    def _elements(self, grid: ElementTree.Element) -> list[tuple[str, np.ndarray, np.ndarray]]:
         """Kind, nodes and places in the grid of its elements, kind by kind; none where the grid includes another's."""
         topology = grid.find("Topology")
         if topology is None:
@@ -145,7 +118,8 @@ class _Document:
             return self._mixed(numbers)
         if name not in TOPOLOGIES:
             raise InputError(self.path, "Topology", f"is of the kind '{said}'", "write tetrahedra or triangles")
-        kind, count = TOPOLOGIES[name]
+        kind = TOPOLOGIES[name]
+        count = NODES[kind]
         said_count = int(topology.get("NodesPerElement") or count)
         if name in ("polyline", "polyvertex") and said_count != count:
             kind, count = f"polygon{said_count}", said_count
@@ -155,31 +129,28 @@ class _Document:
         nodes = numbers.reshape(-1, count)
         return [(kind, nodes, np.arange(len(nodes)))]
 
-    def _mixed(self, numbers: np.ndarray) -> List[Tuple[str, np.ndarray, np.ndarray]]:
-        found: Dict[str, Tuple[List[int], List[int]]] = {}  # kind -> where its nodes begin, places
+    def _mixed(self, numbers: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
+        found: dict[str, tuple[list[int], list[int]]] = {}  # kind -> where its nodes begin, places
         at, place, codes = 0, 0, numbers.tolist()
         while at < len(codes):
             code = codes[at]
             at += 1
-            if code in MIXED_WITH_SIZE:
-                name = MIXED_WITH_SIZE[code]
-                at += 1
-            elif code in MIXED:
-                name = MIXED[code]
-            else:
+            if code not in MIXED:
                 raise InputError(self.path, "Topology", f"has an element of XDMF's kind {code}", REMEDY)
+            at += code in WITH_SIZE
+            name = MIXED[code]
             starts, places = found.setdefault(name, ([], []))
             starts.append(at)
             places.append(place)
-            at += TOPOLOGIES[name][1]
+            at += NODES[TOPOLOGIES[name]]
             place += 1
         result = []
         for name, (starts, places) in found.items():
-            kind, count = TOPOLOGIES[name]
-            result.append((kind, numbers[np.array(starts)[:, None] + np.arange(count)], np.array(places)))
+            kind = TOPOLOGIES[name]
+            result.append((kind, numbers[np.array(starts)[:, None] + np.arange(NODES[kind])], np.array(places)))
         return result
 
-    def _scalars(self, attribute: ElementTree.Element, name: str) -> Optional[np.ndarray]:
+    def _scalars(self, attribute: ElementTree.Element, name: str) -> np.ndarray | None:
         kind = (attribute.get("AttributeType") or attribute.get("Type") or "Scalar").lower()
         if kind != "scalar":
             self.passed_over[f"{name} ({kind})"] = None
@@ -232,8 +203,7 @@ class _Document:
         import h5py  # takes a while to load
 
         name, _, inside = text.rpartition(":")
-        file = self._beside(name)
-        with h5py.File(file, "r") as opened:
+        with h5py.File(self._beside(name), "r") as opened:
             if inside not in opened:
                 raise InputError(self.path, "DataItem", f"asks {name} for {inside}, which is not there", REMEDY)
             return np.asarray(opened[inside])
@@ -245,7 +215,7 @@ class _Document:
         return file
 
 
-def _placed(blocks: List[Tuple[str, np.ndarray]], kind: str, nodes: np.ndarray) -> Tuple[int, np.ndarray]:
+def _placed(blocks: Blocks, kind: str, nodes: np.ndarray) -> tuple[int, np.ndarray]:
     """Places of these elements: in a block that has them all, in any order, as tags of cells do; else in an added
     block."""
     for i, (other, there) in enumerate(blocks):
@@ -260,9 +230,7 @@ def _placed(blocks: List[Tuple[str, np.ndarray]], kind: str, nodes: np.ndarray) 
     return len(blocks) - 1, np.arange(len(nodes))
 
 
-def _spread(
-    blocks: List[Tuple[str, np.ndarray]], entries: List[Tuple[int, np.ndarray, np.ndarray]]
-) -> List[np.ndarray]:
+def _spread(blocks: Blocks, entries: list[tuple[int, np.ndarray, np.ndarray]]) -> list[np.ndarray]:
     """An array a block, NaN where nothing is said."""
     whole = [np.full(len(nodes), np.nan) for _, nodes in blocks]
     for block, at, values in entries:

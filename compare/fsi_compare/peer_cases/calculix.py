@@ -4,42 +4,38 @@ With NLGEOM its *ELASTIC is St. Venant and Kirchhoff's law, without it the linea
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Optional, Tuple
 
 from ..base.errors import InputError
 from ..base.files import LARGEST, read_text
 from .units import SYSTEMS
 
 SI = SYSTEMS["si"]
+Card = tuple[int, str, list[str]]  # line, keyword line, and lines of data
 
 
 @dataclass
 class Deck:
     path: Path
-    words: List[str]  # in our keys and units, if the deck is in SI
+    words: list[str]  # in our keys and units, if the deck is in SI
 
 
-def deck_beside(folder: Path) -> Optional[Path]:
+def deck_beside(folder: Path) -> Path | None:
     """The only .inp in the folder or one below it that has a material; None where there are none or several."""
-    found = []
-    for path in sorted([*folder.glob("*.inp"), *folder.glob("*/*.inp")]):
-        if path.is_file() and path.stat().st_size <= LARGEST and "*MATERIAL" in path.read_text("latin-1").upper():
-            found.append(path)
+    small = [p for p in [*folder.glob("*.inp"), *folder.glob("*/*.inp")] if p.is_file() and p.stat().st_size <= LARGEST]
+    found = [path for path in small if "*MATERIAL" in path.read_text("latin-1").upper()]
     return found[0] if len(found) == 1 else None
 
 
 def read_deck(path: Path) -> Deck:
     """Reads a deck. Raises InputError."""
-    cards = _cards(path)
-    by_name: Dict[str, List[Tuple[int, str, List[str]]]] = {}
-    for card in cards:
+    by_name: dict[str, list[Card]] = {}
+    for card in _cards(path):
         by_name.setdefault(card[1].split(",")[0].strip().upper(), []).append(card)
     materials = by_name.get("*MATERIAL", [])
     if len(materials) != 1:
         raise InputError(path, "*MATERIAL", f"is there {len(materials)} times", "read is a deck with one")
-    large = any(
-        "NLGEOM" in card[1].upper() for name in ("*STEP", "*DYNAMIC", "*STATIC") for card in by_name.get(name, [])
-    )
+    steps = [card for name in ("*STEP", "*DYNAMIC", "*STATIC") for card in by_name.get(name, [])]
+    large = any("NLGEOM" in card[1].upper() for card in steps)
     words = []
     if "*ELASTIC" in by_name:
         young, poisson = _numbers(path, by_name["*ELASTIC"][0], 2)
@@ -55,11 +51,9 @@ def read_deck(path: Path) -> Deck:
     return Deck(path, words)
 
 
-def _cards(path: Path) -> List[Tuple[int, str, List[str]]]:
-    """Line, keyword line, and lines of data of each."""
-    cards: List[Tuple[int, str, List[str]]] = []
-    text = read_text(path, "give the deck", "write the deck as text", LARGEST)
-    for number, line in enumerate(text.splitlines(), 1):
+def _cards(path: Path) -> list[Card]:
+    cards: list[Card] = []
+    for number, line in enumerate(read_text(path, "give the deck", "write the deck as text", LARGEST).splitlines(), 1):
         line = line.strip()
         if line.startswith("**") or not line:
             continue
@@ -70,7 +64,7 @@ def _cards(path: Path) -> List[Tuple[int, str, List[str]]]:
     return cards
 
 
-def _numbers(path: Path, card: Tuple[int, str, List[str]], count: int) -> List[float]:
+def _numbers(path: Path, card: Card, count: int) -> list[float]:
     line, keyword, data = card
     words = data[0].split(",") if data else []
     try:

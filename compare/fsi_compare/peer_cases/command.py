@@ -2,47 +2,36 @@
 
 import argparse
 from pathlib import Path
-from typing import List
 
 from ..base.errors import InputError, printable, say_warning
 from ..base.files import folder
 from ..base.options import Commands, add_command
+from ..mesh_import.command import add_join
 from .case_file import write_case
 from .formats import read_peer_case
 from .units import SYSTEMS, units_of
 
 
 def add_parser(commands: Commands, version: str) -> None:
-    command = add_command(
-        commands,
-        "convert-case",
-        convert_case,
-        "a case of another program as a case file and a mesh; use fsi-mesh import, which checks both",
-        "Writes case.toml, tables, import.log and given.msh of a case of another program into a folder that is there.",
-    )
+    help = "a case of another program as a case file and a mesh; use fsi-mesh import, which checks both"
+    what = "case.toml, tables, import.log and given.msh of a case of another program"
+    command = add_command(commands, "convert-case", convert_case, help, f"Writes {what} into a folder that is there.")
     command.add_argument("case", metavar="CASE", type=Path)
     command.add_argument("-o", "--output", metavar="FOLDER", type=folder, required=True)
     command.add_argument("--units", metavar="NAME", default="cgs", help=f"of a case without any: {', '.join(SYSTEMS)}")
-    command.add_argument(
-        "--fibre-angle", metavar="DEGREES", type=float, help="of fibres that the case gives by vectors"
-    )
-    command.add_argument("--join", metavar="TOLERANCE", type=float, help="points so far apart are one, mm")
+    text = "of fibres that the case gives by vectors"
+    command.add_argument("--fibre-angle", metavar="DEGREES", type=float, help=text)
+    add_join(command)
 
 
 def convert_case(options: argparse.Namespace) -> int:
     """The command. Raises InputError."""
-    if options.join is not None and not 0 < options.join < float("inf"):
-        raise InputError("", "--join", f"{options.join:g} is no distance", "give mm, for one 0.001")
     angle = options.fibre_angle
     if angle is not None and not 0 <= angle <= 90:
-        raise InputError(
-            "",
-            "--fibre-angle",
-            f"{angle:g} is no angle to the circumference",
-            "give 0 to 90 degrees: the other family mirrors it",
-        )
-    case = read_peer_case(options.case, units_of(options.units), angle, options.join or 0.0)
-    lines: List[str] = [f"{case.file}, a case of {case.program}, taken in {options.units}."]
+        remedy = "give 0 to 90 degrees: the other family mirrors it"
+        raise InputError("", "--fibre-angle", f"{angle:g} is no angle to the circumference", remedy)
+    case = read_peer_case(options.case, units_of(options.units), angle, options.join)
+    lines: list[str] = [f"{case.file}, a case of {case.program}, taken in {options.units}."]
     lines += case.said + [f"No counterpart: {note}" for note in case.notes]
     try:
         write_case(case, options.output)

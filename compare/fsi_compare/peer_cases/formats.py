@@ -1,7 +1,6 @@
 """Which reader takes which case."""
 
 from pathlib import Path
-from typing import Optional
 
 from ..base.errors import InputError
 from . import precice, svmultiphysics
@@ -13,7 +12,7 @@ from .xml_file import read_xml
 READERS = (svmultiphysics, precice)
 
 
-def read_peer_case(path: Path, units: Units, fibre_angle: Optional[float], tolerance: float) -> PeerCase:
+def read_peer_case(path: Path, units: Units, fibre_angle: float | None, tolerance: float) -> PeerCase:
     """Reads the case of another program. Raises InputError."""
     root = read_xml(path)
     for reader in READERS:

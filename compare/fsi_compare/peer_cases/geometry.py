@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Optional, Sequence, Tuple
+from typing import Sequence
 
 import numpy as np
 
@@ -11,11 +11,10 @@ from ..base.errors import InputError
 from ..mesh_import.conversion import require_sides, turn, write_gmsh
 from ..mesh_import.groups import Group, choose_groups, corner_keys
 from ..mesh_import.parts import FoundMesh
-from ..mesh_import.raw_mesh import Block
+from ..mesh_import.raw_mesh import SIDES, Block
 from ..mesh_import.sources import Source, join, read_sources
 
 FLAT = np.cos(np.radians(5.0))  # a facet's normal along the face's mean one, of a flat face
-OPPOSITE = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # sides of a tetrahedron, by the corner that each has not
 
 
 @dataclass
@@ -27,7 +26,7 @@ class Face:
     medium: str  # volume group
     triangles: np.ndarray  # (triangles, 3), points of the joined mesh
     area: float = 0.0  # mm^2
-    normal: Tuple[float, float, float] = (0.0, 0.0, 0.0)  # mean, out of its medium, of length 1
+    normal: tuple[float, float, float] = (0.0, 0.0, 0.0)  # mean, out of its medium, of length 1
     flat: bool = False
     on_interface: bool = False
 
@@ -35,8 +34,8 @@ class Face:
 @dataclass
 class CaseMesh:
     mesh: FoundMesh
-    groups: List[Group]
-    said: List[str]
+    groups: list[Group]
+    said: list[str]
     order: int
 
     def write(self, path: Path) -> None:
@@ -45,10 +44,10 @@ class CaseMesh:
             write_gmsh(out, self.mesh, self.groups)
 
 
-def plain_names(given: Sequence[str], taken: Sequence[str]) -> List[str]:
+def plain_names(given: Sequence[str], taken: Sequence[str]) -> list[str]:
     """Names for groups of the mesh and keys of the case file: letters, digits, _ and -, each once; none that means
     something of itself in a mesh of ours."""
-    names: List[str] = []
+    names: list[str] = []
     for text in given:
         name = re.sub(r"[^A-Za-z0-9_-]", "_", text) or "face"
         if name in ("inner", "wall_ends", "fluid", "all") or name.startswith("symmetry"):
@@ -62,8 +61,8 @@ def plain_names(given: Sequence[str], taken: Sequence[str]) -> List[str]:
 
 
 def read_case_mesh(
-    file: str, media: Dict[str, Path], faces: Sequence[Tuple[str, str, str, Path]], scale: float, tolerance: float
-) -> Tuple[CaseMesh, List[Face]]:
+    file: str, media: dict[str, Path], faces: Sequence[tuple[str, str, str, Path]], scale: float, tolerance: float
+) -> tuple[CaseMesh, list[Face]]:
     """Reads the mesh from files of volumes (by group) and of faces: name, the other program's name, medium and file.
     Facets of the interface of fluid and wall belong to no group of the mesh. Raises InputError."""
     sources = [Source(name, path) for name, path in media.items()]
@@ -75,19 +74,17 @@ def read_case_mesh(
     groups = choose_groups(file, mesh, [(source.name, source.name) for source in sources])
     volumes = {name: [g for g in groups if g.name == name and g.dimension == 3] for name in media}
     for source in sources:
-        found = [g.dimension for g in groups if g.name == source.name]
-        if found != [3 if source.name in media else 2]:
+        if [g.dimension for g in groups if g.name == source.name] != [3 if source.name in media else 2]:
             raise InputError(source.path, "", "holds cells and faces at once", "give a file for each")
     require_sides(file, mesh, groups, sources)
     turned = turn(mesh, groups)
     if turned:
         said.append(f"{turned} cells were turned inside out and are turned back")
-    order = 2 if any(block.kind == "tetra10" for name in media for g in volumes[name] for block in g.parts) else 1
     made = []
     kept = [group for name in media for group in volumes[name]]
-    tetrahedra = {
-        name: np.concatenate([block.nodes[:, :4] for g in volumes[name] for block in g.parts]) for name in media
-    }
+    blocks = {name: [block for group in volumes[name] for block in group.parts] for name in media}
+    tetrahedra = {name: np.concatenate([block.nodes[:, :4] for block in parts]) for name, parts in blocks.items()}
+    order = 2 if any(block.kind == "tetra10" for parts in blocks.values() for block in parts) else 1
     for name, given, medium, path in faces:
         (group,) = [g for g in groups if g.name == name]
         face, rest = _face(mesh, group, given, medium, tetrahedra, path)
@@ -98,8 +95,8 @@ def read_case_mesh(
 
 
 def _face(
-    mesh: FoundMesh, group: Group, given: str, medium: str, tetrahedra: Dict[str, np.ndarray], path: Path
-) -> Tuple[Face, Optional[Group]]:
+    mesh: FoundMesh, group: Group, given: str, medium: str, tetrahedra: dict[str, np.ndarray], path: Path
+) -> tuple[Face, Group | None]:
     """The face without what is on the interface, and its group."""
     triangles = np.concatenate([block.nodes[:, :3] for block in group.parts])
     opposite, uses = _owners(tetrahedra[medium], triangles)
@@ -128,9 +125,10 @@ def _face(
     return face, Group(group.name, group.dimension, [block for block in parts if len(block.nodes)])
 
 
-def _owners(tetrahedra: np.ndarray, triangles: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
-    """The corner of a cell that lies behind each triangle, and of how many cells it is a side."""
-    sides = np.concatenate([tetrahedra[:, list(side)] for side in OPPOSITE])
+def _owners(tetrahedra: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The corner of a cell that lies behind each triangle, and of how many cells it is a side. The k-th side of a
+    tetrahedron has not its k-th corner."""
+    sides = np.concatenate([tetrahedra[:, list(side)] for side in SIDES["tetra"][1]])
     behind = np.concatenate([tetrahedra[:, k] for k in range(4)])
     keys = corner_keys("triangle", np.concatenate([sides, triangles]))
     cells, wanted = keys[: len(sides)], keys[len(sides) :]

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 from .geometry import CaseMesh, Face
 
@@ -24,8 +24,8 @@ class Note:
 class Table:
     """Rows of time in ms and a value."""
 
-    header: Tuple[str, str]
-    rows: List[Tuple[float, float]]
+    header: tuple[str, str]
+    rows: list[tuple[float, float]]
 
 
 @dataclass
@@ -34,12 +34,12 @@ class PeerCase:
 
     program: str
     file: Path
-    sections: Dict[str, Any] = field(default_factory=dict)
-    tables: Dict[str, Table] = field(default_factory=dict)
-    said: List[str] = field(default_factory=list)  # what was made of what, for the log
-    notes: List[Note] = field(default_factory=list)
-    faces: List[Face] = field(default_factory=list)
-    mesh: Optional[CaseMesh] = None
+    sections: dict[str, Any] = field(default_factory=dict)
+    tables: dict[str, Table] = field(default_factory=dict)
+    said: list[str] = field(default_factory=list)  # what was made of what, for the log
+    notes: list[Note] = field(default_factory=list)
+    faces: list[Face] = field(default_factory=list)
+    mesh: CaseMesh | None = None
 
     def note(self, entry: str, where: str, instead: str, matters: bool = False) -> None:
         self.notes.append(Note(entry, where, instead, matters))

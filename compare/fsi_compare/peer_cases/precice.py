@@ -1,7 +1,6 @@
 """preCICE's configuration, which couples programs and holds neither mesh nor material. What it and a deck of CalculiX
 beside it say is read and told; the rest of the case is with the program of the fluid, whose mesh nothing names."""
 
-from typing import List, Optional
 
 from .calculix import deck_beside, read_deck
 from .model import PeerCase
@@ -13,14 +12,13 @@ def is_case(root: Entry) -> bool:
     return root.name == "precice-configuration"
 
 
-def read_case(root: Entry, units: Units, fibre_angle: Optional[float] = None, tolerance: float = 0.0) -> PeerCase:
+def read_case(root: Entry, units: Units, fibre_angle: float | None = None, tolerance: float = 0.0) -> PeerCase:
     """Raises InputError always: the configuration has no fluid."""
-    said: List[str] = []
+    said: list[str] = []
     participants = [entry.attribute("name") for entry in root.every() if entry.name == "participant"]
     if participants:
         said.append(f"it couples {' and '.join(participants)}")
-    schemes = [entry for entry in root.every() if entry.name.startswith("coupling-scheme:")]
-    for scheme in schemes[:1]:
+    for scheme in [entry for entry in root.every() if entry.name.startswith("coupling-scheme:")][:1]:
         for name, key in (("time-window-size", "time.step"), ("max-time", "time.end")):
             found = scheme.find(name)
             if found is not None:
@@ -35,9 +33,6 @@ def read_case(root: Entry, units: Units, fibre_angle: Optional[float] = None, to
         wall = str(deck)
         said.append(f"of the wall {deck} says {', '.join(read_deck(deck).words)}")
     words = f" (in SI {'; '.join(said)})" if said else ""
-    remedy = (
-        f"import the meshes of both, the fluid's from its program: fsi-mesh import fluid=FILE wall={wall} -o FILE.msh; "
-    )
-    raise root.refuse(
-        f"a preCICE configuration does not hold the fluid's mesh{words}", remedy + "then write the case file by hand"
-    )
+    command = f"fsi-mesh import fluid=FILE wall={wall} -o FILE.msh"
+    remedy = f"import the meshes of both, the fluid's from its program: {command}; then write the case file by hand"
+    raise root.refuse(f"a preCICE configuration does not hold the fluid's mesh{words}", remedy)

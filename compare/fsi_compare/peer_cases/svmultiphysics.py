@@ -6,13 +6,13 @@ set_bc.cpp (a value of Dir is along the normal out of the fluid, one of Neu a pr
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 import numpy as np
 
-from ..base.errors import InputError
+from ..base.errors import InputError, printable
 from ..base.files import absolute
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from .geometry import CaseMesh, Face, plain_names, read_case_mesh
 from .model import PeerCase, Table
 from .svmultiphysics_laws import Layer, layer_of, viscosity_of
@@ -21,19 +21,14 @@ from .waveforms import Waveform, read_coefficients, read_series
 from .xml_file import Entry
 
 PROGRAM = "svMultiPhysics"
-EQUATIONS = {
-    **{name: "FSI" for name in ("FSI", "fluid-solid-interaction")},
-    "fluid": "fluid",
-    **{name: "struct" for name in ("struct", "structural")},
-    **{name: "ustruct" for name in ("ustruct", "structural_velocity_pressure")},
-    **{name: "lElas" for name in ("lElas", "linear_elasticity")},
-}
+EQUATIONS = {"FSI": "FSI", "fluid-solid-interaction": "FSI", "fluid": "fluid", "struct": "struct"}
+EQUATIONS |= {"structural": "struct", "ustruct": "ustruct", "structural_velocity_pressure": "ustruct"}
+EQUATIONS |= {"lElas": "lElas", "linear_elasticity": "lElas"}
 WALLS = ("struct", "ustruct", "lElas")
 CMM = ("CMM", "coupled_momentum")
 # Beside the one above; what is lost with it.
-SIDE_EQUATIONS = {name: "the transport of a substance" for name in ("AD", "advection_diffusion", "heatF")} | {
-    name: "the transport of a substance" for name in ("dyeTransport", "scalarTransport")
-}
+TRANSPORTS = ("AD", "advection_diffusion", "heatF", "dyeTransport", "scalarTransport")
+SIDE_EQUATIONS = dict.fromkeys(TRANSPORTS, "the transport of a substance")
 REFUSED = {
     "stokes": "a flow without inertia",
     "shell": "a shell",
@@ -44,8 +39,7 @@ REFUSED = {
 INSTEAD = {
     "LS": "linear solvers are chosen by the drivers, see [linear]",
     "Coupled": "fluid, wall and mesh are always coupled within a step",
-    "Min_iterations": "iterations end by the drivers' tolerances",
-    "Max_iterations": "iterations end by the drivers' tolerances",
+    **dict.fromkeys(("Min_iterations", "Max_iterations"), "iterations end by the drivers' tolerances"),
     "Tolerance": "the drivers' own, newton.error_tolerance",
     "Output": "fields are named by output.fields",
     "Zero_out_perimeter": "the rim of an opening sticks to the wall",
@@ -56,16 +50,16 @@ INSTEAD = {
     "Explicit_geometric_coupling": "the mesh moves with the step's own displacement",
     "Quadrature_modifier_TET4": "integration is exact for the element",
     "Linear_algebra": "linear solvers are chosen by the drivers",
-    **{
-        name: "results are in the folder given with -o, their times by output.every"
-        for name in ("Save_results_to_VTK_format", "Name_prefix_of_saved_VTK_files", "Save_results_in_folder")
+    **dict.fromkeys(
+        ("Save_results_to_VTK_format", "Name_prefix_of_saved_VTK_files", "Save_results_in_folder")
         + ("Start_saving_after_time_step", "Save_averaged_results", "Start_averaging_from_zero")
-        + ("Convert_BIN_to_VTK_format",)
-    },
-    **{
-        name: "checkpoints are written by time, output.checkpoint_every"
-        for name in ("Increment_in_saving_restart_files", "Overwrite_restart_file", "Restart_file_name")
-    },
+        + ("Convert_BIN_to_VTK_format",),
+        "results are in the folder given with -o, their times by output.every",
+    ),
+    **dict.fromkeys(
+        ("Increment_in_saving_restart_files", "Overwrite_restart_file", "Restart_file_name"),
+        "checkpoints are written by time, output.checkpoint_every",
+    ),
     "Searched_file_name_to_trigger_stop": "a signal stops a run, which --restart continues",
     **{name: "the drivers' own messages" for name in ("Verbose", "Warning", "Debug")},
     "Check_IEN_order": "cells are turned as they must be",
@@ -108,21 +102,21 @@ def is_case(root: Entry) -> bool:
     return root.name == "svMultiPhysicsFile"
 
 
-def read_case(root: Entry, units: Units, fibre_angle: Optional[float] = None, tolerance: float = 0.0) -> PeerCase:
+def read_case(root: Entry, units: Units, fibre_angle: float | None = None, tolerance: float = 0.0) -> PeerCase:
     """Reads solver.xml. Raises InputError."""
     return _Reader(root, units, fibre_angle, tolerance).read()
 
 
 class _Reader:
-    def __init__(self, root: Entry, units: Units, fibre_angle: Optional[float], tolerance: float) -> None:
+    def __init__(self, root: Entry, units: Units, fibre_angle: float | None, tolerance: float) -> None:
         self.root, self.units, self.fibre_angle, self.tolerance = root, units, fibre_angle, tolerance
         self.folder = root.file.parent
         self.case = PeerCase(PROGRAM, root.file)
-        self.fluid: Dict[str, Any] = {}
-        self.structure: Dict[str, Any] = {}
-        self.openings: List[Dict[str, Any]] = []
-        self.supports: Dict[str, Dict[str, Any]] = {}
-        self.closed: List[str] = []
+        self.fluid: dict[str, Any] = {}
+        self.structure: dict[str, Any] = {}
+        self.openings: list[dict[str, Any]] = []
+        self.supports: dict[str, dict[str, Any]] = {}
+        self.closed: list[str] = []
         self.backflow = 0.2
 
     def read(self) -> PeerCase:
@@ -135,15 +129,23 @@ class _Reader:
         domains = self._domains(equation, kind)
         media = self._media(domains, kind)
         mesh = self._mesh(media)
-        layers = self._domain_values(media, domains, kind)
-        self._conditions(equation, kind)
+        layers = self._domain_values(media, domains)
+        self._conditions(equation)
         if self.closed:
             self.fluid["closed"] = self.closed
         self._assemble(mesh, time, layers, kind)
         self._name_the_rest()
         return self.case
 
-    def _time(self, general: Entry) -> Dict[str, Any]:
+    def _note_all(self, notes: list[tuple[Entry, str, bool]]) -> None:
+        for entry, words, matters in notes:
+            self._note(entry, words, matters)
+
+    def _note(self, entry: Entry, words: str, matters: bool = False, what: str = "") -> None:
+        """`what`: the entry's name in the note, its key unless it is given."""
+        self.case.note(what or entry.key, f"line {entry.line}", words, matters)
+
+    def _time(self, general: Entry) -> dict[str, Any]:
         if general.number("Number_of_spatial_dimensions", 3) != 3:
             raise general.need("Number_of_spatial_dimensions").refuse("is not 3", "give a case in three dimensions")
         step, count = general.need("Time_step_size"), general.need("Number_of_time_steps")
@@ -156,12 +158,12 @@ class _Reader:
         value = radius.as_number() if radius else 0.5
         if radius and not 0 <= value <= 1:
             raise radius.refuse(f"{value:g} is no spectral radius", "give one from 0 to 1")
-        made: Dict[str, Any] = {"step": dt, "end": dt * steps, "scheme": "generalised-alpha", "spectral_radius": value}
+        made: dict[str, Any] = {"step": dt, "end": dt * steps, "scheme": "generalised-alpha", "spectral_radius": value}
         self.every = int(general.number("Increment_in_saving_VTK_files", 0))
         return made
 
     def _equation(self) -> Entry:
-        found: List[Entry] = []
+        found: list[Entry] = []
         for entry in self.root.all("Add_equation"):
             given = entry.attribute("type")
             if given in CMM:
@@ -171,61 +173,50 @@ class _Reader:
             if given == "mesh":
                 self._mesh_motion(entry)
             elif given in SIDE_EQUATIONS:
-                for below in entry.every():
-                    below.taken = True
-                where = f"line {entry.line}"
-                self.case.note(f"Add_equation {given}", where, f"left out: {SIDE_EQUATIONS[given]}", True)
+                entry.take_all()
+                self._note(entry, f"left out: {SIDE_EQUATIONS[given]}", True, f"Add_equation {given}")
             elif given not in EQUATIONS:
-                remedy = f"did you mean {nearest(given, list(EQUATIONS))}? There are {', '.join(EQUATIONS)} and mesh"
-                raise entry.refuse(f"'{given}' is no equation", remedy)
+                raise entry.refuse(f"'{given}' is no equation", hint(given, EQUATIONS, "There are") + " and mesh")
             else:
                 found.append(entry)
         if len(found) != 1:
-            raise self.root.refuse(
-                f"has {len(found)} equations of fluid or wall", "give one: FSI, fluid, struct, ustruct or lElas"
-            )
+            problem = f"has {len(found)} equations of fluid or wall"
+            raise self.root.refuse(problem, "give one: FSI, fluid, struct, ustruct or lElas")
         equation = found[0]
         if equation.yes("Prestress", False):
-            remedy = (
-                "take it out, and give the case [prestress] pressure = ... (kPa), which finds the wall's load itself"
-            )
+            own = "[prestress] pressure = ... (kPa), which finds the wall's load itself"
+            remedy = f"take it out, and give the case {own}"
             raise equation.need("Prestress").refuse("computes a prestress, which ours finds in another way", remedy)
         if equation.all("Add_BF"):
-            raise equation.all("Add_BF")[0].refuse(
-                "is a force on volumes, which ours has not", "take it out; of a wall's weight see structure.gravity"
-            )
+            remedy = "take it out; of a wall's weight see structure.gravity"
+            raise equation.all("Add_BF")[0].refuse("is a force on volumes, which ours has not", remedy)
         return equation
 
     def _refuse_membrane(self, entry: Entry) -> None:
         thickness = entry.number("Shell_thickness", 0.0) * self.units.length
         young = entry.number("Elasticity_modulus", 0.0) * self.units.pressure
         nu = entry.number("Poisson_ratio", 0.5)
-        words = (
-            f"has a wall without thickness (coupled momentum; {thickness:g} mm, {young:g} kPa, Poisson's ratio {nu:g})"
-        )
+        wall = f"coupled momentum; {thickness:g} mm, {young:g} kPa, Poisson's ratio {nu:g}"
+        words = f"has a wall without thickness ({wall})"
         remedy = f"import the fluid by fsi-mesh import, give it a wall by fsi-mesh thicken, and that young = {young:g}"
         raise entry.refuse(words, remedy)
 
     def _mesh_motion(self, entry: Entry) -> None:
-        self.moves = True
         ratio = entry.find("Poisson_ratio")
-        for below in entry.every():
-            below.taken = True
-        where = f"line {entry.line}"
-        words = (
-            "mesh_motion.method = stiffened: small cells deform least, as in its elastic mesh; openings move with the "
-        )
-        words += "ends of the wall that meet them, and not where these are clamped"
-        self.case.note("Add_equation mesh", where, words + (f" (Poisson_ratio {ratio.text})" if ratio else ""))
+        entry.take_all()
+        words = "mesh_motion.method = stiffened: small cells deform least, as in its elastic mesh; openings move with "
+        words += "the ends of the wall that meet them, and not where these are clamped"
+        words += f" (Poisson_ratio {ratio.text})" if ratio else ""
+        self._note(entry, words, what="Add_equation mesh")
 
-    def _domains(self, equation: Entry, kind: str) -> Dict[int, Tuple[Entry, str]]:
+    def _domains(self, equation: Entry, kind: str) -> dict[int, tuple[Entry, str]]:
         """By number: the entry with the domain's values, and its equation."""
         given = equation.all("Domain")
         if not given:
             if kind == "FSI":
                 raise equation.refuse("has no Domain", "give one of the fluid and one of the wall")
             return {0: (equation, kind)}
-        domains: Dict[int, Tuple[Entry, str]] = {}
+        domains: dict[int, tuple[Entry, str]] = {}
         for entry in given:
             name = entry.attribute("id")
             if not name.lstrip("-").isdigit():
@@ -239,8 +230,8 @@ class _Reader:
             domains[int(name)] = (entry, EQUATIONS[own])
         return domains
 
-    def _media(self, domains: Dict[int, Tuple[Entry, str]], kind: str) -> List[Medium]:
-        media: List[Medium] = []
+    def _media(self, domains: dict[int, tuple[Entry, str]], kind: str) -> list[Medium]:
+        media: list[Medium] = []
         for entry in self.root.all("Add_mesh"):
             given = entry.attribute("name")
             for word in ("Set_mesh_as_shell", "Set_mesh_as_fibers"):
@@ -259,17 +250,15 @@ class _Reader:
                     raise entry.refuse(f"is of the domain {number:g}, which no equation has", f"there are {known}")
             if any(medium.given == given for medium in media):
                 raise entry.refuse("is there twice", "give each mesh a name of its own")
-            own = domains[int(number)][1]
-            media.append(Medium(entry, given, int(number), "fluid" if own == "fluid" else "wall"))
+            media.append(Medium(entry, given, int(number), "fluid" if domains[int(number)][1] == "fluid" else "wall"))
         if not media:
             raise self.root.refuse("has no Add_mesh", "give one")
         fluids = [medium for medium in media if medium.kind == "fluid"]
         if len(fluids) > 1:
             raise fluids[1].entry.refuse("is a second mesh of the fluid", "make one mesh of both")
         if kind == "FSI" and not (fluids and len(media) > 1):
-            raise self.root.refuse(
-                "has FSI without a mesh of the fluid and one of a wall", "give both, each with its Domain"
-            )
+            problem = "has FSI without a mesh of the fluid and one of a wall"
+            raise self.root.refuse(problem, "give both, each with its Domain")
         walls = [medium for medium in media if medium.kind == "wall"]
         for medium, name in zip(walls, plain_names([wall.given for wall in walls], ["fluid"])):
             medium.name = name
@@ -277,14 +266,14 @@ class _Reader:
             medium.name = "fluid"
         return media
 
-    def _mesh(self, media: List[Medium]) -> CaseMesh:
+    def _mesh(self, media: list[Medium]) -> CaseMesh:
         scales = {medium.entry.number("Mesh_scale_factor", 1.0) for medium in media}
         if len(scales) > 1:
             raise media[-1].entry.refuse("has a Mesh_scale_factor of its own", "give all meshes one unit of length")
         (scale,) = scales
         if scale <= 0:
-            raise media[0].entry.need("Mesh_scale_factor").refuse(f"{scale:g} is not positive", "give one above 0")
-        faces: List[Tuple[Entry, Medium, str]] = []
+            media[0].entry.positive("Mesh_scale_factor")
+        faces: list[tuple[Entry, Medium, str]] = []
         for medium in media:
             for entry in medium.entry.all("Add_face"):
                 given = entry.attribute("name")
@@ -300,18 +289,16 @@ class _Reader:
                 raise entry.need("Face_file_path").refuse(f"{path.name} is no .vtp", "give the face as .vtp")
             rows.append((name, given, medium.name, path))
             if name != given:
-                self.case.note(f"Add_face {given}", f"line {entry.line}", f"called {name} here")
+                self._note(entry, f"called {name} here", what=f"Add_face {given}")
         for medium in media:
             if medium.name != medium.given and medium.kind == "wall":
-                self.case.note(f"Add_mesh {medium.given}", f"line {medium.entry.line}", f"called {medium.name} here")
+                self._note(medium.entry, f"called {medium.name} here", what=f"Add_mesh {medium.given}")
         for entry in self.root.all("Add_projection"):
             entry.all("Project_from_face")
-        mesh, self.case.faces = read_case_mesh(
-            str(self.root.file), files, rows, scale * self.units.length, self.tolerance
-        )
+        to_mm = scale * self.units.length
+        mesh, self.case.faces = read_case_mesh(str(self.root.file), files, rows, to_mm, self.tolerance)
         if "fluid" in files and len(files) > 1 and not any(face.on_interface for face in self.case.faces):
-            for_face = self.root.all("Add_projection")
-            at = for_face[0] if for_face else self.root
+            at = self.root.find("Add_projection") or self.root
             raise at.refuse("fluid and wall share no face: their nodes differ", "mesh both together, or give --join MM")
         return mesh
 
@@ -323,8 +310,8 @@ class _Reader:
             raise entry.refuse(f"there is no file {path}", "give its path, from the folder of the case")
         return path
 
-    def _domain_values(self, media: List[Medium], domains: Dict[int, Tuple[Entry, str]], kind: str) -> Dict[str, Layer]:
-        layers: Dict[str, Layer] = {}
+    def _domain_values(self, media: list[Medium], domains: dict[int, tuple[Entry, str]]) -> dict[str, Layer]:
+        layers: dict[str, Layer] = {}
         for medium in media:
             entry, own = domains[medium.domain]
             if medium.kind == "fluid":
@@ -332,18 +319,15 @@ class _Reader:
                 continue
             layer = layer_of(entry, own, self.units, self.fibre_angle)
             layers[medium.name] = layer
-            for at, words, matters in layer.notes:
-                self.case.note(at.key, f"line {at.line}", words, matters)
+            self._note_all(layer.notes)
             forces = [entry.number(f"Force_{axis}", 0.0) * self.units.of(1, 0, -2) for axis in "xyz"]
             if any(forces):
                 self.structure["gravity"] = forces
-        first = next(iter(layers.values()), None)
         for name, layer in layers.items():
-            for value, other, what in (
-                (layer.density, first.density if first else 0.0, "density"),
-                (layer.bulk_modulus, first.bulk_modulus if first else None, "bulk modulus"),
-            ):
-                if value != other:
+            first = next(iter(layers.values()))
+            for what in ("density", "bulk modulus"):
+                key = what.replace(" ", "_")
+                if getattr(layer, key) != getattr(first, key):
                     problem = f"the wall {name} has another {what} than the first, ours has one for all"
                     raise InputError(self.root.file, name, problem, "give both the same")
         return layers
@@ -351,36 +335,30 @@ class _Reader:
     def _fluid(self, entry: Entry) -> None:
         density = entry.number("Density", 0.5) * self.units.density
         if not entry.all("Density"):
-            self.case.note(entry.key, f"line {entry.line}", "has no Density: 0.5, its program's default", True)
+            self._note(entry, "has no Density: 0.5, its program's default", True)
         if density <= 0:
-            raise entry.need("Density").refuse(f"{density:g} is not positive", "give one above 0")
+            entry.positive("Density")
         if not 0.5 <= density <= 2:
-            words = (
-                f"a density of {density:g} mg/mm^3, water has 1: are the case's units {self.units.name}? see --units"
-            )
-            self.case.note("Density", f"line {entry.need('Density').line}", words, True)
+            units = f"are the case's units {self.units.name}? see --units"
+            words = f"a density of {density:g} mg/mm^3, water has 1: {units}"
+            self._note(entry.need("Density"), words, True, "Density")
         viscosity, notes = viscosity_of(entry, self.units)
         self.fluid = {"density": density, **viscosity}
-        for at, words, matters in notes:
-            self.case.note(at.key, f"line {at.line}", words, matters)
+        self._note_all(notes)
         self.backflow = entry.number("Backflow_stabilization_coefficient", 0.2)
         for axis in "xyz":
             if entry.number(f"Force_{axis}", 0.0):
                 raise entry.need(f"Force_{axis}").refuse("is a force on the fluid, which ours has not", "take it out")
-        if entry.number("Inverse_darcy_permeability", 0.0):
-            raise entry.need("Inverse_darcy_permeability").refuse(
-                "is a porous fluid, which ours has not", "take it out"
-            )
+        porous = entry.find("Inverse_darcy_permeability")
+        if porous is not None and porous.as_number():
+            raise porous.refuse("is a porous fluid, which ours has not", "take it out")
 
-    def _conditions(self, equation: Entry, kind: str) -> None:
-        by_face: Dict[str, List[Entry]] = {face.given: [] for face in self.case.faces}
+    def _conditions(self, equation: Entry) -> None:
+        by_face: dict[str, list[Entry]] = {face.given: [] for face in self.case.faces}
         for entry in equation.all("Add_BC"):
             given = entry.attribute("name")
             if given not in by_face:
-                known = list(by_face)
-                raise entry.refuse(
-                    f"there is no face '{given}'", f"did you mean {nearest(given, known)}? There are {', '.join(known)}"
-                )
+                raise entry.refuse(f"there is no face '{given}'", hint(given, by_face, "There are"))
             by_face[given].append(entry)
         for face in self.case.faces:
             entries = by_face[face.given]
@@ -396,15 +374,14 @@ class _Reader:
                 if not entries:
                     self.case.said.append(f"{face.given}: a free face of the wall")
 
-    def _opening(self, face: Face, entries: List[Entry]) -> None:
+    def _opening(self, face: Face, entries: list[Entry]) -> None:
         if len(entries) > 1:
             raise entries[1].refuse("is a second condition of a face of the fluid", "give one")
         if not entries:
             if not face.flat:
                 problem = "has no Add_BC, and is not flat: svMultiPhysics would let fluid through it"
-                raise InputError(
-                    self.root.file, f"Add_face {face.given}", problem, "give it one: of a wall Dir with Value 0"
-                )
+                remedy = "give it one: of a wall Dir with Value 0"
+                raise InputError(self.root.file, f"Add_face {face.given}", problem, remedy)
             self.openings.append({"surface": face.name, "backflow": 0.0})
             self.case.note(f"Add_face {face.given}", "no Add_BC", "an opening free of traction, as there")
             return
@@ -415,8 +392,7 @@ class _Reader:
         elif given in ("Neu", "Neumann"):
             self._given_pressure(face, entry)
         else:
-            problem = f"Type '{given}' of a face of the fluid has no counterpart"
-            raise entry.refuse(problem, "there are Dir and Neu")
+            raise entry.refuse(f"Type '{given}' of a face of the fluid has no counterpart", "there are Dir and Neu")
 
     def _given_velocity(self, face: Face, entry: Entry) -> None:
         dependence = entry.word("Time_dependence", "Steady")
@@ -439,11 +415,9 @@ class _Reader:
             # Of a velocity: the flow is its integral, of a parabola over a circle half of area and peak.
             share = 1.0 if profile == "Flat" else 0.5
             factor = -self.units.of(1, 0, -1) * face.area * share
-            words = (
-                f"a velocity (no Impose_flux): a flow_rate of it times {share:g} times the area, {face.area:.6g} mm^2"
-            )
-            self.case.note(entry.key, f"line {entry.line}", words, True)
-        opening: Dict[str, Any] = {"surface": face.name}
+            flow = f"a flow_rate of it times {share:g} times the area, {face.area:.6g} mm^2"
+            self._note(entry, f"a velocity (no Impose_flux): {flow}", True)
+        opening: dict[str, Any] = {"surface": face.name}
         if dependence == "Steady":
             opening["flow_rate"] = factor * value
         else:
@@ -454,7 +428,7 @@ class _Reader:
 
     def _given_pressure(self, face: Face, entry: Entry) -> None:
         dependence = entry.word("Time_dependence", "Steady")
-        opening: Dict[str, Any] = {"surface": face.name}
+        opening: dict[str, Any] = {"surface": face.name}
         pressure = self.units.pressure
         if dependence == "Steady":
             value = entry.number("Value", 0.0) * pressure
@@ -463,43 +437,34 @@ class _Reader:
         elif dependence == "Unsteady":
             opening |= self._table(face, entry, "pressure", ("time_ms", "pressure_kPa"), pressure)
         elif dependence == "Resistance":
-            opening["resistance"] = self._positive(entry.need("Value")) * self.units.resistance
+            opening["resistance"] = entry.positive("Value") * self.units.resistance
         elif dependence in ("RCR", "Windkessel"):
             opening["windkessel"] = self._windkessel(entry.need("RCR_values"))
         else:
-            remedy = (
-                "Steady, Unsteady, Resistance and RCR; lumped models of svZeroDSolver or genBC are [network] of ours"
-            )
-            raise self._time_dependence(entry, dependence, remedy)
+            there_are = "Steady, Unsteady, Resistance and RCR"
+            words = f"{there_are}; lumped models of svZeroDSolver or genBC are [network] of ours"
+            raise self._time_dependence(entry, dependence, words)
+        given = ", ".join(key for key in opening if key != "surface")
+        self.case.said.append(f"{face.given}: {given or 'free of traction'}")
         opening["backflow"] = self.backflow
         self.openings.append(opening)
-        self.case.said.append(
-            f"{face.given}: {', '.join(k for k in opening if k not in ('surface', 'backflow')) or 'free of traction'}"
-        )
 
-    def _windkessel(self, values: Entry) -> Dict[str, Any]:
+    def _windkessel(self, values: Entry) -> dict[str, Any]:
         resistance, pressure = self.units.resistance, self.units.pressure
         return {
-            "proximal": self._positive(values.need("Proximal_resistance")) * resistance,
-            "compliance": self._positive(values.need("Capacitance")) * self.units.compliance,
-            "distal": self._positive(values.need("Distal_resistance")) * resistance,
+            "proximal": values.positive("Proximal_resistance") * resistance,
+            "compliance": values.positive("Capacitance") * self.units.compliance,
+            "distal": values.positive("Distal_resistance") * resistance,
             "initial_pressure": values.number("Initial_pressure", 0.0) * pressure,
             "distal_pressure": values.number("Distal_pressure", 0.0) * pressure,
         }
-
-    @staticmethod
-    def _positive(entry: Entry) -> float:
-        value = entry.as_number()
-        if value <= 0:
-            raise entry.refuse(f"{entry.text} is not positive", "give one above 0")
-        return value
 
     @staticmethod
     def _time_dependence(entry: Entry, given: str, there_are: str) -> InputError:
         return entry.refuse(f"Time_dependence '{given}' has no counterpart", f"there are {there_are}")
 
     @staticmethod
-    def _direction(entry: Entry) -> List[float]:
+    def _direction(entry: Entry) -> list[float]:
         found = entry.find("Effective_direction")
         if found is None:
             return []
@@ -512,33 +477,29 @@ class _Reader:
             raise found.refuse(f"'{found.text}' is no direction", "write, for one, (0, 0, 1)")
         return numbers
 
-    def _wave(self, entry: Entry) -> Tuple[Waveform, str]:
+    def _wave(self, entry: Entry) -> tuple[Waveform, str]:
         series, coefficients = entry.find("Temporal_values_file_path"), entry.find("Fourier_coefficients_file_path")
         if series is not None:
             wave, error = read_series(self._file(series), entry.yes("Ramp_function", False))
             largest = float(np.abs(wave(np.linspace(0, wave.period, 257))).max())
             share = f"{100 * error / largest:.2g} % of its largest value" if largest else "0"
-            words = (
-                "a ramp from its first value to its last"
-                if wave.ramp
-                else (f"its Fourier series of {len(wave.real)} modes, as there; off its points by {share}")
-            )
-            return wave, words
+            series_words = f"its Fourier series of {len(wave.real)} modes, as there; off its points by {share}"
+            return wave, "a ramp from its first value to its last" if wave.ramp else series_words
         if coefficients is not None:
             wave = read_coefficients(self._file(coefficients))
             return wave, f"its Fourier series of {len(wave.real)} modes"
         raise entry.refuse("is Unsteady without values", "give Temporal_values_file_path")
 
-    def _table(self, face: Face, entry: Entry, key: str, header: Tuple[str, str], factor: float) -> Dict[str, Any]:
+    def _table(self, face: Face, entry: Entry, key: str, header: tuple[str, str], factor: float) -> dict[str, Any]:
         """Keys of an opening or a support, whose rows are in a file beside the case."""
         wave, words = self._wave(entry)
         name = f"{face.name}.csv"
         rows = [(time * self.units.time, value * factor) for time, value in wave.rows()]
         self.case.tables[name] = Table(header, rows)
-        made: Dict[str, Any] = {key: {"file": name}}
+        made: dict[str, Any] = {key: {"file": name}}
         if not wave.ramp:
             made["period"] = wave.period * self.units.time
-        self.case.note(entry.key, f"line {entry.line}", f"{name}: {words}, in {len(rows)} rows")
+        self._note(entry, f"{name}: {words}, in {len(rows)} rows")
         return made
 
     def _support(self, face: Face, entry: Entry) -> None:
@@ -547,8 +508,7 @@ class _Reader:
         if (file := entry.find("Spatial_values_file_path")) is not None:
             raise file.refuse("varies over the face", "give one value")
         if given in ("Dir", "Dirichlet"):
-            value = entry.number("Value", 0.0)
-            if dependence != "Steady" or value:
+            if dependence != "Steady" or entry.number("Value", 0.0):
                 raise entry.refuse("moves a face of the wall", "give a load or a support: Value 0, Neu or Robin")
             direction = self._direction(entry)
             fixed = [axis for axis, part in zip("xyz", direction) if part] if any(direction) else list("xyz")
@@ -562,13 +522,12 @@ class _Reader:
                 self.case.said.append(f"{face.given}: {normal}spring and {normal}damper")
             self._wall_load(face, entry, dependence, support)
         else:
-            raise entry.refuse(
-                f"Type '{given}' of a face of the wall has no counterpart", "there are Dir, Neu and Robin"
-            )
+            problem = f"Type '{given}' of a face of the wall has no counterpart"
+            raise entry.refuse(problem, "there are Dir, Neu and Robin")
         if len(support) == 1:
             del self.supports[face.name]
 
-    def _wall_load(self, face: Face, entry: Entry, dependence: str, support: Dict[str, Any]) -> None:
+    def _wall_load(self, face: Face, entry: Entry, dependence: str, support: dict[str, Any]) -> None:
         if entry.yes("Undeforming_neu_face", False):
             raise entry.need("Undeforming_neu_face").refuse("keeps a loaded face in its shape", "take it out")
         if dependence not in ("Steady", "Unsteady"):
@@ -588,12 +547,13 @@ class _Reader:
             support |= self._table(face, entry, "pressure", ("time_ms", "pressure_kPa"), pressure)
         if not follows:
             words = "a pressure that follows the face; in svMultiPhysics it keeps the face's normal at rest"
-            self.case.note(entry.key, f"line {entry.line}", words, True)
+            self._note(entry, words, True)
         self.case.said.append(f"{face.given}: a pressure on the wall")
 
-    def _assemble(self, mesh: CaseMesh, time: Dict[str, Any], layers: Dict[str, Layer], kind: str) -> None:
+    def _assemble(self, mesh: CaseMesh, time: dict[str, Any], layers: dict[str, Layer], kind: str) -> None:
         sections = self.case.sections
-        sections["title"] = f"{absolute(self.root.file).parent.name or self.root.file.stem}, from {PROGRAM}"
+        folder = absolute(self.root.file).parent.name
+        sections["title"] = printable(f"{folder or self.root.file.stem}, from {PROGRAM}")
         sections["element"] = "p1" if mesh.order == 1 else "p2p1"
         sections["mesh"] = {"file": "mesh.msh"}
         if self.fluid:
@@ -619,8 +579,8 @@ class _Reader:
 
     def _name_the_rest(self) -> None:
         """A line for each kind of entry that no reader took."""
-        found: Dict[str, List[Entry]] = {}
-        skipped: List[Entry] = []
+        found: dict[str, list[Entry]] = {}
+        skipped: list[Entry] = []
         for entry in self.root.every():
             if entry.parent is not None and entry.parent in skipped:
                 skipped.append(entry)

@@ -15,37 +15,24 @@ and the penalty of a change of volume, of which ours has the first:
 """
 
 from dataclasses import dataclass, field
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any
 
 from .units import Units
 from .xml_file import Entry
 
-LAWS = {
-    "nHK": "neoHookean",
-    "nHK91": "neoHookean",
-    "neoHookean": "neoHookean",
-    "neoHookeanSimo91": "neoHookean",
-    "stVK": "stVK",
-    "stVenantKirchhoff": "stVK",
-    "MR": "MR",
-    "Mooney-Rivlin": "MR",
-    "HGO": "HGO",
-}
+LAWS = dict.fromkeys(("nHK", "nHK91", "neoHookean", "neoHookeanSimo91"), "neoHookean")
+LAWS |= dict.fromkeys(("stVK", "stVenantKirchhoff"), "stVK") | dict.fromkeys(("MR", "Mooney-Rivlin"), "MR")
+LAWS["HGO"] = "HGO"
 # Of the same program, without a law of ours that has their energy.
-OTHERS = {
-    **{name: "a modified law of St. Venant and Kirchhoff" for name in ("m-stVK", "modified-stVK")},
-    "modified-stVenantKirchhoff": "a modified law of St. Venant and Kirchhoff",
-    **{name: "Guccione's law of the heart" for name in ("Guccione", "Gucci")},
-    **{name: "Holzapfel and Ogden's law of the heart" for name in ("HO", "HolzapfelOgden", "HO_ma")},
-    "HolzapfelOgden-ModifiedAnisotropy": "Holzapfel and Ogden's law of the heart",
-    **{name: "a stress mu I without strain" for name in ("lin", "linear")},
-    **{name: "a law by a network" for name in ("CANN", "AnisoHyper")},
-}
-PENALTIES = {
-    **{name: "quad" for name in ("quad", "Quad", "quadratic", "Quadratic")},
-    **{name: "ST91" for name in ("ST91", "Simo-Taylor91")},
-    **{name: "M94" for name in ("M94", "Miehe94")},
-}
+MODIFIED = ("m-stVK", "modified-stVK", "modified-stVenantKirchhoff")
+HOLZAPFEL_OGDEN = ("HO", "HolzapfelOgden", "HO_ma", "HolzapfelOgden-ModifiedAnisotropy")
+OTHERS = dict.fromkeys(MODIFIED, "a modified law of St. Venant and Kirchhoff")
+OTHERS |= dict.fromkeys(HOLZAPFEL_OGDEN, "Holzapfel and Ogden's law of the heart")
+OTHERS |= dict.fromkeys(("Guccione", "Gucci"), "Guccione's law of the heart")
+OTHERS |= dict.fromkeys(("lin", "linear"), "a stress mu I without strain")
+OTHERS |= dict.fromkeys(("CANN", "AnisoHyper"), "a law by a network")
+PENALTIES = dict.fromkeys(("quad", "Quad", "quadratic", "Quadratic"), "quad")
+PENALTIES |= dict.fromkeys(("ST91", "Simo-Taylor91"), "ST91") | dict.fromkeys(("M94", "Miehe94"), "M94")
 # By how much of itself the penalty's pressure is below K (J - 1), per change of volume, J - 1.
 SHORT_OF = {"quad": 0.0, "ST91": 0.5, "M94": 1.0}
 NEARLY = 1e4  # K/mu in the place of an incompressible wall: nu = 0.49995
@@ -56,24 +43,40 @@ class Layer:
     """`constants` of [structure.layers.NAME]; `bulk_modulus` where the law takes that of [structure]; notes: entry,
     what is done, whether it matters."""
 
-    constants: Dict[str, Any]
+    constants: dict[str, Any]
     density: float
-    bulk_modulus: Optional[float] = None
-    notes: List[Tuple[Entry, str, bool]] = field(default_factory=list)
+    bulk_modulus: float | None = None
+    notes: list[tuple[Entry, str, bool]] = field(default_factory=list)
 
 
-def young_and_poisson(mu: float, bulk: float) -> Tuple[float, float]:
+@dataclass
+class Wall:
+    """What a law is made of: its entry, the moduli in kPa, and how the case's fibres lie."""
+
+    at: Entry
+    mu: float
+    bulk: float
+    nu: float
+    units: Units
+    fibre_angle: float | None
+
+    def require_bulk(self) -> None:
+        if self.bulk <= 0:
+            problem = "has no bulk modulus: svMultiPhysics adds no volumetric stress then"
+            raise self.at.refuse(problem, "give Poisson_ratio below 0.5 or a Penalty_parameter")
+
+
+def young_and_poisson(mu: float, bulk: float) -> tuple[float, float]:
     """Young's modulus and Poisson's ratio of a shear and a bulk modulus."""
     return 9 * bulk * mu / (3 * bulk + mu), (3 * bulk - 2 * mu) / (2 * (3 * bulk + mu))
 
 
-def layer_of(domain: Entry, equation: str, units: Units, fibre_angle: Optional[float]) -> Layer:
+def layer_of(domain: Entry, equation: str, units: Units, fibre_angle: float | None) -> Layer:
     """A layer from the domain of a wall. Raises InputError for what has no counterpart."""
     density = domain.number("Density", 0.5) * units.density
     if density <= 0:
-        raise domain.refuse(
-            f"has the density {density:g}", "give one above 0; a wall without inertia is [static] of ours"
-        )
+        remedy = "give one above 0; a wall without inertia is [static] of ours"
+        raise domain.refuse(f"has the density {density:g}", remedy)
     young, nu = domain.number("Elasticity_modulus", 1e7), domain.number("Poisson_ratio", 0.3)
     layer = Layer({}, density)
     for name, value in (("Elasticity_modulus", 1e7), ("Poisson_ratio", 0.3), ("Density", 0.5)):
@@ -97,8 +100,8 @@ def layer_of(domain: Entry, equation: str, units: Units, fibre_angle: Optional[f
     if given not in LAWS:
         raise at.refuse(f"'{given}' is no constitutive model", f"there are {', '.join(LAWS)}")
     mu = young / (2 * (1 + nu))
-    bulk = _bulk_modulus(domain, equation, young, mu, nu, units, layer)
-    MAKERS[LAWS[given]](at, mu, bulk, nu, units, layer, fibre_angle)
+    bulk = _bulk_modulus(domain, equation, young, nu, units, layer)
+    MAKERS[LAWS[given]](Wall(at, mu, bulk, nu, units, fibre_angle), layer)
     if LAWS[given] == "neoHookean" and not domain.all("Penalty_parameter") and nu < 0.5:
         layer.constants |= {"young": young, "poisson": nu}
     _penalty(domain, at, layer)
@@ -106,9 +109,7 @@ def layer_of(domain: Entry, equation: str, units: Units, fibre_angle: Optional[f
     return layer
 
 
-def _bulk_modulus(
-    domain: Entry, equation: str, young: float, mu: float, nu: float, units: Units, layer: Layer
-) -> float:
+def _bulk_modulus(domain: Entry, equation: str, young: float, nu: float, units: Units, layer: Layer) -> float:
     given = domain.find("Penalty_parameter")
     if given is not None:
         bulk = given.as_number() * units.pressure
@@ -120,75 +121,55 @@ def _bulk_modulus(
         return young / (3 * (1 - 2 * nu))
     if equation == "ustruct":
         layer.notes.append((domain, f"is incompressible: nearly so here, a bulk modulus of {NEARLY:g} mu", True))
-        return NEARLY * mu
+        return NEARLY * young / (2 * (1 + nu))
     return 0.0
 
 
-def _solid(at: Entry, bulk: float) -> None:
-    if bulk <= 0:
-        problem = "has no bulk modulus: svMultiPhysics adds no volumetric stress then"
-        raise at.refuse(problem, "give Poisson_ratio below 0.5 or a Penalty_parameter")
-
-
-def _neo_hookean(at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, _: Optional[float]) -> None:
-    _solid(at, bulk)
-    young, poisson = young_and_poisson(mu, bulk)
+def _neo_hookean(wall: Wall, layer: Layer) -> None:
+    wall.require_bulk()
+    young, poisson = young_and_poisson(wall.mu, wall.bulk)
     layer.constants = {"material": "neo-hookean", "young": young, "poisson": poisson}
 
 
-def _mooney_rivlin(
-    at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, _: Optional[float]
-) -> None:
-    _solid(at, bulk)
-    c1, c2 = (2 * at.number(name) * units.pressure for name in ("c1", "c2"))
+def _mooney_rivlin(wall: Wall, layer: Layer) -> None:
+    wall.require_bulk()
+    c1, c2 = (2 * wall.at.number(name) * wall.units.pressure for name in ("c1", "c2"))
     layer.constants = {"material": "mooney-rivlin", "c10": c1, "c01": c2}
-    layer.bulk_modulus = bulk
+    layer.bulk_modulus = wall.bulk
 
 
-def _saint_venant(at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, _: Optional[float]) -> None:
+def _saint_venant(wall: Wall, layer: Layer) -> None:
+    at, mu, bulk, nu = wall.at, wall.mu, wall.bulk, wall.nu
     if nu >= 0.5:
         raise at.refuse("stVK is incompressible, Poisson_ratio 0.5", "give less than 0.5")
     lame = 2 * mu * nu / (1 - 2 * nu)
     layer.constants = {"material": "saint-venant-kirchhoff", "lame_lambda": lame + bulk, "lame_mu": mu}
     if bulk > 0:
-        words = (
-            f"svMultiPhysics adds a penalty of {bulk:.6g} kPa to stVK's own lambda of {lame:.6g}: lame_lambda is their "
-        )
-        words += "sum, the same at small strain; Penalty_parameter 0 there is the law itself"
+        words = f"svMultiPhysics adds a penalty of {bulk:.6g} kPa to stVK's own lambda of {lame:.6g}: lame_lambda is "
+        words += "their sum, the same at small strain; Penalty_parameter 0 there is the law itself"
         layer.notes.append((at, words, True))
 
 
-def _two_families(
-    at: Entry, mu: float, bulk: float, nu: float, units: Units, layer: Layer, angle: Optional[float]
-) -> None:
-    _solid(at, bulk)
+def _two_families(wall: Wall, layer: Layer) -> None:
+    wall.require_bulk()
+    at, angle, pressure = wall.at, wall.fibre_angle, wall.units.pressure
     a4, b4, a6, b6, kappa = (at.number(name) for name in ("a4", "b4", "a6", "b6", "kappa"))
     if angle is None:
         problem = "gives fibres by vectors, holzapfel-gasser-ogden of ours by their angle to the circumference"
         raise at.refuse(problem, "give --fibre-angle DEGREES")
-    layer.constants = {
-        "material": "holzapfel-gasser-ogden",
-        "c10": mu,
-        "k1": a4 * units.pressure,
-        "k2": b4,
-        "alpha": angle,
-    }
+    fibres = {"k1": a4 * pressure, "k2": b4, "alpha": angle}
+    layer.constants = {"material": "holzapfel-gasser-ogden", "c10": wall.mu, **fibres}
     if a4 != a6 or b4 != b6:
-        layer.constants.update({"k1_second": a6 * units.pressure, "k2_second": b6})
+        layer.constants |= {"k1_second": a6 * pressure, "k2_second": b6}
     if kappa:
         layer.constants["kappa"] = kappa
-    layer.bulk_modulus = bulk
+    layer.bulk_modulus = wall.bulk
     words = f"fibres lie at {angle:g} degrees to the circumference (--fibre-angle), not by the vectors of the case; "
     words += "the first family at plus, the second at minus that angle"
     layer.notes.append((at, words, True))
 
 
-MAKERS: Dict[str, Callable[[Entry, float, float, float, Units, Layer, Optional[float]], None]] = {
-    "neoHookean": _neo_hookean,
-    "MR": _mooney_rivlin,
-    "stVK": _saint_venant,
-    "HGO": _two_families,
-}
+MAKERS = {"neoHookean": _neo_hookean, "MR": _mooney_rivlin, "stVK": _saint_venant, "HGO": _two_families}
 
 
 def _penalty(domain: Entry, at: Entry, layer: Layer) -> None:
@@ -199,10 +180,8 @@ def _penalty(domain: Entry, at: Entry, layer: Layer) -> None:
     short = SHORT_OF[PENALTIES[given]]
     if short and layer.constants["material"] != "saint-venant-kirchhoff":
         own = given if entry else f"{given}, its program's default"
-        words = (
-            f"{own}: K/2 (J - 1)^2 of the same bulk modulus here; their pressures differ by {short:g} % of themselves "
-        )
-        layer.notes.append((entry or at, words + "for each per cent that the volume changes", True))
+        words = f"{own}: K/2 (J - 1)^2 of the same bulk modulus here; their pressures differ by {short:g} % of "
+        layer.notes.append((entry or at, words + "themselves for each per cent that the volume changes", True))
 
 
 def _viscosity(domain: Entry, units: Units, layer: Layer) -> None:
@@ -219,41 +198,30 @@ def _viscosity(domain: Entry, units: Units, layer: Layer) -> None:
     layer.constants["viscosity"] = value
 
 
-def viscosity_of(domain: Entry, units: Units) -> Tuple[Dict[str, Any], List[Tuple[Entry, str, bool]]]:
+def viscosity_of(domain: Entry, units: Units) -> tuple[dict[str, Any], list[tuple[Entry, str, bool]]]:
     """Keys of [fluid], and notes. Raises InputError."""
     entry = domain.need("Viscosity")
     model = entry.attribute("model")
     mu = units.viscosity
     seconds = units.time
-
-    def positive(name: str, factor: float) -> float:
-        value = entry.number(name)
-        if value <= 0:
-            raise entry.refuse(f"{name} {value:g} is not positive", "give one above 0")
-        return value * factor
-
     kind = model.lower()
     if kind in ("const", "constant", "newtonian"):
-        return {"viscosity": positive("Value", mu)}, []
+        return {"viscosity": entry.positive("Value") * mu}, []
     if kind in ("cy", "carreau-yasuda"):
         # The program's list of keys has "multiplier"; older files "multipler".
-        at_rest, high = positive("Limiting_low_shear_rate_viscosity", mu), positive(
-            "Limiting_high_shear_rate_viscosity", mu
-        )
-        law: Dict[str, Any] = {"name": "carreau-yasuda", "mu0": at_rest, "mu_inf": high}
-        law["lambda"] = positive("Shear_rate_tensor_multiplier", seconds)
-        law["a"], law["n"] = positive("Shear_rate_tensor_exponent", 1.0), entry.number("Power_law_index")
+        at_rest = entry.positive("Limiting_low_shear_rate_viscosity") * mu
+        high = entry.positive("Limiting_high_shear_rate_viscosity") * mu
+        law: dict[str, Any] = {"name": "carreau-yasuda", "mu0": at_rest, "mu_inf": high}
+        law["lambda"] = entry.positive("Shear_rate_tensor_multiplier") * seconds
+        law["a"], law["n"] = entry.positive("Shear_rate_tensor_exponent"), entry.number("Power_law_index")
         return {"viscosity_model": law}, []
     if kind in ("cass", "cassons"):
-        root = mu**0.5
-        plastic, stress = positive("Asymptotic_viscosity_parameter", root), positive("Yield_stress_parameter", 1.0)
-        lowest = entry.number("Low_shear_rate_threshold", 0.5)
-        if lowest <= 0:
-            raise entry.refuse(f"Low_shear_rate_threshold {lowest:g} is not positive", "give one above 0")
+        plastic = entry.positive("Asymptotic_viscosity_parameter") * mu**0.5
+        stress, threshold = entry.positive("Yield_stress_parameter"), entry.find("Low_shear_rate_threshold")
+        lowest = 0.5 if threshold is None else threshold.positive()
         law = {"name": "casson", "yield_stress": stress**2 * units.pressure, "plastic_viscosity": plastic**2}
         law["regularisation"] = seconds / lowest
         words = f"below {lowest:g} per unit of time its viscosity is constant; here it goes to the same value smoothly "
-        return {"viscosity_model": law}, [
-            (entry, words + "(regularisation), 1 - exp(-sqrt(m g)) in place of a corner", True)
-        ]
+        words += "(regularisation), 1 - exp(-sqrt(m g)) in place of a corner"
+        return {"viscosity_model": law}, [(entry, words, True)]
     raise entry.refuse(f"'{model}' is no viscosity model", "there are Constant, Carreau-Yasuda and Cassons")

@@ -1,10 +1,9 @@
 """Units of a case whose program has none of its own: whatever three units it was written in, to mm, mg and ms."""
 
 from dataclasses import dataclass
-from typing import Dict
 
 from ..base.errors import InputError
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 
 
 @dataclass(frozen=True)
@@ -20,43 +19,18 @@ class Units:
         """Factor of a quantity with these exponents."""
         return rounded(self.length**length * self.mass**mass * self.time**time)
 
-    @property
-    def density(self) -> float:
-        return self.of(-3, 1)
-
-    @property
-    def pressure(self) -> float:
-        return self.of(-1, 1, -2)
-
-    @property
-    def viscosity(self) -> float:
-        return self.of(-1, 1, -1)
-
-    @property
-    def flow(self) -> float:
-        return self.of(3, 0, -1)
-
-    @property
-    def resistance(self) -> float:
-        return self.of(-4, 1, -1)
-
-    @property
-    def compliance(self) -> float:
-        return self.of(4, -1, 2)
-
-    @property
-    def spring(self) -> float:
-        """Pressure over length."""
-        return self.of(-2, 1, -2)
-
-    @property
-    def damper(self) -> float:
-        """Pressure over velocity."""
-        return self.of(-2, 1, -1)
+    density = property(lambda self: self.of(-3, 1))
+    pressure = property(lambda self: self.of(-1, 1, -2))
+    viscosity = property(lambda self: self.of(-1, 1, -1))
+    flow = property(lambda self: self.of(3, 0, -1))
+    resistance = property(lambda self: self.of(-4, 1, -1))
+    compliance = property(lambda self: self.of(4, -1, 2))
+    spring = property(lambda self: self.of(-2, 1, -2))  # pressure over length
+    damper = property(lambda self: self.of(-2, 1, -1))  # pressure over velocity
 
 
 CGS = Units("cgs", 10.0, 1000.0, 1000.0)
-SYSTEMS: Dict[str, Units] = {
+SYSTEMS: dict[str, Units] = {
     "cgs": CGS,  # cm, g, s: what svMultiPhysics and SimVascular are used with
     "si": Units("si", 1000.0, 1e6, 1000.0),  # m, kg, s
     "mm-g-s": Units("mm-g-s", 1.0, 1000.0, 1000.0),
@@ -66,12 +40,7 @@ SYSTEMS: Dict[str, Units] = {
 def units_of(name: str) -> Units:
     """Units by name. Raises InputError."""
     if name not in SYSTEMS:
-        raise InputError(
-            "",
-            "--units",
-            f"'{name}' is no system of units",
-            f"did you mean {nearest(name, list(SYSTEMS))}? There are {', '.join(SYSTEMS)}",
-        )
+        raise InputError("", "--units", f"'{name}' is no system of units", hint(name, SYSTEMS, "There are"))
     return SYSTEMS[name]
 
 

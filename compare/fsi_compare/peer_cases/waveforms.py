@@ -3,7 +3,6 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import List, Tuple
 
 import numpy as np
 
@@ -35,7 +34,7 @@ class Waveform:
             values = values + self.real @ np.cos(angle) - self.imaginary @ np.sin(angle)
         return values
 
-    def rows(self) -> List[Tuple[float, float]]:
+    def rows(self) -> list[tuple[float, float]]:
         """Times and values over a period from the case's start on; another start in the file is a shift in time."""
         if self.ramp:
             times = np.array([0.0, self.period])
@@ -48,7 +47,7 @@ class Waveform:
         return list(zip(times.tolist(), self(inside).tolist()))
 
 
-def read_series(path: Path, ramp: bool) -> Tuple[Waveform, float]:
+def read_series(path: Path, ramp: bool) -> tuple[Waveform, float]:
     """Reads a file of times and values, whose first line says how many there are and how many modes are taken. Also
     returns the largest difference of the series from the file's values. Raises InputError."""
     numbers = _numbers(path)
@@ -100,7 +99,7 @@ def read_coefficients(path: Path) -> Waveform:
     return Waveform(start, period, first, slope, real, imaginary)
 
 
-def _numbers(path: Path) -> List[List[float]]:
+def _numbers(path: Path) -> list[list[float]]:
     text = read_text(path, "give the file that the case names", "write numbers", 64 << 20)
     rows = []
     for i, line in enumerate(text.splitlines(), 1):

@@ -6,7 +6,7 @@ import math
 import xml.parsers.expat as expat
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Dict, Iterator, List, Optional
+from typing import Iterator
 
 from ..base.errors import InputError
 from ..base.files import DEEPEST, LARGEST, read_bytes
@@ -18,31 +18,30 @@ class Entry:
 
     file: Path
     name: str
-    attributes: Dict[str, str]
+    attributes: dict[str, str]
     line: int
-    parent: Optional["Entry"] = None
+    parent: "Entry | None" = None
     text: str = ""
-    children: List["Entry"] = field(default_factory=list)
+    children: list["Entry"] = field(default_factory=list)
     taken: bool = False
 
     @property
     def key(self) -> str:
         """Its place, for messages: Add_equation FSI/Add_BC inlet/Value."""
-        own = " ".join(
-            [self.name] + [self.attributes[k] for k in ("type", "name", "id", "model") if k in self.attributes]
-        )
+        known = [self.attributes[key] for key in ("type", "name", "id", "model") if key in self.attributes]
+        own = " ".join([self.name, *known])
         return own if self.parent is None or self.parent.parent is None else f"{self.parent.key}/{own}"
 
     def refuse(self, problem: str, remedy: str) -> InputError:
         return InputError(self.file, f"line {self.line}: {self.key}", problem, remedy)
 
-    def all(self, name: str) -> List["Entry"]:
+    def all(self, name: str) -> list["Entry"]:
         found = [child for child in self.children if child.name == name]
         for child in found:
             child.taken = True
         return found
 
-    def find(self, name: str) -> Optional["Entry"]:
+    def find(self, name: str) -> "Entry | None":
         """The last of this name, as programs that read one after the other have it."""
         found = self.all(name)
         return found[-1] if found else None
@@ -63,13 +62,11 @@ class Entry:
         found = self.find(name)
         return found.text if found else default
 
-    def number(self, name: str, default: Optional[float] = None) -> float:
+    def number(self, name: str, default: float | None = None) -> float:
         """The number in the entry of this name. Raises InputError where it is missing without a default, or not
         finite."""
         found = self.find(name)
-        if found is None and default is not None:
-            return default
-        return (found or self.need(name)).as_number()
+        return default if found is None and default is not None else (found or self.need(name)).as_number()
 
     def as_number(self) -> float:
         self.taken = True
@@ -81,6 +78,14 @@ class Entry:
             raise self.refuse(f"'{self.text}' is no finite number", "give a number")
         return value
 
+    def positive(self, name: str = "") -> float:
+        """The number of this entry, or of the one of this name in it. Raises InputError unless it is above 0."""
+        entry = self.need(name) if name else self
+        value = entry.as_number()
+        if value <= 0:
+            raise entry.refuse(f"{entry.text} is not positive", "give one above 0")
+        return value
+
     def yes(self, name: str, default: bool) -> bool:
         found = self.find(name)
         if found is None:
@@ -89,6 +94,11 @@ class Entry:
         if found.text.lower() not in known:
             raise found.refuse(f"'{found.text}' is neither true nor false", "write true or false")
         return known[found.text.lower()]
+
+    def take_all(self) -> None:
+        """Marks what is below it as read."""
+        for entry in self.every():
+            entry.taken = True
 
     def every(self) -> Iterator["Entry"]:
         """The entries below, in the file's order."""
@@ -101,10 +111,10 @@ def read_xml(path: Path) -> Entry:
     """The root. Raises InputError."""
     data = read_bytes(path, "give the file of the case", "give the .xml file of a case", LARGEST)
     parser = expat.ParserCreate(namespace_separator=None)
-    open_entries: List[Entry] = []
-    roots: List[Entry] = []
+    open_entries: list[Entry] = []
+    roots: list[Entry] = []
 
-    def start(name: str, attributes: Dict[str, str]) -> None:
+    def start(name: str, attributes: dict[str, str]) -> None:
         if len(open_entries) >= DEEPEST:
             raise InputError(path, f"line {parser.CurrentLineNumber}", f"has more than {DEEPEST} levels", "mend it")
         parent = open_entries[-1] if open_entries else None
@@ -121,9 +131,8 @@ def read_xml(path: Path) -> Entry:
             open_entries[-1].text += text
 
     def doctype(name: str, *_: object) -> None:
-        raise InputError(
-            path, f"line {parser.CurrentLineNumber}", f"has a document type ({name})", "cases need none: take it out"
-        )
+        line, problem = f"line {parser.CurrentLineNumber}", f"has a document type ({name})"
+        raise InputError(path, line, problem, "cases need none: take it out")
 
     parser.StartElementHandler, parser.EndElementHandler = start, end
     parser.CharacterDataHandler, parser.StartDoctypeDeclHandler = characters, doctype

@@ -4,20 +4,20 @@ import argparse
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Callable, Sequence
 
 import numpy as np
 
 from ..base.errors import InputError, printable
-from ..base.files import exists, folder, together
-from ..base.options import Commands, add_command, add_folders, add_output, add_times, add_usual
+from ..base.files import exists
+from ..base.options import Commands, add_command, add_folders, add_labels, add_output, add_times, add_title, add_usual
 from .column import Column, Facts
-from .layout import Table, show_tables, write_tables
+from .layout import Table, hand_out
 from .pressure import read_times
 from ..runs.columns import read_iterations
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
-from ..runs.work_units import NOTE_IN_ALL, about_machines, in_all
+from ..runs.work_units import in_all, notes_on_work
 from ..runs.reference import FILE as DESCRIPTION_FILE, read_reference
 from ..runs.waves import PRESSURE, QUANTITIES, WINDOW, WRITTEN, Quantity, Waves, read_run, relative_difference
 from .work_column import work_column
@@ -47,8 +47,8 @@ examples:
 @dataclass(frozen=True)
 class Reference:
     folder: Path
-    waves: Dict[str, Waves]  # by quantity's column
-    step: Optional[float]  # ms; None: extrapolated to zero
+    waves: dict[str, Waves]  # by quantity's column
+    step: float | None  # ms; None: extrapolated to zero
 
 
 @dataclass(frozen=True)
@@ -58,11 +58,11 @@ class Accuracy:
     label: str
     element: str
     geometry: str
-    nodes: Optional[int]
+    nodes: int | None
     step: float  # ms
     steps: int
     seconds: float  # of all time steps
-    errors: Dict[str, List[float]]  # by quantity's column: at each time, relative
+    errors: dict[str, list[float]]  # by quantity's column: at each time, relative
     summary: dict  # all of summary.json
 
     def worst(self, quantity: Quantity) -> float:
@@ -74,15 +74,14 @@ class Accuracy:
 
 
 def add_parser(commands: Commands, version: str) -> None:
-    command = add_command(
-        commands, "accuracy", accuracy, "errors of finished runs against a reference", DESCRIPTION, EXAMPLES
-    )
+    help = "errors of finished runs against a reference"
+    command = add_command(commands, "accuracy", accuracy, help, DESCRIPTION, EXAMPLES)
     command.add_argument("reference", metavar="REFERENCE", type=Path, help="result folder, or a kept reference")
     add_folders(command)
     add_output(command, "results/accuracy")
     add_times(command, TIMES)
-    command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
-    command.add_argument("--title", default="Accuracy of the runs", help="heading of the table (default: %(default)s)")
+    add_labels(command)
+    add_title(command, "Accuracy of the runs")
     add_usual(command, version, "accepted as by all programs; this comparison is quick on one thread")
 
 
@@ -92,13 +91,7 @@ def accuracy(options: argparse.Namespace) -> int:
     labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
     reference = read_any_reference(options.reference, times)
     found = [read_accuracy(folder, label, reference, times) for folder, label in zip(options.folders, labels)]
-    title = printable(options.title)
-    table = accuracy_table(found, reference, times, title)
-    with together(options.output) as place:
-        written = write_tables(place, [table], "accuracy.md", title)
-    if not options.quiet:
-        show_tables([table], options.output, written)
-    return 0
+    return hand_out(accuracy_table(found, reference, times, printable(options.title)), options.output, options.quiet)
 
 
 def read_any_reference(folder: Path, times: Sequence[float]) -> Reference:
@@ -121,7 +114,7 @@ def require_lines(folder: Path) -> None:
             raise InputError(folder / q.file, "", problem, remedy)
 
 
-def _step(waves: Dict[str, Waves]) -> float:
+def _step(waves: dict[str, Waves]) -> float:
     """The last one, ms."""
     times = waves[PRESSURE.column].times
     return float(times[-1] - times[-2]) if len(times) > 1 else float(times[-1])
@@ -141,12 +134,9 @@ def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequenc
                 remedy = f"give times between {one.times[0]:g} and {one.times[-1]:g} ms"
                 raise InputError(where / q.file, "--times", f"{outside[0]:g} ms is outside of it", remedy)
         if own.z[0] > exact.z[0] + 1e-6 or own.z[-1] < exact.z[-1] - 1e-6:
-            raise InputError(
-                folder / q.file,
-                "z_mm",
-                f"runs from {own.z[0]:g} to {own.z[-1]:g} mm, the reference from {exact.z[0]:g} to {exact.z[-1]:g} mm",
-                "compare runs on the same geometry",
-            )
+            spans = [f"from {z[0]:g} to {z[-1]:g} mm" for z in (own.z, exact.z)]
+            problem = f"runs {spans[0]}, the reference {spans[1]}"
+            raise InputError(folder / q.file, "z_mm", problem, "compare runs on the same geometry")
         errors[q.column] = [relative_difference(own, exact, [time]) for time in times]
     seconds = read_iterations(folder, ("wall_s",))["wall_s"]
     return Accuracy(
@@ -174,13 +164,14 @@ RUNS: Sequence[Column[Accuracy]] = (
 )
 
 
-def _percents(q: Quantity, times: Sequence[float]) -> List[Column[Accuracy]]:
+def _percents(q: Quantity, times: Sequence[float]) -> list[Column[Accuracy]]:
     """Columns of the error at each time, its mean and its maximum."""
 
     def column(head: str, value: Callable[[Accuracy], float]) -> Column[Accuracy]:
-        return Column(
-            head, value=lambda a: None if math.isnan(value(a)) else 100 * value(a), format=".3g", group=HEADS[q.column]
-        )
+        def percent(a: Accuracy) -> float | None:
+            return None if math.isnan(value(a)) else 100 * value(a)
+
+        return Column(head, value=percent, format=".3g", group=HEADS[q.column])
 
     def at(place: int) -> Callable[[Accuracy], float]:
         return lambda a: a.errors[q.column][place]
@@ -195,35 +186,25 @@ def _percents(q: Quantity, times: Sequence[float]) -> List[Column[Accuracy]]:
 def _facts(found: Sequence[Accuracy], times: Sequence[float]) -> Facts:
     """A line for each time of each run."""
 
-    def of_run(column: Column[Accuracy]) -> Column[Tuple[Accuracy, int]]:
+    def of_run(column: Column[Accuracy]) -> Column[tuple[Accuracy, int]]:
         return Column(csv=column.name, value=lambda r: column.value(r[0]), behind=column.behind)
 
-    def of_quantity(q: Quantity) -> Column[Tuple[Accuracy, int]]:
+    def of_quantity(q: Quantity) -> Column[tuple[Accuracy, int]]:
         return Column(csv=f"{CSV[q.column]}_relative_L2", value=lambda r: r[0].errors[q.column][r[1]])
 
-    time: Column[Tuple[Accuracy, int]] = Column(csv="time", unit="ms", value=lambda r: times[r[1]])
+    time: Column[tuple[Accuracy, int]] = Column(csv="time", unit="ms", value=lambda r: times[r[1]])
     columns = [*map(of_run, RUNS), time, *map(of_quantity, QUANTITIES)]
     return Facts(columns, [(one, place) for one in found for place in range(len(times))])
 
 
 def accuracy_table(found: Sequence[Accuracy], reference: Reference, times: Sequence[float], title: str) -> Table:
-    table = Table(
-        "accuracy",
-        title,
-        [*RUNS, *(column for q in QUANTITIES for column in _percents(q, times))],
-        found,
-        _facts(found, times),
-        [
-            f"Relative L2 norm along z of the difference from {reference.folder}. Averaged: over {WINDOW} ms around the "
-            "time; no number where run or reference do not cover that."
-        ],
-    )
-    machines = about_machines([one.summary for one in found])
-    if machines:
-        table.notes.append(f"{machines}.")
-    if any(in_all(one.summary) is not None for one in found):
-        table.notes.append(NOTE_IN_ALL)
+    notes = [
+        f"Relative L2 norm along z of the difference from {reference.folder}. Averaged: over {WINDOW} ms around the "
+        "time; no number where run or reference do not cover that."
+    ]
+    notes += notes_on_work([one.summary for one in found], whole=True)
     steps = {reference.step, *(one.step for one in found)}
     if None in steps or max(steps) - min(steps) > SAME_STEP * max(steps):  # type: ignore[type-var,operator]
-        table.notes.append("Time steps differ: the errors are of space and time together.")
-    return table
+        notes.append("Time steps differ: the errors are of space and time together.")
+    columns = [*RUNS, *(column for q in QUANTITIES for column in _percents(q, times))]
+    return Table("accuracy", title, columns, found, _facts(found, times), notes)

@@ -1,7 +1,7 @@
 """Curves that lie on each other: found, and said, since the eye takes them for one."""
 
 import re
-from typing import Dict, List, Optional, Sequence
+from typing import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,9 +16,9 @@ SAID = re.compile(r"lies? on ")
 SHARED = 0.9  # of the longer curve, that both must span
 
 
-def coinciding(panels: Sequence[Sequence[Line2D]]) -> List[List[int]]:
+def coinciding(panels: Sequence[Sequence[Line2D]]) -> list[list[int]]:
     """Groups of curves, by their places, that lie on each other in each of the panels, which have the same curves."""
-    groups: List[List[int]] = []
+    groups: list[list[int]] = []
     for i in range(min((len(lines) for lines in panels), default=0)):
         for group in groups:
             if all(_near(lines[i], lines[j]) for lines in panels for j in group):
@@ -29,9 +29,9 @@ def coinciding(panels: Sequence[Sequence[Line2D]]) -> List[List[int]]:
     return [group for group in groups if len(group) > 1]
 
 
-def labels_that_say_so(labels: Sequence[str], panels: Sequence[Sequence[Line2D]]) -> List[str]:
+def labels_that_say_so(labels: Sequence[str], panels: Sequence[Sequence[Line2D]]) -> list[str]:
     """Names for the legend: 'partitioned (lies on monolithic)'."""
-    on: Dict[int, int] = {i: group[0] for group in coinciding(panels) for i in group[1:]}
+    on: dict[int, int] = {i: group[0] for group in coinciding(panels) for i in group[1:]}
 
     def first(place: int) -> str:
         return labels[place] if len(labels[place]) <= SHORT else f"line {place + 1} of this legend"
@@ -39,28 +39,12 @@ def labels_that_say_so(labels: Sequence[str], panels: Sequence[Sequence[Line2D]]
     return [f"{label} (lies on {first(on[i])})" if i in on else label for i, label in enumerate(labels)]
 
 
-def note_coinciding(axes: Axes, lines: Sequence[Line2D], labels: Sequence[str]) -> Optional[str]:
-    """Writes into a panel which of its curves lie on each other; for panels of a figure that differ in that."""
-    said = []
-    for group in coinciding([lines]):
-        names = [labels[i] for i in group]
-        if len(group) == len(lines):
-            said.append("all lines" if len(lines) > 2 else "both lines")
-        else:
-            said.append(f"{', '.join(names[:-1])} and {names[-1]}")
-    if not said:
-        return None
-    text = "\n".join(f"{names} lie on each other" for names in said)
-    axes.text(0.98, 0.03, text, transform=axes.transAxes, ha="right", va="bottom", fontsize=6.5, color="#444444")
-    return text
-
-
 def sentence_of_coinciding(figure: Figure) -> str:
     """A sentence for a caption: which curves with a name in a legend lie on each other in all panels that have them;
     empty where none do, or a legend or panel says it already."""
     if any(SAID.search(text.get_text()) for axes in figure.axes for text in _texts(axes)):
         return ""
-    said: Dict[str, None] = {}  # in their order, each once
+    said: dict[str, None] = {}  # in their order, each once
     for axes in figure.axes:
         lines = [line for line in axes.get_lines() if not str(line.get_label()).startswith("_")]
         labels = [str(line.get_label()) for line in lines]
@@ -77,7 +61,7 @@ def sentence_of_coinciding(figure: Figure) -> str:
     return f"Lines that lie on each other: {'; '.join(groups[:MOST])}{more}."
 
 
-def _texts(axes: Axes) -> List[Text]:
+def _texts(axes: Axes) -> list[Text]:
     legend = axes.get_legend()
     return [*axes.texts, *(legend.get_texts() if legend else [])]
 

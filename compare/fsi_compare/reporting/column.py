@@ -1,7 +1,7 @@
 """A column of a table, said once: its head for people, its name for scripts, and where its cells come from."""
 
 from dataclasses import dataclass
-from typing import Any, Callable, Generic, Sequence, TypeVar, Union
+from typing import Any, Callable, Generic, Sequence, TypeVar
 
 R = TypeVar("R")
 
@@ -14,11 +14,11 @@ class Column(Generic[R]):
     head: str = ""
     csv: str = ""
     value: Callable[[R], Any] = lambda record: None  # what the CSV holds; None: there is none
-    format: Union[str, Callable[[Any], str]] = ""  # of the value, for people
+    format: str | Callable[[Any], str] = ""  # of the value, for people
     unit: str = ""  # ends the name in the CSV, and stands where head or group have "{unit}"
     group: str = ""  # head over the heads of neighbours that have the same
     left: bool = False  # aligned to the left: words
-    text: Union[Callable[[R], str], None] = None  # what people read, where the value does not tell it
+    text: Callable[[R], str] | None = None  # what people read, where the value does not tell it
     missing: str = "-"  # for people, where the value is None
     behind: bool = False  # in the CSV behind all others: people script against the order
 
@@ -42,7 +42,7 @@ class Facts:
     records: Sequence[Any]
 
 
-def fixed(value: Any, form: Union[str, Callable[[Any], str]], missing: str = "-") -> str:
+def fixed(value: Any, form: str | Callable[[Any], str], missing: str = "-") -> str:
     """A value in the given format, zero without a power of ten; a dash for what there is not."""
     if value is None:
         return missing

@@ -3,19 +3,19 @@
 import argparse
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Optional, Sequence
+from typing import Sequence
 
 from ..base.errors import InputError, printable
-from ..base.files import exists, folder, together
-from ..base.options import Commands, add_command, add_folders, add_output, add_usual
+from ..base.files import exists
+from ..base.options import Commands, add_command, add_folders, add_labels, add_output, add_title, add_usual
 from ..runs.columns import read_columns, read_iterations
 from ..runs.coupling import chosen_scheme, coupling_kind, coupling_words
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
 from ..runs.summary import PROGRAMS
-from ..runs.work_units import NOTE, about_machines, per_step
+from ..runs.work_units import notes_on_work, per_step
 from .column import Column
-from .layout import Table, show_tables, write_tables
+from .layout import Table, hand_out
 from .work_column import work_column
 
 DESCRIPTION = """\
@@ -47,22 +47,22 @@ class Cost:
     label: str
     program: str  # "monolithic" or "partitioned"
     mesh: str
-    unknowns: Optional[int]
-    threads: Optional[int]  # of each process
+    unknowns: int | None
+    threads: int | None  # of each process
     processes: int
     steps: int
     seconds: float  # of all time steps
-    coupling_mean: Optional[float]  # coupling iterations per step; None: monolithic
-    coupling_range: Optional[tuple]
+    coupling_mean: float | None  # coupling iterations per step; None: monolithic
+    coupling_range: tuple | None
     newton: int
     linear: int
-    solves: Dict[str, int]  # linear solves, by system
-    preparations: Dict[str, int]  # factorisations or set-ups of a preconditioner, by system
-    displacement_residual: Optional[float]  # largest of the steps
-    force_residual: Optional[float]
-    memory_mib: Optional[float]
-    restarted_from: Optional[int]
-    work_units: Optional[float]  # per step; None: not measured
+    solves: dict[str, int]  # linear solves, by system
+    preparations: dict[str, int]  # factorisations or set-ups of a preconditioner, by system
+    displacement_residual: float | None  # largest of the steps
+    force_residual: float | None
+    memory_mib: float | None
+    restarted_from: int | None
+    work_units: float | None  # per step; None: not measured
     summary: dict  # all of summary.json
 
     @property
@@ -71,13 +71,12 @@ class Cost:
 
 
 def add_parser(commands: Commands, version: str) -> None:
-    command = add_command(
-        commands, "cost", cost, "wall time, solves and iterations of finished runs", DESCRIPTION, EXAMPLES
-    )
+    help = "wall time, solves and iterations of finished runs"
+    command = add_command(commands, "cost", cost, help, DESCRIPTION, EXAMPLES)
     add_folders(command)
     add_output(command, "results/cost")
-    command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
-    command.add_argument("--title", default="Cost of the runs", help="heading of the table (default: %(default)s)")
+    add_labels(command)
+    add_title(command, "Cost of the runs")
     add_usual(command, version, "accepted as by all programs; this comparison is quick on one thread")
 
 
@@ -85,13 +84,7 @@ def cost(options: argparse.Namespace) -> int:
     """Reads all runs before the first file is written."""
     labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
     costs = [read_cost(folder, label) for folder, label in zip(options.folders, labels)]
-    title = printable(options.title)
-    table = cost_table(costs, title)
-    with together(options.output) as place:
-        written = write_tables(place, [table], "cost.md", title)
-    if not options.quiet:
-        show_tables([table], options.output, written)
-    return 0
+    return hand_out(cost_table(costs, printable(options.title)), options.output, options.quiet)
 
 
 def read_cost(folder: Path, label: str) -> Cost:
@@ -100,8 +93,7 @@ def read_cost(folder: Path, label: str) -> Cost:
     program = PROGRAMS[summary["program"]]
     iterations = read_iterations(folder, ("outer_iterations", "newton_iterations", "linear_iterations", "wall_s"))
     coupled = program == "partitioned" and exists(folder / COUPLING)
-    residuals = ("displacement_residual", "force_residual")
-    coupling = read_columns(folder / COUPLING, residuals) if coupled else None
+    coupling = read_columns(folder / COUPLING, ("displacement_residual", "force_residual")) if coupled else None
     outer = iterations["outer_iterations"].tolist()
     phases = summary.get("phases", {})
     mesh = summary.get("mesh", {})
@@ -129,9 +121,9 @@ def read_cost(folder: Path, label: str) -> Cost:
     )
 
 
-def calls(phases: dict, kinds: Sequence[str]) -> Dict[str, int]:
+def calls(phases: dict, kinds: Sequence[str]) -> dict[str, int]:
     """How often phases "KIND: SYSTEM" were entered, by system."""
-    found: Dict[str, int] = {}
+    found: dict[str, int] = {}
     for name, phase in phases.items():
         kind, colon, system = name.partition(": ")
         if colon and kind in kinds:
@@ -140,7 +132,7 @@ def calls(phases: dict, kinds: Sequence[str]) -> Dict[str, int]:
 
 
 def _solves(head: str, system: str) -> Column[Cost]:
-    def per_step(cost: Cost) -> Optional[float]:
+    def per_step(cost: Cost) -> float | None:
         count = cost.solves.get(system)
         return None if count is None else count / cost.steps
 
@@ -154,33 +146,30 @@ def _calls(counts: str, csv: str, system: str) -> Column[Cost]:
 SYSTEMS = {"whole": COUPLED, "fluid": FLUID, "wall": WALL, "mesh": MESH}  # by their names in tables
 
 
-def _work_units(first: Cost) -> List[Column[Cost]]:
-    def relative(cost: Cost) -> Optional[float]:
+def _work_units(first: Cost) -> list[Column[Cost]]:
+    def relative(cost: Cost) -> float | None:
         return cost.work_units / first.work_units if cost.work_units and first.work_units else None
 
+    group, csv = "work units", "work_units_relative_to_first"
     return [
-        work_column("per step", "work_units_per_step", lambda c: c.work_units, group="work units"),
-        Column(
-            "relative", "work_units_relative_to_first", relative, ".2f", group="work units", missing="", behind=True
-        ),
+        work_column("per step", "work_units_per_step", lambda c: c.work_units, group=group),
+        Column("relative", csv, relative, ".2f", group=group, missing="", behind=True),
     ]
 
 
-def cost_columns(first: Cost) -> List[Column[Cost]]:
+def cost_columns(first: Cost) -> list[Column[Cost]]:
     """`first`: the run that the others' seconds and work units are relative to."""
 
-    def relative(cost: Cost) -> Optional[float]:
+    def relative(cost: Cost) -> float | None:
         return cost.seconds_per_step / first.seconds_per_step if first.seconds_per_step > 0 else None
 
+    def driver(cost: Cost) -> str:
+        return coupling_words(f"fsi-{cost.program}", cost.summary)
+
+    gap, passes = "interface residual", "coupling iterations"
     return [
         Column("run", "run", lambda c: c.label, left=True),
-        Column(
-            "driver",
-            "program",
-            lambda c: c.program,
-            left=True,
-            text=lambda c: coupling_words(f"fsi-{c.program}", c.summary),
-        ),
+        Column("driver", "program", lambda c: c.program, left=True, text=driver),
         Column(csv="coupling_kind", value=lambda c: coupling_kind(c.summary), behind=True),
         Column(csv="coupling_scheme", value=lambda c: chosen_scheme(c.summary), behind=True),
         Column("mesh", "mesh", lambda c: c.mesh, left=True),
@@ -192,10 +181,8 @@ def cost_columns(first: Cost) -> List[Column[Cost]]:
         Column(csv="wall", unit="s", value=lambda c: c.seconds),
         Column("seconds per step", "wall_s_per_step", lambda c: c.seconds_per_step, ".3g"),
         Column("relative time", "wall_relative_to_first", relative, ".2f"),
-        Column("mean", "coupling_iterations_mean", lambda c: c.coupling_mean, ".2f", group="coupling iterations"),
-        Column(
-            "range", value=lambda c: c.coupling_range, format=lambda r: f"{r[0]}-{r[1]}", group="coupling iterations"
-        ),
+        Column("mean", "coupling_iterations_mean", lambda c: c.coupling_mean, ".2f", group=passes),
+        Column("range", value=lambda c: c.coupling_range, format=lambda r: f"{r[0]}-{r[1]}", group=passes),
         Column(csv="coupling_iterations_min", value=lambda c: c.coupling_range and c.coupling_range[0]),
         Column(csv="coupling_iterations_max", value=lambda c: c.coupling_range and c.coupling_range[1]),
         *(_solves(head, system) for head, system in SYSTEMS.items()),
@@ -205,14 +192,8 @@ def cost_columns(first: Cost) -> List[Column[Cost]]:
         *(_calls("solves", f"solves_{name}", system) for name, system in SYSTEMS.items()),
         *(_calls("preparations", f"preparations_{name}", system) for name, system in SYSTEMS.items()),
         Column("set-ups", value=lambda c: sum(c.preparations.get(system, 0) for system in SYSTEMS.values())),
-        Column(
-            "displacement",
-            "displacement_residual_max",
-            lambda c: c.displacement_residual,
-            ".1e",
-            group="interface residual",
-        ),
-        Column("force", "force_residual_max", lambda c: c.force_residual, ".1e", group="interface residual"),
+        Column("displacement", "displacement_residual_max", lambda c: c.displacement_residual, ".1e", group=gap),
+        Column("force", "force_residual_max", lambda c: c.force_residual, ".1e", group=gap),
         Column("memory in {unit}", "peak_memory", lambda c: c.memory_mib, ".0f", "MiB"),
     ]
 
@@ -221,11 +202,8 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
     return Table("cost", title, cost_columns(costs[0]), costs, notes=cost_notes(costs))
 
 
-def cost_notes(costs: Sequence[Cost]) -> List[str]:
-    machines = about_machines([c.summary for c in costs])
-    notes = [f"{machines}."] if machines else []
-    if any(c.work_units is not None for c in costs):
-        notes.append(NOTE)
+def cost_notes(costs: Sequence[Cost]) -> list[str]:
+    notes = notes_on_work([c.summary for c in costs])
     passes = {coupling_kind(c.summary): c.summary.get("coupling_pass") for c in costs}
     notes += [f"`{kind}`: {printable(does)}." for kind, does in passes.items() if kind and does]
     notes += [
@@ -236,9 +214,8 @@ def cost_notes(costs: Sequence[Cost]) -> List[str]:
     ]
     threads = sorted({c.threads for c in costs if c.threads is not None})
     if len(threads) > 1:
-        notes.append(
-            f"The runs had different numbers of threads ({', '.join(map(str, threads))}): seconds do not compare."
-        )
+        numbers = ", ".join(map(str, threads))
+        notes.append(f"The runs had different numbers of threads ({numbers}): seconds do not compare.")
     processes = sorted({c.processes for c in costs})
     if len(processes) > 1:
         notes.append(f"The runs had different numbers of processes ({', '.join(map(str, processes))}).")
@@ -246,10 +223,8 @@ def cost_notes(costs: Sequence[Cost]) -> List[str]:
         notes.append("Memory: of the process that needed most.")
     if len({(c.mesh, c.steps) for c in costs}) > 1:
         notes.append("The runs differ in mesh or number of steps.")
-    parts = [c.label for c in costs if c.restarted_from is not None]
+    parts = ", ".join(c.label for c in costs if c.restarted_from is not None)
     if parts:
-        notes.append(
-            "Restarted, so that work units, solves, factorisations and memory are those of the last part: "
-            f"{', '.join(parts)}."
-        )
+        of = "work units, solves, factorisations and memory"
+        notes.append(f"Restarted, so that {of} are those of the last part: {parts}.")
     return notes

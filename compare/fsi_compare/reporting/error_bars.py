@@ -1,7 +1,7 @@
 """Known errors of runs: bars that `fsi-compare verify` left beside them, or one line that says how to find them."""
 
 import shlex
-from typing import TYPE_CHECKING, List, Sequence, Tuple
+from typing import TYPE_CHECKING, Sequence
 
 from ..results.run import RunResults
 from ..runs.verification import KeptBar, Verification, find_verification
@@ -11,7 +11,7 @@ from .layout import Table
 if TYPE_CHECKING:
     from .report import Report
 
-Row = Tuple[str, KeptBar]
+Row = tuple[str, KeptBar]
 COLUMNS: Sequence[Column[Row]] = (
     Column("run", "run", lambda r: r[0], left=True),
     Column("quantity", "quantity", lambda r: r[1].quantity, left=True),
@@ -28,7 +28,7 @@ def _said(bar: KeptBar) -> str:
     return f"{bar.verdict}: {bar.advice}" if bar.advice else bar.verdict
 
 
-def find_bars(runs: Sequence[RunResults]) -> "List[Verification | None]":
+def find_bars(runs: Sequence[RunResults]) -> list[Verification | None]:
     """The bars beside each run; None: no family is beside it. Raises InputError for a broken file."""
     return [find_verification(run.folder, run.summary) for run in runs]
 
@@ -40,7 +40,7 @@ def unknown(run: RunResults, label: str) -> str:
 
 
 def add_error_bars(
-    page: "Report", runs: Sequence[RunResults], labels: Sequence[str], found: "Sequence[Verification | None]"
+    page: "Report", runs: Sequence[RunResults], labels: Sequence[str], found: Sequence[Verification | None]
 ) -> None:
     page.section("Error bars")
     rows = [(label, bar) for label, of_run in zip(labels, found) if of_run is not None for bar in of_run.bars]

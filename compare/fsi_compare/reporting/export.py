@@ -2,14 +2,13 @@
 
 import argparse
 from pathlib import Path
-from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
 from ..base.errors import InputError
 from ..base.files import folder, together
 from ..base.options import Commands, add_command, add_usual
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from ..results.fields import MediumFields
 from ..results.run import open_run
 from .vtu import write_pvd, write_vtu
@@ -33,12 +32,10 @@ def add_parser(commands: Commands, version: str) -> None:
     command.add_argument("folder", metavar="DIR", type=Path, help="result folder of a run")
     command.add_argument("--to", choices=("pvd",), default="pvd", help="format of the series (default: %(default)s)")
     command.add_argument("--fields", metavar="A,B,...", help="fields to write (default: all)")
-    command.add_argument(
-        "--times", metavar="T,T,...", help="times in ms; linear between those written (default: all that were written)"
-    )
-    command.add_argument(
-        "-o", "--output", metavar="OUTDIR", type=folder, help="folder for the files written (default: DIR/vtu)"
-    )
+    text = "times in ms; linear between those written (default: all that were written)"
+    command.add_argument("--times", metavar="T,T,...", help=text)
+    text = "folder for the files written (default: DIR/vtu)"
+    command.add_argument("-o", "--output", metavar="OUTDIR", type=folder, help=text)
     add_usual(command, version, "accepted as by all programs; one thread writes the files")
 
 
@@ -62,16 +59,16 @@ def export(options: argparse.Namespace) -> int:
 
 
 def write_series(
-    place: Path, name: str, medium: MediumFields, fields: List[str], times: Optional[List[float]] = None
+    place: Path, name: str, medium: MediumFields, fields: list[str], times: list[float] | None = None
 ) -> int:
     """NAME.pvd and a VTU file for each time, by default those that all of the fields were written at. Returns how many
     files. Raises InputError for a time outside of them."""
     at = common_times(medium, fields) if times is None else times
     digits = max(4, len(str(len(at))))
-    series: List[Tuple[float, str]] = []
+    series: list[tuple[float, str]] = []
     for number, time in enumerate(at):
-        of_points: Dict[str, np.ndarray] = {}
-        of_cells: Dict[str, np.ndarray] = {}
+        of_points: dict[str, np.ndarray] = {}
+        of_cells: dict[str, np.ndarray] = {}
         for field in fields:
             values = medium.at(time, field)
             if values.ndim == 2 and values.shape[1] == 6:
@@ -86,27 +83,23 @@ def write_series(
     return len(series) + 1
 
 
-def common_times(medium: MediumFields, fields: List[str]) -> List[float]:
+def common_times(medium: MediumFields, fields: list[str]) -> list[float]:
     """Times in ms that all of these fields were written at."""
-    common = set(medium.times_of(fields[0]).tolist())
-    for field in fields[1:]:
-        common &= set(medium.times_of(field).tolist())
-    return sorted(common)
+    return sorted(set.intersection(*(set(medium.times_of(field).tolist()) for field in fields)))
 
 
-def _wanted_fields(text: Optional[str], media: Dict[str, MediumFields]) -> Optional[List[str]]:
+def _wanted_fields(text: str | None, media: dict[str, MediumFields]) -> list[str] | None:
     if text is None:
         return None
     known = sorted({field for medium in media.values() for field in medium.names})
     wanted = [word.strip() for word in text.split(",")]
     for field in wanted:
         if field not in known:
-            remedy = f"did you mean '{nearest(field, known)}'? It has {', '.join(known)}"
-            raise InputError("", "--fields", f"'{field}' is not in this run", remedy)
+            raise InputError("", "--fields", f"'{field}' is not in this run", hint(field, known))
     return wanted
 
 
-def _read_times(text: Optional[str]) -> Optional[List[float]]:
+def _read_times(text: str | None) -> list[float] | None:
     """Increasing."""
     if text is None:
         return None

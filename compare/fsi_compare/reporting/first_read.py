@@ -1,11 +1,12 @@
 """What a reader of a report is told first: what was computed, whether it can be trusted, flows and pressures of the
 openings, what it cost."""
 
-from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Callable, Iterator, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
 from ..base.errors import printable
+from ..base.numbers import is_number, number_of
 from ..results.openings import Opening
 from ..results.run import RunResults
 from ..runs.steadiness import cycle_change, period_of, sawtooth
@@ -14,48 +15,39 @@ from .layout import Table
 
 PA_PER_KPA, MMHG_PER_KPA = 1000.0, 7.50062
 SUPPLIED = ("inlet_work", "load_work", "inlet_kinetic_inflow", "support_work")  # columns of energy.csv
-Labelled = Tuple[str, RunResults]
+Labelled = tuple[str, RunResults]
 
 
-def case_lines(runs: Sequence[RunResults], labels: Sequence[str]) -> List[str]:
+def case_lines(runs: Sequence[RunResults], labels: Sequence[str]) -> list[str]:
     """The case in words, one fact a line; a fact that differs between runs is said of each."""
     facts = {
         "case": [run.title for run in runs],
         "program": [run.program for run in runs],
-        "element": [_entry(run, "element") for run in runs],
-        "geometry": [_entry(run, "geometry") for run in runs],
+        "element": [_word(run.summary, "element") for run in runs],
+        "geometry": [_word(run.summary, "geometry") for run in runs],
         "mesh": [_mesh(run) for run in runs],
-        "unknowns": [_count(run.summary.get("unknowns", {}).get("coupled")) for run in runs],
+        "unknowns": [_count(run.summary.get("unknowns", {}), "coupled") for run in runs],
         "steps": [_steps(run) for run in runs],
         "openings": [", ".join(run.openings) for run in runs],
         "chosen by the program": [_choices(run) for run in runs],
     }
     lines = []
     for name, values in facts.items():
-        if len(set(values)) == 1:
-            lines += [f"**{name}**: {values[0]}"] if values[0] else []
-        else:
-            lines.append(
-                f"**{name}**: " + "; ".join(f"{label}: {value or 'none'}" for label, value in zip(labels, values))
-            )
+        each = "; ".join(f"{label}: {value or 'none'}" for label, value in zip(labels, values))
+        said = values[0] if len(set(values)) == 1 else each
+        lines += [f"**{name}**: {said}"] if said else []
     return lines
 
 
-def _entry(run: RunResults, name: str) -> str:
-    return printable(str(run.summary.get(name, "")))
-
-
-def _count(number: Any) -> str:
-    return f"{number:,}" if isinstance(number, int) else ""
+def _count(entries: Mapping[str, Any], name: str, unit: str = "") -> str:
+    number = entries.get(name)
+    return f"{number:,}{unit}" if isinstance(number, int) else ""
 
 
 def _mesh(run: RunResults) -> str:
     mesh = run.summary.get("mesh", {})
-    cells = next(
-        (f"{mesh[kind]:,} {kind}" for kind in ("tetrahedra", "triangles") if isinstance(mesh.get(kind), int)), ""
-    )
-    nodes = f"{mesh['nodes']:,} nodes" if isinstance(mesh.get("nodes"), int) else ""
-    return ", ".join(part for part in (printable(str(mesh.get("name", ""))), nodes, cells) if part)
+    cells = _count(mesh, "tetrahedra", " tetrahedra") or _count(mesh, "triangles", " triangles")
+    return ", ".join(part for part in (_word(mesh, "name"), _count(mesh, "nodes", " nodes"), cells) if part)
 
 
 def _steps(run: RunResults) -> str:
@@ -71,19 +63,15 @@ def _steps(run: RunResults) -> str:
 
 def _choices(run: RunResults) -> str:
     found = run.summary.get("choices", {})
-    if not isinstance(found, dict):
-        return ""
-    return ", ".join(
-        f"{printable(k)} = {printable(str(v.get('value', '')))}" for k, v in found.items() if isinstance(v, dict)
-    )
+    choices = found.items() if isinstance(found, dict) else ()
+    return ", ".join(f"{printable(name)} = {_word(one, 'value')}" for name, one in choices if isinstance(one, dict))
 
 
-def _total(run: RunResults, name: str) -> Optional[float]:
-    value = run.summary.get("totals", {}).get(name)
-    return float(value) if isinstance(value, (int, float)) else None
+def _total(run: RunResults, name: str) -> float | None:
+    return number_of(run.summary.get("totals", {}), name)
 
 
-def _share_of_supply(run: RunResults, column: str) -> Optional[float]:
+def _share_of_supply(run: RunResults, column: str) -> float | None:
     """Sum of |values| of a column of the energy balance over that of all that was supplied."""
     energy = run.energy
     if energy is None or column not in energy:
@@ -92,24 +80,21 @@ def _share_of_supply(run: RunResults, column: str) -> Optional[float]:
     return float(np.abs(energy[column]).sum()) / supply if supply > 0 else None
 
 
-def _ringing(run: RunResults) -> Optional[float]:
+def _ringing(run: RunResults) -> float | None:
     """Largest sawtooth of a mean pressure, relative to the largest range of one."""
     curves = [opening.mean_pressure for opening in run.openings.values()]
     span = max((float(np.ptp(curve)) for curve in curves), default=0.0)
     return max(sawtooth(curve) for curve in curves) / span if span > 0 else None
 
 
-def interface_shares(run: RunResults) -> Tuple[Optional[float], Optional[float]]:
+def interface_shares(run: RunResults) -> tuple[float | None, float | None]:
     """Largest gap between fluid and wall over the interface's largest displacement, and the mean imbalance of tractions
     over the fluid's, of the steps looked at. None: the run did not watch it, or nothing moved."""
     found = run.summary.get("interface")
-    if not isinstance(found, dict):
-        return None, None
-    entries: Dict[str, Any] = found
+    entries = found if isinstance(found, dict) else {}
 
     def number(name: str) -> float:
-        value = entries.get(name)
-        return float(value) if isinstance(value, (int, float)) else 0.0
+        return number_of(entries, name) or 0.0
 
     gap = max(number("largest_slip_mm"), number("largest_separation_mm"))
     moved, load = number("largest_displacement_mm"), number("largest_traction_kPa")
@@ -117,40 +102,30 @@ def interface_shares(run: RunResults) -> Tuple[Optional[float], Optional[float]]
     return (gap / moved if moved > 0 else None), (lasting / load if load > 0 else None)
 
 
+def _total_column(head: str, name: str, form: str, group: str) -> Column[Labelled]:
+    return Column(head, name, lambda r: _total(r[1], name), form, group=group)
+
+
+def _supply_column(head: str, name: str) -> Column[Labelled]:
+    return Column(head, f"{name}_of_supply", lambda r: _share_of_supply(r[1], name), ".1e", group="energy over supply")
+
+
+def _interface_column(head: str, csv: str, place: int) -> Column[Labelled]:
+    return Column(head, csv, lambda r: interface_shares(r[1])[place], ".1e", group="interface")
+
+
 TRUST: Sequence[Column[Labelled]] = (
     Column("run", "run", lambda r: r[0], left=True),
     Column("steps", "steps", lambda r: _total(r[1], "steps"), "g"),
-    Column(
-        "above tolerance",
-        "steps_above_tolerance",
-        lambda r: _total(r[1], "steps_above_tolerance"),
-        "g",
-        group="of them",
-    ),
-    Column("failed, halved", "failed_steps", lambda r: _total(r[1], "failed_steps"), "g", group="of them"),
-    Column("rejected", "rejected_steps", lambda r: _total(r[1], "rejected_steps"), "g", group="of them"),
-    Column(
-        "solver", "largest_solver_error", lambda r: _total(r[1], "largest_solver_error"), ".1e", group="largest error"
-    ),
-    Column(
-        "left over",
-        "remainder_of_supply",
-        lambda r: _share_of_supply(r[1], "remainder"),
-        ".1e",
-        group="energy over supply",
-    ),
-    Column(
-        "numerical dissipation",
-        "numerical_dissipation_of_supply",
-        lambda r: _share_of_supply(r[1], "numerical_dissipation"),
-        ".1e",
-        group="energy over supply",
-    ),
+    _total_column("above tolerance", "steps_above_tolerance", "g", "of them"),
+    _total_column("failed, halved", "failed_steps", "g", "of them"),
+    _total_column("rejected", "rejected_steps", "g", "of them"),
+    _total_column("solver", "largest_solver_error", ".1e", "largest error"),
+    _supply_column("left over", "remainder"),
+    _supply_column("numerical dissipation", "numerical_dissipation"),
     Column("ringing", "sawtooth_of_range", lambda r: _ringing(r[1]), ".1e"),
-    Column("apart, of its motion", "gap_of_motion", lambda r: interface_shares(r[1])[0], ".1e", group="interface"),
-    Column(
-        "unbalanced, of its load", "imbalance_of_load", lambda r: interface_shares(r[1])[1], ".1e", group="interface"
-    ),
+    _interface_column("apart, of its motion", "gap_of_motion", 0),
+    _interface_column("unbalanced, of its load", "imbalance_of_load", 1),
 )
 
 
@@ -171,8 +146,8 @@ def periodic_end(run: RunResults) -> str:
     elif not found.get("reached", change <= asked):
         reached = "not " + reached
     said = f"{reached} after {periods} periods, the last of which changed by {100 * change:.2g} %"
-    distance = last.get("distance")
-    if isinstance(distance, (int, float)):
+    distance = number_of(last, "distance")
+    if distance is not None:
         said += f"; the mean is about {100 * distance:.2g} % from the periodic state"
     return said
 
@@ -195,9 +170,9 @@ class Varying(NamedTuple):
     layer: str
     constant: str
     unit: str
-    smallest: Optional[float]
-    mean: Optional[float]
-    largest: Optional[float]
+    smallest: float | None
+    mean: float | None
+    largest: float | None
     sources: str
 
 
@@ -216,25 +191,11 @@ CONSTANTS: Sequence[Column[Varying]] = (
 def constants_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     """Constants of the wall that vary within a layer; empty where none does."""
     records = []
-    for run, label in zip(runs, labels):
-        found = run.summary.get("varying_constants")
-        for entry in found if isinstance(found, list) else ():
-            if not isinstance(entry, dict):
-                continue
-            sources = entry.get("sources")
-            names = sources if isinstance(sources, list) else []
-            records.append(
-                Varying(
-                    label,
-                    _word(entry, "layer"),
-                    _word(entry, "constant"),
-                    _word(entry, "unit"),
-                    _number(entry, "smallest"),
-                    _number(entry, "mean"),
-                    _number(entry, "largest"),
-                    ", ".join(printable(str(name)) for name in names),
-                )
-            )
+    for label, entry in _entries(runs, labels, "varying_constants"):
+        words = (_word(entry, name) for name in ("layer", "constant", "unit"))
+        numbers = (number_of(entry, name) for name in ("smallest", "mean", "largest"))
+        sources = ", ".join(printable(str(name)) for name in _list(entry, "sources"))
+        records.append(Varying(label, *words, *numbers, sources))  # type: ignore[call-arg,arg-type]
     note = "Over the layer's quadrature points; the mean is that over its volume."
     return Table("constants", "Constants of the wall that vary", CONSTANTS, records, notes=[note])
 
@@ -244,9 +205,9 @@ class Thickness(NamedTuple):
 
     run: str
     layer: str
-    smallest: Optional[float]  # mm
+    smallest: float | None  # mm
     smallest_at: str  # mm
-    largest: Optional[float]
+    largest: float | None
     largest_at: str
 
 
@@ -263,43 +224,36 @@ THICKNESS: Sequence[Column[Thickness]] = (
 def thickness_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     """Thickness of the walls; empty where no run has a wall with an inner and an outer face."""
     records = []
-    for run, label in zip(runs, labels):
-        found = run.summary.get("wall_thickness")
-        for entry in found if isinstance(found, list) else ():
-            if isinstance(entry, dict):
-                records.append(
-                    Thickness(
-                        label,
-                        _word(entry, "layer"),
-                        _number(entry, "smallest"),
-                        _place(entry, "smallest_at"),
-                        _number(entry, "largest"),
-                        _place(entry, "largest_at"),
-                    )
-                )
+    for label, entry in _entries(runs, labels, "wall_thickness"):
+        least, most = ((number_of(entry, name), _place(entry, f"{name}_at")) for name in ("smallest", "largest"))
+        records.append(Thickness(label, _word(entry, "layer"), *least, *most))
     note = "Of the mesh: distances of the outer face's vertices from the inner face, in mm."
     return Table("thickness", "Thickness of the wall", THICKNESS, records, notes=[note])
 
 
-def _place(entry: Dict[str, Any], name: str) -> str:
-    found = entry.get(name)
-    numbers = found if isinstance(found, list) else []
-    return ", ".join(f"{x:.4g}" for x in numbers if isinstance(x, (int, float)))
+def _entries(runs: Sequence[RunResults], labels: Sequence[str], name: str) -> Iterator[tuple[str, dict[str, Any]]]:
+    """(label, entry) of a list in the runs' summaries."""
+    for run, label in zip(runs, labels):
+        yield from ((label, entry) for entry in _list(run.summary, name) if isinstance(entry, dict))
 
 
-def _word(entry: Dict[str, Any], name: str) -> str:
+def _list(entries: Mapping[str, Any], name: str) -> list[Any]:
+    found = entries.get(name)
+    return found if isinstance(found, list) else []
+
+
+def _place(entry: dict[str, Any], name: str) -> str:
+    return ", ".join(f"{x:.4g}" for x in _list(entry, name) if is_number(x))
+
+
+def _word(entry: Mapping[str, Any], name: str) -> str:
     return printable(str(entry.get(name, "")))
-
-
-def _number(entry: Dict[str, Any], name: str) -> Optional[float]:
-    value = entry.get(name)
-    return float(value) if isinstance(value, (int, float)) else None
 
 
 class OfOpening(NamedTuple):
     run: str
     opening: Opening
-    share: Optional[float]  # of what flows out, over the last cycle or the run
+    share: float | None  # of what flows out, over the last cycle or the run
     window: np.ndarray  # levels that count
 
 
@@ -308,31 +262,23 @@ def _pressure(head: str, kind: str, per_kpa: float, unit: str) -> Column[OfOpeni
         levels = record.opening.mean_pressure[record.window] / PA_PER_KPA
         return per_kpa * float({"minimum": levels.min, "mean": levels.mean, "maximum": levels.max}[kind]())
 
-    return Column(
-        head,
-        f"{kind}_pressure",
-        value,
-        ".3f" if unit == "kPa" else ".2f",
-        unit,
-        "mean pressure over the opening, {unit}",
-    )
+    form, group = ".3f" if unit == "kPa" else ".2f", "mean pressure over the opening, {unit}"
+    return Column(head, f"{kind}_pressure", value, form, unit, group)
+
+
+def _flow(head: str, of: Callable[[np.ndarray], Any]) -> Column[OfOpening]:
+    def value(record: OfOpening) -> float:
+        return float(of(record.opening.flow[record.window]))
+
+    return Column(head, f"{head}_flow", value, ".4g", "mm^3/ms", "flow outwards, {unit}")
 
 
 OPENINGS: Sequence[Column[OfOpening]] = (
     Column("run", "run", lambda r: r.run, left=True),
     Column("opening", "opening", lambda r: r.opening.name, left=True),
     Column("share of outflow", "share_of_outflow", lambda r: r.share, ".1%"),
-    Column(
-        "mean", "mean_flow", lambda r: float(r.opening.flow[r.window].mean()), ".4g", "mm^3/ms", "flow outwards, {unit}"
-    ),
-    Column(
-        "largest",
-        "largest_flow",
-        lambda r: float(np.abs(r.opening.flow[r.window]).max()),
-        ".4g",
-        "mm^3/ms",
-        "flow outwards, {unit}",
-    ),
+    _flow("mean", lambda flow: flow.mean()),
+    _flow("largest", lambda flow: np.abs(flow).max()),
     *(_pressure(kind, kind, 1.0, "kPa") for kind in ("minimum", "mean", "maximum")),
     *(_pressure(kind, kind, MMHG_PER_KPA, "mmHg") for kind in ("minimum", "mean", "maximum")),
 )
@@ -341,34 +287,29 @@ OPENINGS: Sequence[Column[OfOpening]] = (
 def openings_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     """Flows and pressures over the last cycle of runs that repeat, else over all times."""
     records = []
-    cycles: Dict[str, float] = {}
+    cycles: dict[str, float] = {}
     for run, label in zip(runs, labels):
         if not run.openings:
             continue
         period = _period(run)
         if period:
             cycles[label] = period
-        outflow = {}
-        for name, opening in run.openings.items():
-            window = opening.time > opening.time[-1] - period * (1 - 1e-9) if period else opening.time >= 0
-            outflow[name] = max(_mean(opening, window), 0.0)
+        windows = {
+            name: opening.time > opening.time[-1] - period * (1 - 1e-9) if period else opening.time >= 0
+            for name, opening in run.openings.items()
+        }
+        outflow = {name: max(float(run.openings[name].flow[at].mean()), 0.0) for name, at in windows.items()}
         total = sum(outflow.values())
         for name, opening in run.openings.items():
-            window = opening.time > opening.time[-1] - period * (1 - 1e-9) if period else opening.time >= 0
             share = outflow[name] / total if total > 0 and outflow[name] > 0 else None
-            records.append(OfOpening(label, opening, share, window))
+            records.append(OfOpening(label, opening, share, windows[name]))
     of = "; ".join(f"of the last cycle of {period:g} ms of {label}" for label, period in cycles.items())
     note = f"Values are {of}, else of all steps." if of else "Values are of all steps: no flow repeats."
-    return Table(
-        "openings", "Flow split and pressures", OPENINGS, records, notes=[note, "Means weigh all steps alike."]
-    )
+    notes = [note, "Means weigh all steps alike."]
+    return Table("openings", "Flow split and pressures", OPENINGS, records, notes=notes)
 
 
-def _mean(opening: Opening, window: np.ndarray) -> float:
-    return float(opening.flow[window].mean())
-
-
-def _period(run: RunResults) -> Optional[float]:
+def _period(run: RunResults) -> float | None:
     openings = list(run.openings.values())
     return period_of(openings[0].time, {o.name: o.flow for o in openings}) if openings else None
 
@@ -402,14 +343,17 @@ def cycles_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     return Table("cycles", "From cycle to cycle", CHANGES, records, notes=[note])
 
 
-def _each_step(run: RunResults, name: str) -> Optional[float]:
+def _each_step(run: RunResults, name: str) -> float | None:
     total, steps = _total(run, name), _total(run, "steps")
     return total / steps if total is not None and steps else None
 
 
-def _kind(run: RunResults) -> bool:
-    """Whether the run says how it coupled fluid and wall, as results of earlier versions do not."""
-    return "coupling_kind" in run.summary and "coupling_pass" in run.summary
+def _passes(run: RunResults) -> float | None:
+    return _each_step(run, "outer_iterations") if run.program == "fsi-partitioned" else None
+
+
+def _newton(run: RunResults) -> float | None:
+    return _each_step(run, "newton_iterations")
 
 
 COST: Sequence[Column[Labelled]] = (
@@ -417,21 +361,15 @@ COST: Sequence[Column[Labelled]] = (
     Column("program", "program", lambda r: r[1].program, left=True),
     Column("kind of coupling", "coupling_kind", lambda r: r[1].summary.get("coupling_kind"), left=True),
     Column("seconds", "wall", lambda r: _total(r[1], "wall_s"), ".1f", "s"),
-    Column(
-        "coupling passes",
-        "passes_per_step",
-        lambda r: _each_step(r[1], "outer_iterations") if r[1].program == "fsi-partitioned" else None,
-        ".1f",
-        group="per step",
-    ),
-    Column(
-        "Newton iterations", "newton_per_step", lambda r: _each_step(r[1], "newton_iterations"), ".1f", group="per step"
-    ),
+    Column("coupling passes", "passes_per_step", lambda r: _passes(r[1]), ".1f", group="per step"),
+    Column("Newton iterations", "newton_per_step", lambda r: _newton(r[1]), ".1f", group="per step"),
     Column("memory, {unit}", "peak_memory", lambda r: r[1].summary.get("peak_memory_MiB"), ".0f", "MiB"),
 )
 
 
 def cost_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
-    does = {str(run.summary["coupling_kind"]): str(run.summary["coupling_pass"]) for run in runs if _kind(run)}
+    # Results of earlier versions do not say how they coupled fluid and wall.
+    told = [run.summary for run in runs if {"coupling_kind", "coupling_pass"} <= run.summary.keys()]
+    does = {str(summary["coupling_kind"]): str(summary["coupling_pass"]) for summary in told}
     notes = [f"`{kind}`: {text}." for kind, text in does.items()] + ["`fsi-compare cost` says more."]
     return Table("seconds", "What it cost", COST, list(zip(labels, runs)), notes=notes)

@@ -5,10 +5,10 @@ import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any, List, Optional, Sequence, Tuple
+from typing import Any, Sequence
 
 from ..base.errors import printable
-from ..base.files import replacing
+from ..base.files import replacing, together
 from .column import Column, Facts
 
 
@@ -21,23 +21,23 @@ class Table:
     title: str
     columns: Sequence[Column[Any]]
     records: Sequence[Any]
-    facts: Optional[Facts] = None
-    notes: List[str] = field(default_factory=list)
+    facts: Facts | None = None
+    notes: list[str] = field(default_factory=list)
 
     @cached_property
-    def shown(self) -> List[Column[Any]]:
+    def shown(self) -> list[Column[Any]]:
         """The columns that people read."""
         return [column for column in self.columns if column.head]
 
     @cached_property
-    def heads(self) -> List[Tuple[str, str]]:
+    def heads(self) -> list[tuple[str, str]]:
         """(group, name) of each of them."""
         return [tuple(t.replace("{unit}", c.unit) for t in (c.group, c.head)) for c in self.shown]  # type: ignore[misc]
 
     @cached_property
-    def spans(self) -> List[Tuple[str, int, int]]:
+    def spans(self) -> list[tuple[str, int, int]]:
         """(group, first column, end): neighbours of the same group are one span, those without are one each."""
-        found: List[Tuple[str, int, int]] = []
+        found: list[tuple[str, int, int]] = []
         for i, (group, _) in enumerate(self.heads):
             same = bool(found) and bool(group) and found[-1][0] == group
             found.append((group, found.pop()[1] if same else i, i + 1))
@@ -48,20 +48,20 @@ class Table:
         return any(group for group, _ in self.heads)
 
     @cached_property
-    def rows(self) -> List[List[str]]:
+    def rows(self) -> list[list[str]]:
         return [[column.shown(record) for column in self.shown] for record in self.records]
 
     @cached_property
-    def _csv(self) -> List[Column[Any]]:
+    def _csv(self) -> list[Column[Any]]:
         columns = self.columns if self.facts is None else self.facts.columns
         return sorted((column for column in columns if column.csv), key=lambda column: column.behind)
 
     @property
-    def csv_columns(self) -> List[str]:
+    def csv_columns(self) -> list[str]:
         return [column.name for column in self._csv]
 
     @cached_property
-    def csv_rows(self) -> List[List[Any]]:
+    def csv_rows(self) -> list[list[Any]]:
         records = self.records if self.facts is None else self.facts.records
         return [[column.value(record) for column in self._csv] for record in records]
 
@@ -80,20 +80,13 @@ class Table:
         return "\n".join(line.rstrip() for line in lines) + "\n"
 
     def _line(self, cells: Sequence[str], widths: Sequence[int]) -> str:
-        return "  " + "  ".join(
-            cell.ljust(width) if column.left else cell.rjust(width)
-            for column, cell, width in zip(self.shown, cells, widths)
-        )
+        columns = zip(self.shown, cells, widths)
+        return "  " + "  ".join((cell.ljust if column.left else cell.rjust)(width) for column, cell, width in columns)
 
     def markdown(self, heading: str = "## {}") -> str:
         heads = [f"{group}: {name}" if group and name else group or name for group, name in self.heads]
-        lines = [
-            heading.format(self.title),
-            "",
-            _markdown_row(heads),
-            _markdown_row(["---" if column.left else "---:" for column in self.shown]),
-        ]
-        lines += [_markdown_row(row) for row in self.rows]
+        rules = ["---" if column.left else "---:" for column in self.shown]
+        lines = [heading.format(self.title), "", *map(_markdown_row, (heads, rules, *self.rows))]
         for note in self.notes:
             lines += ["", note.replace("*", r"\*").replace("_", r"\_").strip()]
         return "\n".join(lines) + "\n"
@@ -110,16 +103,23 @@ class Table:
 
 def _field(cell: Any) -> Any:
     """A field of a CSV, empty for what is no number."""
-    if not isinstance(cell, float):
-        return cell
-    return repr(float(cell)) if math.isfinite(cell) else None
+    return cell if not isinstance(cell, float) else repr(float(cell)) if math.isfinite(cell) else None
 
 
-def write_tables(folder: Path, tables: Sequence[Table], markdown: str, heading: str) -> List[Path]:
+def write_tables(folder: Path, tables: Sequence[Table], markdown: str, heading: str) -> list[Path]:
     """Writes each table as CSV, and all into one Markdown file of that name."""
     with replacing(folder / markdown) as temporary:
         temporary.write_text("\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]), encoding="utf-8")
     return [*(table.write_csv(folder) for table in tables), folder / markdown]
+
+
+def hand_out(table: Table, folder: Path, quiet: bool) -> int:
+    """Writes the one table of a command, as CSV and Markdown, and prints it; the exit code."""
+    with together(folder) as place:
+        written = write_tables(place, [table], f"{table.stem}.md", table.title)
+    if not quiet:
+        show_tables([table], folder, written)
+    return 0
 
 
 def show_tables(tables: Sequence[Table], folder: Path, written: Sequence[Path]) -> None:

@@ -3,7 +3,6 @@
 import argparse
 import math
 from pathlib import Path
-from typing import Optional, Tuple
 
 from ..base.errors import InputError, printable
 from ..base.files import output_folder
@@ -27,23 +26,18 @@ KINDS = (".png", ".svg", ".pdf")
 def add_parser(commands: Commands, version: str) -> None:
     command = add_command(commands, "picture", make, "a still of the vessel with a field on it", DESCRIPTION, EXAMPLES)
     command.add_argument("folder", metavar="RUN", type=Path, help="result folder of a finished run")
-    command.add_argument(
-        "--field", metavar="NAME", help="field, or a part of it: velocity:x (default: the first of the scene)"
-    )
+    text = "field, or a part of it: velocity:x (default: the first of the scene)"
+    command.add_argument("--field", metavar="NAME", help=text)
     command.add_argument("--time", metavar="T", type=float, help="time in ms (default: the last of fields.h5)")
-    command.add_argument(
-        "-o", "--output", metavar="FILE", type=Path, default=Path("vessel.png"), help="default: %(default)s"
-    )
-    command.add_argument(
-        "--factor", metavar="F", type=float, default=1.0, help="displacement is shown F times (default: 1)"
-    )
-    command.add_argument(
-        "--cut", action=argparse.BooleanOptionalAction, help="opened by a plane (default: for the velocity)"
-    )
+    text, output = "default: %(default)s", Path("vessel.png")
+    command.add_argument("-o", "--output", metavar="FILE", type=Path, default=output, help=text)
+    text = "displacement is shown F times (default: 1)"
+    command.add_argument("--factor", metavar="F", type=float, default=1.0, help=text)
+    text = "opened by a plane (default: for the velocity)"
+    command.add_argument("--cut", action=argparse.BooleanOptionalAction, help=text)
     command.add_argument("--unit", metavar="UNIT", help="of stresses and pressures: kPa, Pa or mmHg")
-    command.add_argument(
-        "--range", metavar="LOW,HIGH", help="of the colours, in the unit (default: 99th percentile of all times)"
-    )
+    text = "of the colours, in the unit (default: 99th percentile of all times)"
+    command.add_argument("--range", metavar="LOW,HIGH", help=text)
     command.add_argument("--view", metavar="VIEW", help="look from x, -x, y, -y, z, -z or an opening")
     add_usual(command, version, "accepted as by all programs; a picture is drawn on one thread")
 
@@ -59,19 +53,15 @@ def make(options: argparse.Namespace) -> int:
     load_matplotlib()
     from .pictures import write_plot
 
+    words = options.field, options.time, options.factor, options.cut, options.unit, span, options.view
     with output_folder(options.output.parent) as place:
-        write_plot(
-            place / options.output.name,
-            lambda: run.picture(
-                options.field, options.time, options.factor, options.cut, options.unit, span, options.view
-            ),
-        )
+        write_plot(place / options.output.name, lambda: run.picture(*words))
     if not options.quiet:
         print(f"Written: {printable(str(options.output))}")
     return 0
 
 
-def read_range(text: Optional[str]) -> Optional[Tuple[float, float]]:
+def read_range(text: str | None) -> tuple[float, float] | None:
     """Reads two increasing numbers. Raises InputError."""
     if text is None:
         return None

@@ -3,7 +3,7 @@
 import textwrap
 import warnings
 from pathlib import Path
-from typing import Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Callable, Sequence
 
 from matplotlib.artist import Artist
 import matplotlib
@@ -34,52 +34,28 @@ LINES = (
     {"linestyle": (0, (4, 1, 1, 1, 1, 1)), "color": "#6a4c93", "linewidth": 1.1},
 )
 
-# Points joined by lines, told apart without colour by marker, dash pattern and lightness.
-MARKED_LINES = (
-    {"linestyle": "-", "marker": "o", "color": "#000000"},
-    {"linestyle": "--", "marker": "s", "color": "#e8871e"},
-    {"linestyle": "-.", "marker": "^", "color": "#2c6fbb"},
-    {"linestyle": ":", "marker": "D", "color": "#b02a5b"},
-    {"linestyle": (0, (7, 2)), "marker": "v", "color": "#3d8338"},
-    {"linestyle": (0, (4, 1, 1, 1, 1, 1)), "marker": "P", "color": "#6a4c93"},
-    {"linestyle": (0, (1, 3)), "marker": "X", "color": "#555555"},
-    {"linestyle": (0, (9, 1, 1, 1)), "marker": "<", "color": "#00798c"},
-    {"linestyle": (0, (3, 3)), "marker": ">", "color": "#8a6d00"},
-)
-
 # Nothing of the day or the version of a program: the same data give the same file.
-METADATA: Dict[str, Dict[str, None]] = {
+METADATA: dict[str, dict[str, None]] = {
     ".png": {"Software": None},
     ".svg": {"Date": None, "Creator": None},
     ".pdf": {"CreationDate": None, "Creator": None, "Producer": None},
 }
 
 # Whatever the user's own matplotlib settings say, the same data give the same picture, byte by byte.
-STYLE = {
-    "font.family": ["DejaVu Sans", "sans-serif"],
-    "font.size": 9,
-    "axes.titlesize": 9,
-    "axes.grid": True,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "grid.color": "#dddddd",
-    "grid.linewidth": 0.5,
-    "legend.frameon": False,
-    "legend.handlelength": 3.4,
-    "lines.scale_dashes": True,
-    "svg.fonttype": "none",
-    "svg.hashsalt": "fsi-compare",
-}
+STYLE: dict[str, Any] = {"font.family": ["DejaVu Sans", "sans-serif"], "font.size": 9, "axes.titlesize": 9}
+STYLE |= {"axes.grid": True, "axes.spines.top": False, "axes.spines.right": False}
+STYLE |= {"grid.color": "#dddddd", "grid.linewidth": 0.5, "legend.frameon": False, "legend.handlelength": 3.4}
+STYLE |= {"lines.scale_dashes": True, "svg.fonttype": "none", "svg.hashsalt": "fsi-compare"}
 
 
 def write_pressure_waves(
     folder: Path, waves: Sequence[PressureWaves], labels: Sequence[str], times: Sequence[float], title: str
-) -> List[Path]:
+) -> list[Path]:
     """Writes `pressure_waves.png` and `.svg`; each run is drawn at its own points."""
     return write_figure(folder, "pressure_waves", lambda: pressure_figure(waves, labels, times, title))
 
 
-def write_figure(folder: Path, stem: str, draw: Callable[[], Figure]) -> List[Path]:
+def write_figure(folder: Path, stem: str, draw: Callable[[], Figure]) -> list[Path]:
     """Writes `stem.png` and `.svg` of the figure that `draw` makes."""
     paths = [folder / f"{stem}.png", folder / f"{stem}.svg"]
     _save(paths, draw, DPI)
@@ -147,7 +123,7 @@ def finish(
     handles: Sequence[Artist],
     labels: Sequence[str],
     title: str,
-    panels: Optional[Tuple[float, float]] = None,
+    panels: tuple[float, float] | None = None,
 ) -> Figure:
     """The figure, done: puts the heading above the panels and the legend below them, each in a strip of its own so that
     it covers no curve, and sets the figure's size; `panels` are width and height of the panels together, in inches: the

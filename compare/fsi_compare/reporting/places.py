@@ -1,12 +1,12 @@
 """Where the largest values of a run are: a table whose rows turn the view to their place."""
 
-from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 
 from .column import Column
 from .layout import Table
-from .scene import ReportScene, RunScene
+from .scene import ReportScene, RunScene, words_of
 
 KEYS = ("displacement", "wall_shear_stress", "tawss", "osi", "von_mises_stress", "velocity", "pressure")
 
@@ -23,7 +23,7 @@ class Place(NamedTuple):
     point: np.ndarray  # mm, (3,), reference
 
     @property
-    def look(self) -> Dict[str, Any]:
+    def look(self) -> dict[str, Any]:
         """The place that the page's view turns to."""
         point = [float(f"{x:.7g}") for x in self.point]
         return {"quantity": self.key, "time": self.time, "run": self.number, "part": self.part, "point": point}
@@ -37,8 +37,8 @@ class Apart(NamedTuple):
     of: float  # the largest value of the first run
 
 
-def _coordinate(i: int) -> Column[Place]:
-    return Column("xyz"[i], "xyz"[i], lambda r: float(r.point[i]), ".4g", "mm", "place, {unit}")
+def _coordinate(i: int, axis: str) -> Column[Place]:
+    return Column(axis, axis, lambda r: float(r.point[i]), ".4g", "mm", "place, {unit}")
 
 
 PLACES: Sequence[Column[Place]] = (
@@ -48,7 +48,7 @@ PLACES: Sequence[Column[Place]] = (
     Column("unit", "unit", lambda r: r.unit, left=True),
     Column("time, {unit}", "time", lambda r: r.time, ".4g", "ms"),
     Column("on", "surface", lambda r: r.part, left=True),
-    *(_coordinate(i) for i in range(3)),
+    *map(_coordinate, range(3), "xyz"),
 )
 APART: Sequence[Column[Apart]] = (
     Column("run", "run", lambda r: r.run, left=True),
@@ -59,14 +59,10 @@ APART: Sequence[Column[Apart]] = (
 )
 
 
-def places_table(scene: ReportScene) -> Tuple[Table, List[Dict[str, Any]]]:
+def places_table(scene: ReportScene) -> tuple[Table, list[dict[str, Any]]]:
     """The table, and what each row turns the view to."""
-    records = []
-    for number, run in enumerate(scene.runs):
-        for key in KEYS:
-            found = largest_of(run, number, key)
-            if found is not None:
-                records.append(found)
+    places = (largest_of(run, number, key) for number, run in enumerate(scene.runs) for key in KEYS)
+    records = [place for place in places if place is not None]
     notes = [
         "Of the times and points that the scene shows: surfaces, and the cut through the middle. Places are those of the mesh at rest."
     ]
@@ -74,25 +70,19 @@ def places_table(scene: ReportScene) -> Tuple[Table, List[Dict[str, Any]]]:
     return table, [record.look for record in records]
 
 
-def largest_of(run: RunScene, number: int, key: str) -> Optional[Place]:
+def largest_of(run: RunScene, number: int, key: str) -> Place | None:
     """Where a field is largest; None where the run has no such quantity, or where it is zero throughout."""
-    best: Optional[Place] = None
+    best: Place | None = None
     for part in run.parts:
-        quantity = run.scene.quantities.get(key, {}).get(part.surface.medium.name)
-        values = None if quantity is None else run.fields.get(f"{part.name}/{quantity.field}")
-        if quantity is None or values is None:
-            continue
-        for time, level in zip(run.times, values):
-            numbers = quantity.of(level)
+        for time, numbers in zip(run.times, run.levels(part, key)):
             if not np.isfinite(numbers).any():
                 continue
             node = int(np.nanargmax(numbers))
             if numbers[node] > (best.value if best else 0.0):
-                unit = "" if quantity.unit == "1" else quantity.unit
+                quantity, value = run.scene.quantities[key][part.surface.medium.name], float(numbers[node])
                 point = rounded(part.surface.points[node], float(np.ptp(part.surface.points)))
-                best = Place(
-                    run.name, number, key, quantity.words, unit, float(numbers[node]), float(time), part.name, point
-                )
+                words, unit = quantity.words, quantity.shown_unit
+                best = Place(run.name, number, key, words, unit, value, float(time), part.name, point)
     return best
 
 
@@ -111,8 +101,7 @@ def apart_table(scene: ReportScene) -> Table:
                 quantity = next(iter(quantities.values()))
                 of = max(float(np.nanmax(np.abs(level))) for level in scene.levels(scene.runs[0], key))
                 largest = max(float(np.nanmax(np.abs(level))) for level in levels)
-                words = quantity.words + (" in the wall" if key.startswith("wall_pressure") else "")
-                records.append(Apart(run.name, words, "" if quantity.unit == "1" else quantity.unit, largest, of))
+                records.append(Apart(run.name, words_of(key, quantity), quantity.shown_unit, largest, of))
     title = f"Largest differences of fields from {scene.runs[0].name}"
     notes = ["At the times and points that the scene shows. `of`: the largest value of the first run."]
     return Table("field_differences", title, APART, records, notes=notes)

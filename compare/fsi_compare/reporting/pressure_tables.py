@@ -3,7 +3,7 @@
 import json
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Sequence
 
 from ..base.errors import printable
 from ..base.files import replacing
@@ -21,12 +21,12 @@ class Comparison:
 
     labels: Sequence[str]
     times: Sequence[float]  # ms
-    at_times: List[List[Difference]]  # [run after the first][time]
-    over_time: List[OverTime]  # [run after the first]
-    peaks: List[List[Crest]]  # [run][time]
-    speeds: List[Optional[float]]  # [run], mm/ms
-    conditions: List[Conditions]  # [run]
-    warnings: List[str]  # in what the runs' meshes, steps and lengths differ
+    at_times: list[list[Difference]]  # [run after the first][time]
+    over_time: list[OverTime]  # [run after the first]
+    peaks: list[list[Crest]]  # [run][time]
+    speeds: list[float | None]  # [run], mm/ms
+    conditions: list[Conditions]  # [run]
+    warnings: list[str]  # in what the runs' meshes, steps and lengths differ
 
 
 def compare_pressure(runs: Sequence[Run], labels: Sequence[str], times: Sequence[float]) -> Comparison:
@@ -73,11 +73,8 @@ def text(runs: Sequence[Run], comparison: Comparison) -> str:
         else:
             lines.append(_difference_row(f"all {over_time.levels}", over_time.largest))
     if comparison.at_times:
-        lines += [
-            "",
-            "relative: to the reference's norm at the same time. Last row: maximum of each column over all "
-            "common time levels.",
-        ]
+        last_row = "maximum of each column over all common time levels."
+        lines += ["", f"relative: to the reference's norm at the same time. Last row: {last_row}"]
 
     low, high = SPEED_WINDOW_MS
     for label, peaks, speed in zip(comparison.labels, comparison.peaks, comparison.speeds):
@@ -89,18 +86,12 @@ def text(runs: Sequence[Run], comparison: Comparison) -> str:
 
 
 def _difference_row(name: str, d: Difference) -> str:
-    return (
-        f"  {name:>12}   {d.max_norm:>14.4e}   {_relative(d.max_relative):>8}   {d.l2_norm:>20.4e}   "
-        f"{_relative(d.l2_relative):>8}"
-    )
-
-
-def _relative(value: Optional[float]) -> str:
-    return "n/a" if value is None else f"{value:.2e}"
+    of_max, of_l2 = ("n/a" if value is None else f"{value:.2e}" for value in (d.max_relative, d.l2_relative))
+    return f"  {name:>12}   {d.max_norm:>14.4e}   {of_max:>8}   {d.l2_norm:>20.4e}   {of_l2:>8}"
 
 
 # Of (run's label, time, place, pressure).
-WAVES: Sequence[Column[Tuple[str, float, float, float]]] = (
+WAVES: Sequence[Column[tuple[str, float, float, float]]] = (
     Column(csv="run", value=lambda w: w[0]),
     Column(csv="time", unit="ms", value=lambda w: float(w[1])),
     Column(csv="z", unit="mm", value=lambda w: float(w[2])),
@@ -118,35 +109,21 @@ def waves_table(runs: Sequence[Run], labels: Sequence[str], times: Sequence[floa
 def write_json(path: Path, comparison: Comparison) -> None:
     """The printed numbers in full precision; null where the table says n/a."""
     runs = []
-    for i, label in enumerate(comparison.labels):
-        run: Dict[str, Any] = {
-            "run": label,
-            "mesh": comparison.conditions[i].mesh or None,
-            "step_ms": [comparison.conditions[i].smallest_step, comparison.conditions[i].largest_step],
-            "end_ms": comparison.conditions[i].end,
-            "speed_mm_per_ms": comparison.speeds[i],
-            "peaks": [
-                {"time_ms": time, "pressure_Pa": crest.pressure, "z_mm": crest.z}
-                for time, crest in zip(comparison.times, comparison.peaks[i])
-            ],
-        }
+    for i, (label, made) in enumerate(zip(comparison.labels, comparison.conditions)):
+        peaks = zip(comparison.times, comparison.peaks[i])
+        run: dict[str, Any] = {"run": label, "mesh": made.mesh or None}
+        run |= {"step_ms": [made.smallest_step, made.largest_step], "end_ms": made.end}
+        run["speed_mm_per_ms"] = comparison.speeds[i]
+        run["peaks"] = [{"time_ms": time, "pressure_Pa": crest.pressure, "z_mm": crest.z} for time, crest in peaks]
         if i > 0:
             over_time = comparison.over_time[i - 1]
-            run["differences"] = [
-                {"time_ms": time, **_named(difference)}
-                for time, difference in zip(comparison.times, comparison.at_times[i - 1])
-            ]
-            run["largest_difference"] = {
-                "common_levels": over_time.levels,
-                **(_named(over_time.largest) if over_time.largest else {}),
-            }
+            at_times = zip(comparison.times, comparison.at_times[i - 1])
+            run["differences"] = [{"time_ms": time, **_named(difference)} for time, difference in at_times]
+            largest = _named(over_time.largest) if over_time.largest else {}
+            run["largest_difference"] = {"common_levels": over_time.levels, **largest}
         runs.append(run)
-    data = {
-        "reference": comparison.labels[0],
-        "speed_window_ms": SPEED_WINDOW_MS,
-        "warnings": comparison.warnings,
-        "runs": runs,
-    }
+    data = {"reference": comparison.labels[0], "speed_window_ms": SPEED_WINDOW_MS, "warnings": comparison.warnings}
+    data["runs"] = runs
     with replacing(path) as temporary:
         temporary.write_text(json.dumps(data, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
 

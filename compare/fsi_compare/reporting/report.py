@@ -3,7 +3,7 @@ written as CSV beside it, every picture as PNG and SVG, and the whole as Markdow
 
 import base64
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Sequence, Tuple
+from typing import Any, Callable, Sequence
 
 from matplotlib.figure import Figure
 
@@ -22,9 +22,9 @@ class Report:
 
     def __init__(self, folder: Path, title: str):
         self.folder, self.title = folder, title
-        self.written: List[Path] = []
-        self._sections: List[str] = []
-        self._blocks: List[Tuple[str, Dict[str, Any]]] = []  # name and values of macros in templates/blocks.*
+        self.written: list[Path] = []
+        self._sections: list[str] = []
+        self._blocks: list[tuple[str, dict[str, Any]]] = []  # name and values of macros in templates/blocks.*
 
     def _add(self, kind: str, **values: Any) -> None:
         self._blocks.append((kind, values))
@@ -58,7 +58,7 @@ class Report:
         self.written.append(table.write_csv(self.folder))
         self._add("table", table=table)
 
-    def places(self, table: Table, looks: Sequence[Dict[str, Any]]) -> None:
+    def places(self, table: Table, looks: Sequence[dict[str, Any]]) -> None:
         """A table whose rows turn the view of the scene, to what `looks` says of each."""
         self.written.append(table.write_csv(self.folder))
         self._add("places", table=table, looks=looks)
@@ -66,7 +66,7 @@ class Report:
     def figure(self, stem: str, draw: Callable[[], Figure], caption: str) -> None:
         """`draw` makes the figure under the common style (see pictures.write_figure). The caption goes on with what
         lies on each other in it."""
-        drawn: List[Figure] = []
+        drawn: list[Figure] = []
 
         def keep() -> Figure:
             drawn.append(draw())
@@ -87,35 +87,28 @@ class Report:
         self.written.append(png)
         self.image(png, caption)
 
-    def scene(self, scene: ReportScene, stills: Sequence[Tuple[str, Callable[[], Figure], str]]) -> None:
+    def scene(self, scene: ReportScene, stills: Sequence[tuple[str, Callable[[], Figure], str]]) -> None:
         """The vessel in space, drawn in the browser, and stills (stem, figure, caption) of it for print and for
         browsers without JavaScript or WebGL."""
         self._add("scene", library=library(), **scene.values())
-        shown = []
-        for stem, draw, caption in stills:
-            png = write_picture(self.folder, stem, draw)
-            self.written.append(png)
-            shown.append(
-                {"name": png.name, "caption": caption, "data": base64.b64encode(png.read_bytes()).decode("ascii")}
-            )
-        self._add("stills", images=shown)
+        pictures = [(write_picture(self.folder, stem, draw), caption) for stem, draw, caption in stills]
+        self.written += [png for png, _ in pictures]
+        self._add("stills", images=[_image(png, caption) for png, caption in pictures])
 
     def image(self, png: Path, caption: str) -> None:
-        self._add("image", caption=caption, name=png.name, data=base64.b64encode(png.read_bytes()).decode("ascii"))
+        self._add("image", **_image(png, caption))
 
     def write(self) -> Path:
         """Writes `report.md` and `report.html`; the latter's path."""
-        plays = any(kind == "player" for kind, _ in self._blocks)
-        shows = any(kind == "scene" for kind, _ in self._blocks)
-        values = {
-            "title": self.title,
-            "sections": self._sections,
-            "blocks": self._blocks,
-            "plays": plays,
-            "shows": shows,
-        }
+        kinds = {kind for kind, _ in self._blocks}
+        values: dict[str, Any] = {"title": self.title, "sections": self._sections, "blocks": self._blocks}
+        values |= {"plays": "player" in kinds, "shows": "scene" in kinds}
         for name in ("report.md", "report.html"):
             with replacing(self.folder / name) as temporary:
                 temporary.write_text(render(f"{name}.j2", **values).rstrip("\n") + "\n", encoding="utf-8")
         self.written.append(self.folder / name)
         return self.folder / name
+
+
+def _image(png: Path, caption: str) -> dict[str, str]:
+    return {"name": png.name, "caption": caption, "data": base64.b64encode(png.read_bytes()).decode("ascii")}

@@ -2,7 +2,7 @@
 
 import functools
 import re
-from typing import Dict, List, Optional, Sequence
+from typing import Sequence
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -37,7 +37,7 @@ def add_waves(report: Report, runs: Sequence[RunResults], labels: Sequence[str],
     What no run has is left out."""
     shown = [panel for panel in panels(runs) if panel.lines or panel.series]
     report.player(Player(list(labels), shown))
-    stems: List[str] = []
+    stems: list[str] = []
     for panel in shown:
         at = list(times) or picture_times(panel.lines) if panel.lines else []
         if at:
@@ -63,14 +63,14 @@ def stem_of(title: str, taken: Sequence[str]) -> str:
     return next(name for name in names if name not in taken)
 
 
-def panels(runs: Sequence[RunResults]) -> List[Panel]:
+def panels(runs: Sequence[RunResults]) -> list[Panel]:
     """Diagrams of all that the runs have: lines that move, then flow and pressure of each opening over time."""
     found = []
     for attribute, quantity, words, heading in MOVING:
         panel = Panel(heading, ("z", "mm"), (words, ""))
         for place, run in enumerate(runs):
             interruption.check()
-            line: Optional[Line] = getattr(run, attribute)
+            line: Line | None = getattr(run, attribute)
             if line is not None and quantity in line.values:
                 panel.y = (words, line.units[quantity])
                 panel.lines.append(MovingLine(place, line.times, line.s, line[quantity]))
@@ -94,9 +94,9 @@ def panels(runs: Sequence[RunResults]) -> List[Panel]:
     return found
 
 
-def line_panels(runs: Sequence[RunResults], name: str) -> List[Panel]:
+def line_panels(runs: Sequence[RunResults], name: str) -> list[Panel]:
     """Diagrams of a line that the cases ask for: its scalars, and the magnitudes of its vectors."""
-    made: Dict[str, Panel] = {}
+    made: dict[str, Panel] = {}
     for place, run in enumerate(runs):
         if name not in run.lines:
             continue
@@ -126,15 +126,12 @@ def place_panel(runs: Sequence[RunResults], kind: str, name: str, column: str) -
     return panel
 
 
-def names_of(runs: Sequence[RunResults], kind: str) -> List[str]:
+def names_of(runs: Sequence[RunResults], kind: str) -> list[str]:
     """Names of the lines, openings, points or planes of all runs, in the order in which they come."""
-    names: Dict[str, None] = {}
-    for run in runs:
-        names.update(dict.fromkeys(getattr(run, kind)))
-    return list(names)
+    return list(dict.fromkeys(name for run in runs for name in getattr(run, kind)))
 
 
-def picture_times(lines: Sequence[MovingLine]) -> List[float]:
+def picture_times(lines: Sequence[MovingLine]) -> list[float]:
     """Levels of the first line, evenly spread over what all lines cover; none where they have no time in common."""
     first, last = max(line.times[0] for line in lines), min(line.times[-1] for line in lines)
     levels = [float(t) for t in lines[0].times if first <= t <= last]

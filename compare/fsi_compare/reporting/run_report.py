@@ -1,30 +1,23 @@
 """`fsi-compare report`: finished runs beside each other in one HTML file through which the reader moves in time."""
 
 import argparse
-from typing import TYPE_CHECKING, NamedTuple, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, NamedTuple, Sequence
 
 from ..base.errors import InputError, printable, say_note
 from ..base.files import folder, together
-from ..base.options import Commands, add_command, add_folders, add_output, add_usual, positive
+from ..base.options import Commands, add_command, add_count, add_folders, add_labels, add_output, add_usual
 from ..results.comparison import difference
 from ..results.line import Line
 from ..results.run import RunResults, open_run
 from ..runs.differences import Difference
 from ..runs.coupling import with_coupling
-from ..runs.labels import folder_labels, read_labels
+from ..runs.labels import folder_labels, read_labels, title_of
 from ..runs.samples import CENTRE_LINE
-from ..runs.work_units import NOTE, about_machines, per_step
+from ..runs.work_units import about_machines, notes_on_work, per_step
 from .column import Column, Facts
 from .error_bars import add_error_bars, find_bars
-from .first_read import (
-    case_lines,
-    constants_table,
-    cost_table,
-    cycles_table,
-    openings_table,
-    thickness_table,
-    trust_table,
-)
+from .first_read import case_lines, constants_table, cost_table, cycles_table, openings_table, thickness_table
+from .first_read import trust_table
 from .layout import Table, say_written
 from .matplotlib_loader import load_matplotlib
 from .pressure import MOST_TIMES, read_times
@@ -46,22 +39,20 @@ OUTDIR: report.html, report.md, and every table and picture as a file of its own
 """
 
 
+EXAMPLE = """\
+example:
+  fsi-compare report results/monolithic results/partitioned -o results/report
+"""
+
+
 def add_parser(commands: Commands, version: str) -> None:
-    command = add_command(
-        commands,
-        "report",
-        report,
-        "finished runs in one HTML file that plays",
-        DESCRIPTION,
-        "example:\n  fsi-compare report results/monolithic results/partitioned -o results/report\n",
-    )
+    command = add_command(commands, "report", report, "finished runs in one HTML file that plays", DESCRIPTION, EXAMPLE)
     add_folders(command)
     add_output(command, "results/report")
     command.add_argument("--times", metavar="T,T,...", help="times of the pictures in ms (default: six over the runs)")
-    command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders')")
+    add_labels(command, "their folders'")
     command.add_argument("--title", help="heading of the report (default: the runs' title)")
-    text = "times at which the vessel is shown (default: up to 100, fewer of large meshes)"
-    command.add_argument("--frames", metavar="N", type=positive("--frames"), help=text)
+    add_count(command, "--frames", "times at which the vessel is shown (default: up to 100, fewer of large meshes)")
     add_usual(command, version, "accepted as by all programs; a report is quick on one thread")
 
 
@@ -69,18 +60,16 @@ def report(options: argparse.Namespace) -> int:
     """Reads all runs and checks everything before the first file is written."""
     if len(options.folders) > MOST_RUNS:
         raise InputError("", "DIR", f"{len(options.folders)} runs do not fit a report", f"give at most {MOST_RUNS}")
-    times = read_times(options.times) if options.times is not None else []
-    if len(times) > MOST_TIMES:
-        raise InputError("", "--times", f"{len(times)} times do not fit a picture", f"give at most {MOST_TIMES}")
-    named = read_labels(options.labels, len(options.folders))
+    times = read_times(options.times, MOST_TIMES)
+    labels = read_labels(options.labels, len(options.folders))
     runs = [open_run(folder) for folder in options.folders]
-    labels = named or [
-        with_coupling(label, run.program, run.summary) for label, run in zip(folder_labels(options.folders), runs)
-    ]
+    if labels is None:
+        pairs = zip(folder_labels(options.folders), runs)
+        labels = [with_coupling(label, run.program, run.summary) for label, run in pairs]
     check_runs(runs, times)
     bars = find_bars(runs)
     tables = [differences_table(runs, labels), sample_table(sample_differences(options.folders), labels)]
-    title = printable(options.title) if options.title is not None else default_title(runs)
+    title = title_of(options.title, [run.title for run in runs], "Runs beside each other")
     with together(options.output) as place:
         load_matplotlib()
         from .report import Report
@@ -125,9 +114,8 @@ def add_first_read(page: "Report", runs: Sequence[RunResults], labels: Sequence[
 def check_runs(runs: Sequence[RunResults], times: Sequence[float]) -> None:
     """Raises InputError unless there is something to show, and all lines reach the times asked for."""
     if not any(run.has_samples for run in runs):
-        raise InputError(
-            runs[0].folder, "", "has neither lines nor openings", "ask for them in the case, and run it again"
-        )
+        remedy = "ask for them in the case, and run it again"
+        raise InputError(runs[0].folder, "", "has neither lines nor openings", remedy)
     for run in runs:
         for line in (run.centre_line, run.wall_line, *run.lines.values()):
             for time in times:
@@ -135,22 +123,11 @@ def check_runs(runs: Sequence[RunResults], times: Sequence[float]) -> None:
                     line.at(time, next(iter(line.values)))
 
 
-def default_title(runs: Sequence[RunResults]) -> str:
-    titles = {run.title for run in runs}
-    return titles.pop() if len(titles) == 1 and "" not in titles else "Runs beside each other"
-
-
-RUNS: Sequence[Column[Tuple[str, RunResults]]] = (
+RUNS: Sequence[Column[tuple[str, RunResults]]] = (
     Column("run", "run", lambda r: r[0], left=True),
     Column("program", "program", lambda r: r[1].program, left=True),
     Column("case", "title", lambda r: r[1].title, left=True),
-    Column(
-        "element",
-        "element",
-        lambda r: named(r[1], "element"),
-        text=lambda r: ", ".join(part for part in (named(r[1], "element"), named(r[1], "geometry")) if part),
-        left=True,
-    ),
+    Column("element", "element", lambda r: named(r[1], "element"), text=lambda r: element_of(r[1]), left=True),
     Column(csv="geometry", value=lambda r: named(r[1], "geometry")),
     Column("nodes", "nodes", lambda r: r[1].summary.get("mesh", {}).get("nodes"), "d"),
     Column("processes", "processes", lambda r: r[1].processes, behind=True),
@@ -162,11 +139,7 @@ RUNS: Sequence[Column[Tuple[str, RunResults]]] = (
 
 
 def runs_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
-    machines = about_machines([run.summary for run in runs])
-    notes = [f"{machines}."] if machines else []
-    if any(per_step(run.summary) is not None for run in runs):
-        notes.append(NOTE)
-    return Table("runs", "Runs", RUNS, list(zip(labels, runs)), notes=notes)
+    return Table("runs", "Runs", RUNS, list(zip(labels, runs)), notes=notes_on_work([run.summary for run in runs]))
 
 
 def named(run: RunResults, entry: str) -> str:
@@ -174,7 +147,11 @@ def named(run: RunResults, entry: str) -> str:
     return printable(run.summary.get(entry, ""))
 
 
-def end_of(run: RunResults) -> Optional[float]:
+def element_of(run: RunResults) -> str:
+    return ", ".join(part for part in (named(run, "element"), named(run, "geometry")) if part)
+
+
+def end_of(run: RunResults) -> float | None:
     """ms, the last time that a line or an opening has; None where there is neither."""
     ends = [line.times[-1] for line in (run.centre_line, run.wall_line) if line is not None]
     ends += [opening.time[-1] for opening in run.openings.values()]
@@ -209,17 +186,19 @@ class Apart(NamedTuple):
 
     run: str
     quantity: str
-    difference: Optional[Difference]
+    difference: Difference | None
     levels: int
+
+
+def _norm(head: str, name: str) -> Column[Apart]:
+    return Column(head, name, lambda a: a.difference and getattr(a.difference, name), ".2e", group="relative")
 
 
 LINES: Sequence[Column[Apart]] = (
     Column("run", "run", lambda a: a.run, left=True),
     Column("quantity", "quantity", lambda a: a.quantity, left=True),
-    Column(
-        "maximum norm", "max_relative", lambda a: a.difference and a.difference.max_relative, ".2e", group="relative"
-    ),
-    Column("L2 norm", "l2_relative", lambda a: a.difference and a.difference.l2_relative, ".2e", group="relative"),
+    _norm("maximum norm", "max_relative"),
+    _norm("L2 norm", "l2_relative"),
     Column("levels", "levels", lambda a: a.levels, "d"),
 )
 
@@ -235,14 +214,10 @@ def differences_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Tabl
             if line is not None and reference is not None and line.waves(quantity).covers_line(reference.s):
                 largest = difference(line, reference, quantity, times=[]).largest
                 records.append(Apart(label, words, largest.largest, largest.levels))
-    return Table(
-        "differences",
-        f"Largest difference from {labels[0]} over the common time levels",
-        LINES,
-        records,
-        notes=[
-            "The first norm is relative to the largest value of the reference at the same time, the second to its L2 norm "
-            "along the line; the largest of all levels that both runs have. A dash: no level in common, or a reference of "
-            "zero."
-        ],
+    title = f"Largest difference from {labels[0]} over the common time levels"
+    note = (
+        "The first norm is relative to the largest value of the reference at the same time, the second to its L2 norm "
+        "along the line; the largest of all levels that both runs have. A dash: no level in common, or a reference of "
+        "zero."
     )
+    return Table("differences", title, LINES, records, notes=[note])

@@ -2,7 +2,7 @@
 vessels without a centre line, and `fsi-compare report` of all runs."""
 
 from pathlib import Path
-from typing import List, Optional, Sequence, Tuple
+from typing import Sequence
 
 from ..base.errors import InputError, printable
 from ..base.files import exists, is_file, together
@@ -21,7 +21,7 @@ def without_centre_line(folder: Path) -> bool:
     return not is_file(folder / LINES) or CENTRE_LINE not in read_samples(folder / LINES)
 
 
-def compare_samples(folders: Sequence[Path], given_labels: Optional[Sequence[str]], output: Path, quiet: bool) -> int:
+def compare_samples(folders: Sequence[Path], given_labels: Sequence[str] | None, output: Path, quiet: bool) -> int:
     """Flows, points, lines and planes of the first run against those of the others, at the times that both have. Writes
     sample_differences.csv. Raises InputError where there is nothing in common."""
     for folder in folders:
@@ -30,9 +30,8 @@ def compare_samples(folders: Sequence[Path], given_labels: Optional[Sequence[str
     found = sample_differences(folders)
     for folder, of_run in zip(folders[1:], found):
         if not of_run:
-            raise InputError(
-                folder, "", f"has no samples at times in common with {folders[0]}", "compare runs of one scene"
-            )
+            problem = f"has no samples at times in common with {folders[0]}"
+            raise InputError(folder, "", problem, "compare runs of one scene")
     table = sample_table(found, labels)
     table.title += ": not all runs have a centre line"
     with together(output) as place:
@@ -42,13 +41,13 @@ def compare_samples(folders: Sequence[Path], given_labels: Optional[Sequence[str
     return 0
 
 
-def sample_differences(folders: Sequence[Path]) -> List[List[Difference]]:
+def sample_differences(folders: Sequence[Path]) -> list[list[Difference]]:
     """Differences of each run from the first, in each column of each table of samples, at the times that both have.
     Raises InputError for tables that cannot be read."""
     return [differences_of_tables(folders[0], folder, TABLES) for folder in folders[1:]]
 
 
-COLUMNS: Sequence[Column[Tuple[str, Difference]]] = (
+COLUMNS: Sequence[Column[tuple[str, Difference]]] = (
     Column("run", "run", lambda r: r[0], left=True),
     Column("table", "table", lambda r: r[1].table, left=True),
     Column("sample", "sample", lambda r: r[1].sample, left=True),

@@ -3,7 +3,7 @@ deflated, in base64. templates/scene_data.js reads them."""
 
 import base64
 import zlib
-from typing import Any, Dict
+from typing import Any
 
 import numpy as np
 
@@ -11,18 +11,28 @@ NONE = 65535
 LEVEL = 6
 
 
-def packed_numbers(values: np.ndarray) -> Dict[str, Any]:
-    """Rows of numbers, (rows, ...), in 16 bits each, to 1/65534 of their range; what is no number stays none."""
-    rows = np.asarray(values, dtype=float).reshape(len(values), -1)
-    finite = np.isfinite(rows)
-    low, high = (float(rows[finite].min()), float(rows[finite].max())) if finite.any() else (0.0, 0.0)
+def in_16_bits(values: np.ndarray) -> tuple[float, float, np.ndarray]:
+    """Least value, step and numbers of steps, to 1/65534 of the range; what is no number is NONE."""
+    finite = np.isfinite(values)
+    low, high = (float(values[finite].min()), float(values[finite].max())) if finite.any() else (0.0, 0.0)
     step = (high - low) / (NONE - 1)
-    numbers = np.full(rows.shape, NONE, dtype=np.uint16)
-    numbers[finite] = np.round((rows[finite] - low) / step).astype(np.uint16) if step > 0 else 0
-    return {"low": low, "step": step, "rows": len(rows), "data": _deflated(numbers)}
+    numbers = np.full(values.shape, NONE, dtype="<u2")
+    numbers[finite] = np.round((values[finite] - low) / step).astype("<u2") if step > 0 else 0
+    return low, step, numbers
 
 
-def packed_counts(numbers: np.ndarray) -> Dict[str, Any]:
+def short(numbers: np.ndarray) -> list[float]:
+    """To nine digits."""
+    return [float(f"{number:.9g}") for number in numbers]
+
+
+def packed_numbers(values: np.ndarray) -> dict[str, Any]:
+    """Rows of numbers, (rows, ...), in 16 bits each; see in_16_bits()."""
+    low, step, numbers = in_16_bits(np.asarray(values, dtype=float).reshape(len(values), -1))
+    return {"low": low, "step": step, "rows": len(numbers), "data": _deflated(numbers)}
+
+
+def packed_counts(numbers: np.ndarray) -> dict[str, Any]:
     """Whole numbers from zero, one row."""
     row = np.asarray(numbers).ravel()
     before = np.concatenate([[0], row[:-1]]).astype(np.int64)

@@ -43,8 +43,7 @@ def _merged(surface: Surface, side: float) -> Surface:
     order = np.lexsort((far, cluster))
     kept = order[np.concatenate([[0], np.cumsum(count)[:-1]])]
     cells = cluster[surface.triangles]
-    rolled = np.roll(cells, 1, axis=1)
-    cells = cells[np.all(cells != rolled, axis=1)]
+    cells = cells[np.all(cells != np.roll(cells, 1, axis=1), axis=1)]
     alone = np.unique(np.sort(cells, axis=1), axis=0, return_index=True)[1]
     used, local = np.unique(cells[np.sort(alone)], return_inverse=True)
     nodes = kept[used]

@@ -1,7 +1,7 @@
 """The section of a report that shows the vessel: which runs and fields, stills of them, and what is left out."""
 
 import functools
-from typing import Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Callable, NamedTuple, Sequence
 
 from matplotlib.figure import Figure
 
@@ -17,15 +17,15 @@ from .vessel_library import MISSING, library
 MOST_RUNS = 4  # in one page
 STILLS = 4
 STILL_FIELDS = ("wall_shear_stress", "displacement", "von_mises_stress", "velocity", "pressure", "tawss", "osi")
-Still = Tuple[str, Callable[[], Figure], str]
+Still = tuple[str, Callable[[], Figure], str]
 
 
 class Vessel(NamedTuple):
     """Runs that have fields: places among the report's runs, names, and what is shown of them."""
 
-    places: List[int]
-    names: List[str]
-    scenes: List[Scene]
+    places: list[int]
+    names: list[str]
+    scenes: list[Scene]
 
 
 def vessel_of(runs: Sequence[RunResults], labels: Sequence[str]) -> Vessel:
@@ -36,8 +36,8 @@ def vessel_of(runs: Sequence[RunResults], labels: Sequence[str]) -> Vessel:
 
 
 def add_vessel(
-    report: Report, runs: Sequence[RunResults], labels: Sequence[str], vessel: Vessel, frames: Optional[int] = None
-) -> Optional[Table]:
+    report: Report, runs: Sequence[RunResults], labels: Sequence[str], vessel: Vessel, frames: int | None = None
+) -> Table | None:
     """The table of differences of the runs' fields; None where no run has fields."""
     for run, label in zip(runs, labels):
         if not run.fields:
@@ -56,18 +56,15 @@ def add_vessel(
     return apart_table(scene)
 
 
-def stills_of(vessel: Vessel) -> List[Still]:
+def stills_of(vessel: Vessel) -> list[Still]:
     """Stills of the first run, each at the time at which the field is largest."""
     scene, name = vessel.scenes[0], vessel.names[0]
     keys = [key for key in STILL_FIELDS if key in scene.quantities][:STILLS] or [scene.first]
-    found: Dict[str, Still] = {}
+    found: list[Still] = []
     for key in keys:
         time = scene.peak(key)
         words = scene.quantity(key).words
         draw = functools.partial(picture, scene, key, time, title=name)
-        found[key] = (
-            f"vessel_{key}",
-            draw,
-            f"{words[0].upper()}{words[1:]} of {name} at {time:g} ms, where it is largest.",
-        )
-    return list(found.values())
+        caption = f"{words[0].upper()}{words[1:]} of {name} at {time:g} ms, where it is largest."
+        found.append((f"vessel_{key}", draw, caption))
+    return found

@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import NamedTuple, Optional
+from typing import NamedTuple
 
 from .scene_packing import deflated_text
 
@@ -10,9 +10,8 @@ PACKAGE = "libjs-three"
 PROGRAM = Path("/usr/share/javascript/three/three.min.js")
 ABOUT = Path("/usr/share/nodejs/three/package.json")
 COPYRIGHT = Path("/usr/share/doc/libjs-three/copyright")
-MISSING = (
-    f"the vessel is shown as still pictures: install the Debian package {PACKAGE} and make the report again to turn it"
-)
+REMEDY = f"install the Debian package {PACKAGE} and make the report again to turn it"
+MISSING = f"the vessel is shown as still pictures: {REMEDY}"
 
 
 class Library(NamedTuple):
@@ -23,7 +22,7 @@ class Library(NamedTuple):
     program: str  # deflated, in base64
 
 
-def library() -> Optional[Library]:
+def library() -> Library | None:
     """Reads three.js; None where the package is not installed."""
     try:
         program = PROGRAM.read_text(encoding="utf-8")
@@ -45,12 +44,8 @@ def _licence() -> str:
         text = COPYRIGHT.read_text(encoding="utf-8")
     except OSError:
         return "MIT licence (Expat): see the Debian package libjs-three."
-    holders = next(
-        (line for line in text.splitlines() if line.startswith("Copyright:") and "three.js authors" in line), ""
-    )
+    copyrights = [line for line in text.splitlines() if line.startswith("Copyright:") and "three.js authors" in line]
+    holders = copyrights[0].removeprefix("Copyright:").strip() if copyrights else ""
     words = text.partition("\nLicense: Expat\n Permission")[2]
     lines = ("Permission" + words).split("\n\n")[0].splitlines() if words else []
-    return "\n".join(
-        [holders.removeprefix("Copyright:").strip(), ""]
-        + ["" if line.strip() == "." else line.strip() for line in lines]
-    )
+    return "\n".join([holders, "", *("" if line.strip() == "." else line.strip() for line in lines)])

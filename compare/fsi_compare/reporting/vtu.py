@@ -5,23 +5,19 @@ import base64
 import struct
 import zlib
 from pathlib import Path
-from typing import Dict, List, Sequence, Tuple
+from typing import Sequence
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
 CELL_TYPES = {3: 5, 4: 10, 6: 22, 10: 24}  # by nodes: triangle, tetrahedron, and their quadratic forms
 HEAD = '<?xml version="1.0"?>\n'
+Arrays = dict[str, np.ndarray]  # by name
 BLOCK = 1 << 22  # bytes that are compressed at once
 
 
 def write_vtu(
-    path: Path,
-    points: np.ndarray,
-    cells: np.ndarray,
-    of_points: Dict[str, np.ndarray],
-    of_cells: Dict[str, np.ndarray],
-    time: float,
+    path: Path, points: np.ndarray, cells: np.ndarray, of_points: Arrays, of_cells: Arrays, time: float
 ) -> None:
     """One grid at one time, in ms, which stands in the file as TimeValue. `points` (nodes, 3), `cells` (cells, 3, 4, 6
     or 10), values (nodes or cells,) or (..., components). Numbers keep their bits."""
@@ -44,7 +40,7 @@ def write_vtu(
         out.write("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")
 
 
-def write_pvd(path: Path, series: Sequence[Tuple[float, str]]) -> None:
+def write_pvd(path: Path, series: Sequence[tuple[float, str]]) -> None:
     """A series of (time in ms, file beside it)."""
     sets = "".join(f'<DataSet timestep="{time!r}" part="0" file={quoteattr(file)}/>\n' for time, file in series)
     path.write_text(
@@ -67,6 +63,6 @@ def _array(name: str, values: np.ndarray, more: str = "") -> str:
 
 def _compressed(data: bytes) -> str:
     """Number of blocks, length of a block and of the last one if it is shorter, lengths when compressed; the blocks."""
-    blocks: List[bytes] = [zlib.compress(data[at : at + BLOCK], 1) for at in range(0, len(data), BLOCK)]
+    blocks: list[bytes] = [zlib.compress(data[at : at + BLOCK], 1) for at in range(0, len(data), BLOCK)]
     head = struct.pack(f"<{3 + len(blocks)}Q", len(blocks), BLOCK, len(data) % BLOCK, *map(len, blocks))
     return base64.b64encode(head).decode("ascii") + base64.b64encode(b"".join(blocks)).decode("ascii")

@@ -6,7 +6,6 @@ import shutil
 import sys
 import time
 from pathlib import Path
-from typing import List, Tuple
 
 import numpy as np
 
@@ -96,7 +95,7 @@ def write_page(page: Path, state: State, every: float) -> None:
     """A page that asks the browser to read it again while the run goes on; nothing serves it."""
     from .templating import render
 
-    curves: List[Tuple[Curve, str]] = [(curve, _points(curve.values)) for curve in state.curves]
+    curves: list[tuple[Curve, str]] = [(curve, _points(curve.values)) for curve in state.curves]
     refresh = None if state.over else max(1, round(every))
     text = render("watch.html.j2", state=state, curves=curves, refresh=refresh, width=PAGE_WIDTH, height=PAGE_HEIGHT)
     with output_folder(page.parent) as place, replacing(place / page.name) as temporary:

@@ -3,14 +3,16 @@
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import List, Optional, Sequence
+from typing import Sequence
 
 import numpy as np
 
 from ..base.errors import InputError, printable
+from ..base.folder_lock import is_left
 from ..results.run import open_run
 
-OVER = ("done", "interrupted", "not converged", "failed")  # how a run ends
+KILLED = "killed"  # it still says that it runs, and holds its folder no more
+OVER = ("done", "interrupted", "not converged", "failed", KILLED)  # how a run ends
 PLANNED = re.compile(r", (\d+) steps\s*$")
 LAST = 10  # steps that the speed is the mean of
 BLOCKS, PLAIN = "▁▂▃▄▅▆▇█", "_.-=+*#@"
@@ -30,17 +32,17 @@ class State:
     program: str
     status: str
     steps: int = 0
-    planned: Optional[int] = None
+    planned: int | None = None
     time: float = 0.0  # ms
-    step_seconds: Optional[float] = None
-    curves: List[Curve] = field(default_factory=list)
+    step_seconds: float | None = None
+    curves: list[Curve] = field(default_factory=list)
 
     @property
     def over(self) -> bool:
         return self.status in OVER
 
     @property
-    def seconds_left(self) -> Optional[float]:
+    def seconds_left(self) -> float | None:
         if self.planned is None or self.step_seconds is None or self.over:
             return None
         return max(self.planned - self.steps, 0) * self.step_seconds
@@ -48,8 +50,10 @@ class State:
 
 def state_of(folder: Path) -> State:
     """Reads how far a run is. Raises InputError for a folder that is no run's."""
+    left = is_left(folder)  # before its status is read: a run that ends well says so before it gives its folder up
     run = open_run(folder, unfinished=True)
-    state = State(run.title, run.program, run.status, planned=planned_steps(folder / "run.log"))
+    status = KILLED if left and run.status == "running" else run.status
+    state = State(run.title, run.program, status, planned=planned_steps(folder / "run.log"))
     try:
         rows = run.iterations
     except InputError:  # not there yet, or a header without its end
@@ -69,7 +73,7 @@ def state_of(folder: Path) -> State:
     return state
 
 
-def planned_steps(log: Path) -> Optional[int]:
+def planned_steps(log: Path) -> int | None:
     """The number of steps in the log's first line; None for adaptive steps, or without a log."""
     try:
         with open(log, encoding="utf-8", errors="replace") as file:

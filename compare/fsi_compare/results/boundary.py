@@ -2,7 +2,6 @@
 pieces."""
 
 from dataclasses import dataclass
-from typing import List, Tuple
 
 import numpy as np
 
@@ -48,27 +47,19 @@ def boundary_of(points: np.ndarray, cells: np.ndarray, up: np.ndarray) -> Bounda
 
 def straight_cells(cells: np.ndarray) -> np.ndarray:
     """Triangles of a two-dimensional mesh with straight sides, (triangles, 3): four of each quadratic one."""
-    if cells.shape[1] == 3:
-        return cells
-    return cells[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]]].reshape(-1, 3)
+    return cells if cells.shape[1] == 3 else cells[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]]].reshape(-1, 3)
 
 
-def _parts(face: Tuple[int, ...], nodes: int) -> List[List[int]]:
+def _parts(face: tuple[int, ...], nodes: int) -> list[list[int]]:
     """Straight parts of a face of a cell, in the cell's own numbers."""
     if nodes not in MIDDLES:
         return [list(face)]
-    middle = [
-        MIDDLES[nodes][_sorted(face[i], face[(i + 1) % len(face)])] for i in range(len(face) if len(face) > 2 else 1)
-    ]
+    middle = [MIDDLES[nodes][min(edge), max(edge)] for edge in zip(face, [*face[1:], face[0]])]
     if len(face) == 2:
         return [[face[0], middle[0]], [middle[0], face[1]]]
     a, b, c = face
     ab, bc, ca = middle
     return [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
-
-
-def _sorted(a: int, b: int) -> Tuple[int, int]:
-    return (a, b) if a < b else (b, a)
 
 
 def normals_of(points: np.ndarray, faces: np.ndarray, up: np.ndarray) -> np.ndarray:

@@ -1,7 +1,7 @@
 """How far two runs are apart along a line, in the norms of `fsi-compare pressure`."""
 
 from dataclasses import dataclass
-from typing import Optional, Sequence
+from typing import Sequence
 
 import numpy as np
 
@@ -24,7 +24,7 @@ class LineDifference:
 
 
 def difference(
-    line: Optional[Line], reference: Optional[Line], quantity: str, times: Optional[Sequence[float]] = None
+    line: Line | None, reference: Line | None, quantity: str, times: Sequence[float] | None = None
 ) -> LineDifference:
     """Difference of one quantity between the lines of two runs, on the points of the reference; linear between points
     and between time levels. `times` in ms; without them the levels of the reference that the other run reaches. Raises
@@ -34,18 +34,11 @@ def difference(
         raise InputError("", "line", "is not there", "compare runs that have both written it")
     waves, base = line.waves(quantity), reference.waves(quantity)
     if not waves.covers_line(base.z):
-        raise InputError(
-            "",
-            f"line {line.name}",
-            f"runs from {waves.z[0]:g} to {waves.z[-1]:g} mm, the reference's from {base.z[0]:g} to {base.z[-1]:g} mm",
-            "compare runs on the same geometry",
-        )
+        raise waves.elsewhere(base.z, "", f"line {line.name}", "the reference's")
     asked = [float(t) for t in base.times if waves.covers(t)] if times is None else [float(t) for t in times]
     for one, found in ((line, waves), (reference, base)):
         for time in asked:
-            if not found.covers(time):
-                remedy = f"give times between {found.times[0]:g} and {found.times[-1]:g} ms"
-                raise InputError("", f"line {one.name}", f"{time:g} ms is outside the run", remedy)
+            found.require(time, "", f"line {one.name}")
     norms = differences_at(base, waves, asked)
 
     def column(name: str) -> np.ndarray:

@@ -2,13 +2,13 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Optional, Tuple
 
 import h5py
 import numpy as np
 
 from ..base.errors import InputError
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
+from ..runs.levels import between_levels
 
 FIRST = "fields.h5"
 AGAIN = "run it again"
@@ -27,21 +27,21 @@ class _Entry:
 class MediumFields:
     """Fluid or wall: its mesh, and the fields on it."""
 
-    def __init__(self, name: str, file: Path, entries: Dict[str, List[_Entry]], units: Dict[str, str]) -> None:
+    def __init__(self, name: str, file: Path, entries: dict[str, list[_Entry]], units: dict[str, str]) -> None:
         self.name = name
         #: unit of each field by its name
-        self.units: Dict[str, str] = units
+        self.units: dict[str, str] = units
         self._file = file
         self._entries = entries
-        self._mesh: Dict[str, np.ndarray] = {}
-        self._widths: Dict[str, int] = {}
+        self._mesh: dict[str, np.ndarray] = {}
+        self._widths: dict[str, int] = {}
 
     def __repr__(self) -> str:
         fields = ", ".join(f"{name} in {self.units[name]}" for name in self.names)
         return f"<MediumFields {self.name}: {len(self.times)} times; {fields}>"
 
     @property
-    def names(self) -> List[str]:
+    def names(self) -> list[str]:
         """The fields that are there."""
         return sorted(self._entries)
 
@@ -57,7 +57,7 @@ class MediumFields:
         return self._of_mesh("cells")
 
     @property
-    def layers(self) -> Optional[np.ndarray]:
+    def layers(self) -> np.ndarray | None:
         """Number of each cell's layer, (cells,); None where the medium has none."""
         with _opened(self._file) as h5:
             if f"{self.name}/layer" not in h5:
@@ -89,17 +89,11 @@ class MediumFields:
         if not times[0] - tolerance <= time <= times[-1] + tolerance:
             remedy = f"give a time between {times[0]:g} and {times[-1]:g} ms"
             raise InputError(self._file, f"{self.name}/{field}", f"{time:g} ms is outside what was written", remedy)
-        nearest_entry = int(np.argmin(np.abs(times - time)))
-        if abs(times[nearest_entry] - time) <= tolerance:
-            return self._values(field, entries[nearest_entry])
-        after = int(np.searchsorted(times, time))
-        weight = (time - times[after - 1]) / (times[after] - times[after - 1])
-        return (1 - weight) * self._values(field, entries[after - 1]) + weight * self._values(field, entries[after])
+        return between_levels(times, time, tolerance, lambda level: self._values(field, entries[level]))
 
-    def _of(self, field: str) -> List[_Entry]:
+    def _of(self, field: str) -> list[_Entry]:
         if field not in self._entries:
-            remedy = f"did you mean '{nearest(field, self.names)}'? It has {', '.join(self.names)}"
-            raise InputError(self._file, self.name, f"has no field '{field}'", remedy)
+            raise InputError(self._file, self.name, f"has no field '{field}'", hint(field, self.names))
         return self._entries[field]
 
     def _values(self, field: str, entry: _Entry) -> np.ndarray:
@@ -111,11 +105,11 @@ class MediumFields:
         return self._mesh[part]
 
 
-def read_fields(folder: Path) -> Dict[str, MediumFields]:
+def read_fields(folder: Path) -> dict[str, MediumFields]:
     """Media by name, without their values; empty when the run has written none. Raises InputError."""
     parts = [path for path in [folder / FIRST, *sorted(folder.glob("fields-*.h5"), key=_number)] if path.is_file()]
-    entries: Dict[str, Dict[str, List[_Entry]]] = {}
-    units: Dict[str, Dict[str, str]] = {}
+    entries: dict[str, dict[str, list[_Entry]]] = {}
+    units: dict[str, dict[str, str]] = {}
     for path in parts:
         with _opened(path) as h5:
             try:
@@ -129,7 +123,7 @@ def read_fields(folder: Path) -> Dict[str, MediumFields]:
     return {name: MediumFields(name, parts[0], found, units[name]) for name, found in sorted(entries.items())}
 
 
-def _finished(path: Path, h5: h5py.File) -> List[Tuple[str, str, str, _Entry]]:
+def _finished(path: Path, h5: h5py.File) -> list[tuple[str, str, str, _Entry]]:
     """(unit, medium, field, entry) of all entries of a file that are whole."""
     numbers, times = h5["steps/number"][()], h5["steps/time"][()]
     found = []
@@ -143,7 +137,7 @@ def _finished(path: Path, h5: h5py.File) -> List[Tuple[str, str, str, _Entry]]:
     return found
 
 
-def _number(path: Path) -> Tuple[int, str]:
+def _number(path: Path) -> tuple[int, str]:
     return len(path.name), path.name
 
 

@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Mapping, Optional
+from typing import Mapping
 
 import numpy as np
 
 from ..base.errors import InputError
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from ..runs.pressure_waves import PressureWaves
 from ..runs.samples import Samples, read_samples
 from .units import split_unit
@@ -22,14 +22,12 @@ class Line:
     s: np.ndarray  #: mm along the line in the reference configuration, increasing, (points,)
     values: Mapping[str, np.ndarray]  #: by quantity, (levels, points)
     units: Mapping[str, str]  #: of each quantity
-    points: Optional[np.ndarray] = None  #: reference positions, mm, (points, 3); None: not recorded
+    points: np.ndarray | None = None  #: reference positions, mm, (points, 3); None: not recorded
 
     def __getitem__(self, quantity: str) -> np.ndarray:
         """(levels, points). Raises InputError."""
         if quantity not in self.values:
-            known = list(self.values)
-            remedy = f"did you mean '{nearest(quantity, known)}'? It has {', '.join(known)}"
-            raise InputError("", f"line {self.name}", f"has no '{quantity}'", remedy)
+            raise InputError("", f"line {self.name}", f"has no '{quantity}'", hint(quantity, self.values))
         return self.values[quantity]
 
     def __repr__(self) -> str:
@@ -37,7 +35,7 @@ class Line:
         return f"<Line {self.name}: {len(self.times)} levels, {len(self.s)} points; {quantities}>"
 
     @property
-    def vectors(self) -> List[str]:
+    def vectors(self) -> list[str]:
         """Quantities of which all three components are there: 'velocity' for 'velocity_x', ..."""
         heads = [name[:-2] for name in self.values if name.endswith(VECTOR[0])]
         return [head for head in heads if all(head + end in self.values for end in VECTOR)]
@@ -53,9 +51,7 @@ class Line:
     def at(self, time: float, quantity: str) -> np.ndarray:
         """(points,) at a time in ms; linear between levels. Raises InputError for a time outside of the run."""
         waves = self.waves(quantity)
-        if not waves.covers(time):
-            remedy = f"give a time between {self.times[0]:g} and {self.times[-1]:g} ms"
-            raise InputError("", f"line {self.name}", f"{time:g} ms is outside the run", remedy)
+        waves.require(time, "", f"line {self.name}")
         return waves.at(time)
 
 
@@ -82,6 +78,6 @@ def line_of(name: str, path: Path, samples: Samples, position: str = "z_mm") -> 
     )
 
 
-def lines_of(path: Path, finished: bool = True) -> Dict[str, Line]:
+def lines_of(path: Path, finished: bool = True) -> dict[str, Line]:
     """All lines of `lines.csv` by name; `finished`: see read_samples(). Raises InputError."""
     return {name: line_of(name, path, line, "s_mm") for name, line in read_samples(path, finished).items()}

@@ -1,10 +1,11 @@
 """Which faces of the fluid's boundary are its openings. `fields.h5` has no names of surfaces; an opening is a flat
 piece of the boundary whose flow and mean pressure are those of a name in `openings.csv`."""
 
-from typing import Dict, List, Mapping, Optional, Tuple
+from typing import Mapping
 
 import numpy as np
 
+from ..runs.levels import thinned
 from .boundary import Boundary, normals_of, smooth_pieces
 from .fields import MediumFields
 from .openings import Opening
@@ -15,7 +16,7 @@ LEVELS = 4  # times at which flow and pressure are compared
 PA_PER_KPA = 1000.0
 
 
-def flat_pieces(points: np.ndarray, boundary: Boundary, up: np.ndarray) -> List[np.ndarray]:
+def flat_pieces(points: np.ndarray, boundary: Boundary, up: np.ndarray) -> list[np.ndarray]:
     """Numbers of the faces of each flat piece."""
     normals = normals_of(points, boundary.faces, up)
     numbers = smooth_pieces(boundary.faces, normals)
@@ -33,11 +34,11 @@ def flat_pieces(points: np.ndarray, boundary: Boundary, up: np.ndarray) -> List[
 def named_openings(
     fluid: MediumFields,
     boundary: Boundary,
-    pieces: List[np.ndarray],
+    pieces: list[np.ndarray],
     openings: Mapping[str, Opening],
     up: np.ndarray,
     turned: bool,
-) -> Dict[str, np.ndarray]:
+) -> dict[str, np.ndarray]:
     """Faces by the name of the opening; those that match none are left out. `turned`: axisymmetric, x is the radius."""
     levels = _levels(fluid, openings)
     if not len(levels) or not pieces:
@@ -48,8 +49,8 @@ def named_openings(
     scale[~(scale > 0)] = np.inf
     apart = np.abs(measured[:, None] - given[None]) / scale[None, None, :, None]
     misfit = np.nanmax(np.nan_to_num(apart, nan=0.0), axis=(2, 3))
-    found: Dict[str, np.ndarray] = {}
-    taken: List[int] = []
+    found: dict[str, np.ndarray] = {}
+    taken: list[int] = []
     names = list(openings)
     for flat in np.argsort(misfit, axis=None):
         piece, name = int(flat) // len(names), names[int(flat) % len(names)]
@@ -66,7 +67,7 @@ def _levels(fluid: MediumFields, openings: Mapping[str, Opening]) -> np.ndarray:
     first = max(float(opening.time[0]) for opening in openings.values())
     last = min(float(opening.time[-1]) for opening in openings.values())
     times = fluid.times[(fluid.times >= first * (1 - 1e-9)) & (fluid.times <= last * (1 + 1e-9))]
-    return times[np.unique(np.linspace(0, len(times) - 1, LEVELS).round().astype(int))] if len(times) else times
+    return times[thinned(len(times), LEVELS)]
 
 
 def _given(opening: Opening, levels: np.ndarray) -> np.ndarray:
@@ -95,11 +96,11 @@ def _measured(fluid: MediumFields, piece: Boundary, levels: np.ndarray, up: np.n
     return rows
 
 
-def _at(fluid: MediumFields, time: float, name: str) -> Optional[np.ndarray]:
+def _at(fluid: MediumFields, time: float, name: str) -> np.ndarray | None:
     return fluid.at(float(time), name) if name in fluid.names else None
 
 
-def middle_of(points: np.ndarray, faces: np.ndarray, up: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+def middle_of(points: np.ndarray, faces: np.ndarray, up: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Middle of a piece, mm, and its normal outwards, of length 1."""
     normals = normals_of(points, faces, up)
     area = np.linalg.norm(normals, axis=1)

@@ -1,7 +1,6 @@
 """Flow and pressure of each opening of the fluid over time."""
 
 from dataclasses import dataclass
-from typing import Dict, Optional
 
 import numpy as np
 
@@ -16,10 +15,10 @@ class Opening:
     time: np.ndarray  #: ms, (levels,)
     flow: np.ndarray  #: mm^3/ms, positive outwards, (levels,)
     mean_pressure: np.ndarray  #: Pa, (levels,)
-    windkessel_pressure: Optional[np.ndarray]  #: Pa, stored, or behind a resistance, (levels,); None: neither
+    windkessel_pressure: np.ndarray | None  #: Pa, stored, or behind a resistance, (levels,); None: neither
 
 
-def openings_of(table: Table) -> Dict[str, Opening]:
+def openings_of(table: Table) -> dict[str, Opening]:
     """Reads `openings.csv`, a row for each time and opening; what stores no pressure has a column of zeros."""
     found = {}
     for name, rows in table.groups("opening").items():
@@ -29,7 +28,7 @@ def openings_of(table: Table) -> Dict[str, Opening]:
     return found
 
 
-def inlet_and_outlet(table: Table) -> Dict[str, Opening]:
+def inlet_and_outlet(table: Table) -> dict[str, Opening]:
     """Reads `flow.csv`, where the flow of the inlet is positive inwards."""
     found = {}
     for name, outwards in (("inlet", -1.0), ("outlet", 1.0)):

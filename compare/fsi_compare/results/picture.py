@@ -1,15 +1,16 @@
 """A run's vessel with a result on it, as a figure."""
 
-from typing import TYPE_CHECKING, Dict, List, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Sequence
 
 import numpy as np
 
 from ..base.errors import InputError
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from ..drawing.camera import Camera
 from ..drawing.colours import PERCENTILE, Scale, round_ticks, scale_of, table
 from ..drawing.raster import Mesh, rendered
 from ..drawing.sweep import angles, swept, turned
+from ..runs.levels import thinned
 from .quantities import Quantity
 from .scene_parts import CutPlane, Part, camera_of, first_quantity, middle_plane, parts_of, scene_quantities, views_of
 from .surfaces import Surfaces, displaced
@@ -28,13 +29,13 @@ INCHES_WIDE, MOST_HIGH = 7.0, 4.6
 class Scene:
     """Parts of one run that pictures are made from, read once for many pictures."""
 
-    def __init__(self, meshes: Surfaces, file: str, plane: Optional[CutPlane] = None) -> None:
+    def __init__(self, meshes: Surfaces, file: str, plane: CutPlane | None = None) -> None:
         self.meshes = meshes
         self.file = file
         self.plane = plane or middle_plane(meshes)
         self.parts = parts_of(meshes, self.plane)
         self.quantities = scene_quantities(meshes)
-        self._ranges: Dict[str, Tuple[Scale, float]] = {}
+        self._ranges: dict[str, tuple[Scale, float]] = {}
         if not self.quantities:
             raise InputError(file, "", "holds no field that can be shown", "set output.fields in the case")
 
@@ -44,9 +45,7 @@ class Scene:
 
     def check(self, key: str) -> None:
         if key not in self.quantities:
-            known = list(self.quantities)
-            remedy = f"did you mean '{nearest(key, known)}'? It has {', '.join(known)}"
-            raise InputError(self.file, "", f"has no field '{key}'", remedy)
+            raise InputError(self.file, "", f"has no field '{key}'", hint(key, self.quantities))
 
     def times(self, key: str) -> np.ndarray:
         """Times of the entries that have the quantity, ms."""
@@ -56,7 +55,7 @@ class Scene:
     def quantity(self, key: str) -> Quantity:
         return next(iter(self.quantities[key].values()))
 
-    def values(self, part: Part, key: str, time: float) -> Optional[np.ndarray]:
+    def values(self, part: Part, key: str, time: float) -> np.ndarray | None:
         """Values at the points of a part; None where the part has none."""
         quantity = self.quantities[key].get(part.surface.medium.name)
         if quantity is None or not part.shows(quantity.field):
@@ -82,55 +81,44 @@ class Scene:
         power = 10.0 ** np.floor(np.log10(wanted)) if wanted > 1 else 1.0
         return float(max(step * power for step in (1.0, 2.0, 5.0) if step * power <= max(wanted, 1.0)))
 
-    def _range(self, key: str) -> Tuple[Scale, float]:
+    def _range(self, key: str) -> tuple[Scale, float]:
         if key not in self._ranges:
             times = self.times(key)
-            times = times[np.unique(np.linspace(0, len(times) - 1, MOST_LEVELS).round().astype(int))]
+            times = times[thinned(len(times), MOST_LEVELS)]
             levels = [self._level(key, float(time)) for time in times]
-            sizes = [
-                max((float(np.percentile(np.abs(v), PERCENTILE)) for v in level if len(v)), default=0.0)
-                for level in levels
-            ]
+            parts = [[np.abs(v) for v in level if len(v)] for level in levels]
+            sizes = [max((float(np.percentile(v, PERCENTILE)) for v in part), default=0.0) for part in parts]
             scale = scale_of((v for level in levels for v in level), self.quantity(key).signed)
             self._ranges[key] = scale, float(times[int(np.nanargmax(sizes))])
         return self._ranges[key]
 
-    def _level(self, key: str, time: float) -> List[np.ndarray]:
+    def _level(self, key: str, time: float) -> list[np.ndarray]:
         """Values of all parts; each medium is read once."""
-        found: List[np.ndarray] = []
+        found: list[np.ndarray] = []
         for name, quantity in self.quantities[key].items():
             values = self.meshes.media[name].at(time, quantity.field)
             parts = [part for part in self.parts if part.surface.medium.name == name and part.shows(quantity.field)]
             found += [quantity.of(part.surface.take(values)) for part in parts]
         return found
 
-    def shown(self, key: str, cut: bool) -> List[Part]:
+    def shown(self, key: str, cut: bool) -> list[Part]:
         """The section in two dimensions; else the surfaces that have the quantity, or what a cut leaves of them."""
-        quantity = self.quantities[key]
-        fields = {name: q.field for name, q in quantity.items()}
+        fields = {name: q.field for name, q in self.quantities[key].items()}
         has = [part for part in self.parts if part.shows(fields.get(part.surface.medium.name, ""))]
         if self.meshes.flat:
             return self.parts
         if cut:
-            groups = {"cut", "lumen", "openings", "wall"}
-            return [part for part in self.parts if part.group in groups]
+            return [part for part in self.parts if part.group in {"cut", "lumen", "openings", "wall"}]
         solid = [part for part in has if part.group != "cut"]
-        return (
-            [part for part in solid if not (part.group == "wall" and "fluid" in fields)]
-            if self._inside(fields)
-            else solid
-        )
-
-    def _inside(self, fields: Dict[str, str]) -> bool:
-        """Whether it is a quantity of the fluid alone."""
-        return "fluid" in fields and "wall" not in fields
+        of_fluid_alone = "fluid" in fields and "wall" not in fields
+        return [part for part in solid if not (part.group == "wall" and of_fluid_alone)]
 
 
 def meshes_to_draw(
     scene: Scene, key: str, time: float, scale: Scale, factor: float, cut: bool, eye: np.ndarray
-) -> List[Mesh]:
+) -> list[Mesh]:
     """Triangles with the places of their colours."""
-    found: List[Mesh] = []
+    found: list[Mesh] = []
     turns = scene.meshes.geometry == "axisymmetric"
     for part in scene.shown(key, cut):
         values = scene.values(part, key, time)
@@ -149,7 +137,7 @@ def meshes_to_draw(
     return found
 
 
-def _beyond(part: Part, plane: Optional[CutPlane], eye: np.ndarray) -> Optional[np.ndarray]:
+def _beyond(part: Part, plane: CutPlane | None, eye: np.ndarray) -> np.ndarray | None:
     """How far each point is from the plane, towards the eye."""
     if plane is None:
         return None
@@ -159,15 +147,15 @@ def _beyond(part: Part, plane: Optional[CutPlane], eye: np.ndarray) -> Optional[
 
 def picture(
     scene: Scene,
-    field: Optional[str] = None,
-    time: Optional[float] = None,
+    field: str | None = None,
+    time: float | None = None,
     factor: float = 1.0,
-    cut: Optional[bool] = None,
-    unit: Optional[str] = None,
-    span: Optional[Tuple[float, float]] = None,
-    camera: Optional[Camera] = None,
+    cut: bool | None = None,
+    unit: str | None = None,
+    span: tuple[float, float] | None = None,
+    camera: Camera | None = None,
     title: str = "",
-    size: Tuple[int, int] = PIXELS,
+    size: tuple[int, int] = PIXELS,
 ) -> "Figure":
     """The vessel at a time in ms (default: the last) coloured by a field, moved by `factor` times the displacement.
     `cut`: opened by a plane (default: for fields of the inside, as velocity). `span`: colours in `unit`. Raises
@@ -185,43 +173,32 @@ def picture(
     image, pixels = rendered(meshes, eye, size[0], size[1], table(scale.map))
     bar_unit = "" if shown_unit == "1" else shown_unit
     words = quantity.words + (f" in {bar_unit}" if bar_unit else "")
-    notes = [f"t = {at:g} ms"] + ([f"displacement x {factor:g}"] if factor != 1 and _moves(scene) else [])
-    return framed(
-        image, scale, times_unit, words, bar_unit, " · ".join(([title] if title else []) + notes), span is None
-    )
+    moves = any("displacement" in medium.names for medium in scene.meshes.media.values())
+    notes = [title, f"t = {at:g} ms", f"displacement x {factor:g}" if factor != 1 and moves else ""]
+    return framed(image, scale, times_unit, words, bar_unit, " · ".join(filter(None, notes)), span is None)
 
 
-def camera_named(scene: Scene, view: Optional[str]) -> Optional[Camera]:
+def camera_named(scene: Scene, view: str | None) -> Camera | None:
     """One of views_of(); None for none. Raises InputError."""
     if view is None:
         return None
     views = {name: camera for name, camera, _ in views_of(scene.meshes)}
     if view not in views:
-        raise InputError(
-            "",
-            "view",
-            f"'{view}' is unknown",
-            f"did you mean '{nearest(view, list(views))}'? It has {', '.join(views)}",
-        )
+        raise InputError("", "view", f"'{view}' is unknown", hint(view, views))
     return views[view]
 
 
-def _moves(scene: Scene) -> bool:
-    return any("displacement" in medium.names for medium in scene.meshes.media.values())
-
-
-def unit_of(own: str, wanted: Optional[str]) -> Tuple[str, float]:
+def unit_of(own: str, wanted: str | None) -> tuple[str, float]:
     """(unit, how many of it are one of the own). Raises InputError."""
     if wanted is None or wanted == own:
         return own, 1.0
     if wanted not in UNITS.get(own, ()):
-        raise InputError(
-            "", "unit", f"'{wanted}' does not fit a field in {own}", f"give {' or '.join(UNITS.get(own, (own,)))}"
-        )
+        remedy = f"give {' or '.join(UNITS.get(own, (own,)))}"
+        raise InputError("", "unit", f"'{wanted}' does not fit a field in {own}", remedy)
     return wanted, PER_KPA[wanted] / PER_KPA[own]
 
 
-def scale_in(scale: Scale, span: Optional[Sequence[float]], per_own: float) -> Scale:
+def scale_in(scale: Scale, span: Sequence[float] | None, per_own: float) -> Scale:
     """The scale with the range that was asked for, `span` in the unit of the picture."""
     if span is None:
         return scale
@@ -259,11 +236,8 @@ def framed(
     legend.ax.tick_params(labelsize=8)
     figure.text(0.885, 0.69 / height, unit, fontsize=8, va="center", parse_math=False)
     how = f"colours end at the {PERCENTILE:g}th percentile" if robust else "range as asked for"
-    occurs = (
-        f"{how}; {scale.least * per_own:.4g} to {scale.largest * per_own:.4g} occur"
-        if scale.least == scale.least
-        else ""
-    )
+    known = scale.least == scale.least
+    occurs = f"{how}; {scale.least * per_own:.4g} to {scale.largest * per_own:.4g} occur" if known else ""
     figure.text(0.5, 0.08 / height, f"{words} ({occurs})", fontsize=8, ha="center", va="bottom", parse_math=False)
     return figure
 

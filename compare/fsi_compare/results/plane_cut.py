@@ -1,7 +1,6 @@
 """The cut of a tetrahedral mesh by a plane: points on edges of its cells, and triangles."""
 
 from dataclasses import dataclass
-from typing import Dict, List, Tuple
 
 import numpy as np
 
@@ -25,8 +24,8 @@ def cut_by_plane(points: np.ndarray, cells: np.ndarray, origin: np.ndarray, norm
     straight, owner = _straight(cells)
     above = (points - origin) @ normal >= 0
     pattern = above[straight] @ (1 << np.arange(4))
-    pieces: List[np.ndarray] = []
-    owners: List[np.ndarray] = []
+    pieces: list[np.ndarray] = []
+    owners: list[np.ndarray] = []
     for code, joined in _patterns().items():
         some = np.flatnonzero(pattern == code)
         for triangle in joined:
@@ -39,9 +38,9 @@ def cut_by_plane(points: np.ndarray, cells: np.ndarray, origin: np.ndarray, norm
     return Cut(ends, first / (first - second), triangles.reshape(-1, 3), np.concatenate(owners or [np.zeros(0, int)]))
 
 
-def _patterns() -> Dict[int, Tuple[Tuple[int, int, int], ...]]:
+def _patterns() -> dict[int, tuple[tuple[int, int, int], ...]]:
     """Triangles by the edges that they join, for each set of nodes above the plane."""
-    found: Dict[int, Tuple[Tuple[int, int, int], ...]] = {}
+    found: dict[int, tuple[tuple[int, int, int], ...]] = {}
     for code in range(1, 15):
         inside = [i for i in range(4) if code >> i & 1]
         cut = [e for e, (a, b) in enumerate(EDGES) if (a in inside) != (b in inside)]
@@ -56,7 +55,7 @@ def _patterns() -> Dict[int, Tuple[Tuple[int, int, int], ...]]:
     return found
 
 
-def _straight(cells: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+def _straight(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Straight tetrahedra of the cells, and the cell of each."""
     if cells.shape[1] == 4:
         return cells, np.arange(len(cells))

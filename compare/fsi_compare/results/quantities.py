@@ -1,22 +1,16 @@
 """What of a field is shown as one number for each node: magnitudes and components of vectors, stresses of tensors."""
 
 from dataclasses import dataclass
-from typing import Callable, List
+from typing import Callable
 
 import numpy as np
 
 from .fields import MediumFields
 
 COMPONENTS = ("x", "y", "z")
-WORDS = {
-    "rrt": "relative residence time",
-    "osi": "oscillatory shear index",
-    "tawss": "time-averaged wall shear stress",
-    "von_mises_stress": "von Mises stress",
-    "thickness": "thickness of the wall at rest",
-    "fibre_stress_1": "stress of the first fibres",
-    "fibre_stress_2": "stress of the second fibres",
-}
+WORDS = {"rrt": "relative residence time", "osi": "oscillatory shear index", "tawss": "time-averaged wall shear stress"}
+WORDS |= {"von_mises_stress": "von Mises stress", "thickness": "thickness of the wall at rest"}
+WORDS |= {"fibre_stress_1": "stress of the first fibres", "fibre_stress_2": "stress of the second fibres"}
 
 
 @dataclass(frozen=True)
@@ -30,13 +24,14 @@ class Quantity:
     signed: bool  # negative values mean something else than small ones
     of: Callable[[np.ndarray], np.ndarray]
 
+    @property
+    def shown_unit(self) -> str:
+        """The unit as people read it: that of a plain number is empty."""
+        return "" if self.unit == "1" else self.unit
+
 
 def _component(i: int) -> Callable[[np.ndarray], np.ndarray]:
     return lambda values: values[:, i]
-
-
-def _itself(values: np.ndarray) -> np.ndarray:
-    return values
 
 
 def _magnitude(values: np.ndarray) -> np.ndarray:
@@ -48,16 +43,17 @@ def _von_mises(values: np.ndarray) -> np.ndarray:
     return np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (xy**2 + xz**2 + yz**2))
 
 
-def quantities_of(medium: MediumFields) -> List[Quantity]:
+def quantities_of(medium: MediumFields) -> list[Quantity]:
     """Quantities of all fields of a medium, in the order of their names."""
     return [quantity for field in medium.names for quantity in quantities_of_field(medium, field)]
 
 
-def quantities_of_field(medium: MediumFields, field: str) -> List[Quantity]:
+def quantities_of_field(medium: MediumFields, field: str) -> list[Quantity]:
     words, unit = WORDS.get(field, field.replace("_", " ")), medium.units[field]
     width = medium.width(field)
     if width == 1:
-        return [Quantity(field, field, words, unit, field.endswith("pressure") or field.startswith("fibre"), _itself)]
+        signed = field.endswith("pressure") or field.startswith("fibre")
+        return [Quantity(field, field, words, unit, signed, lambda values: values)]
     if width == 6:
         made = Quantity(field, field, f"von Mises stress of the {words}", unit, False, _von_mises)
         return [made] if "von_mises_stress" not in medium.names else []
@@ -68,7 +64,6 @@ def quantities_of_field(medium: MediumFields, field: str) -> List[Quantity]:
             for i, name in enumerate(names)
         ]
     found = [Quantity(field, field, words, unit, False, _magnitude)]
-    parts = [
-        Quantity(f"{field}:{c}", field, f"{words}, {c}", unit, True, _component(i)) for i, c in enumerate(COMPONENTS)
-    ]
-    return found + parts
+    for i, c in enumerate(COMPONENTS):
+        found.append(Quantity(f"{field}:{c}", field, f"{words}, {c}", unit, True, _component(i)))
+    return found

@@ -3,14 +3,14 @@
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..base.errors import InputError, printable
-from ..base.files import exists, is_folder, read_object
-from ..base.suggestions import nearest
-from ..runs.run_folder import read_finished
+from ..base.files import read_object
+from ..base.suggestions import hint
+from ..runs.run_folder import read_finished, require_folder
 from ..runs.samples import LINES, read_samples
 from ..runs.summary import AGAIN, FILE, FINISHED, PROGRAMS, checked
 from .fields import MediumFields, read_fields
@@ -30,10 +30,10 @@ class RunResults:
     """What a run has left in its folder. Each part is read once, on first use; a part that the run did not write is
     None. Made by `open_run`."""
 
-    def __init__(self, folder: Path, summary: Dict[str, Any]) -> None:
+    def __init__(self, folder: Path, summary: dict[str, Any]) -> None:
         self.folder = folder
         #: summary.json as it stands: counts, totals, seconds of each phase, mesh
-        self.summary: Dict[str, Any] = summary
+        self.summary: dict[str, Any] = summary
 
     def __repr__(self) -> str:
         return f"<RunResults {self.folder}: {self.program}, {self.status}, '{self.title}'>"
@@ -64,7 +64,7 @@ class RunResults:
         return int(self.summary.get("processes", 1))
 
     @property
-    def tables(self) -> List[str]:
+    def tables(self) -> list[str]:
         """Names of the tables that are there: ['energy.csv', 'flow.csv', ...]."""
         return sorted(path.name for path in self.folder.glob("*.csv"))
 
@@ -73,17 +73,16 @@ class RunResults:
         file = name if name.endswith(".csv") else name + ".csv"
         if file not in self._read:
             if file not in self.tables:
-                known = self.tables
-                hint = f"did you mean '{nearest(file, known)}'? It has {', '.join(known)}" if known else NOT_WRITTEN
-                raise InputError(self.folder, "", f"has no table '{file}'", hint)
+                remedy = hint(file, self.tables) if self.tables else NOT_WRITTEN
+                raise InputError(self.folder, "", f"has no table '{file}'", remedy)
             self._read[file] = read_table(self.folder / file, finished=self.status == "done")
         return self._read[file]
 
     @cached_property
-    def _read(self) -> Dict[str, Table]:
+    def _read(self) -> dict[str, Table]:
         return {}
 
-    def _optional(self, name: str) -> Optional[Table]:
+    def _optional(self, name: str) -> Table | None:
         return self.table(name) if name in self.tables else None
 
     @property
@@ -97,26 +96,26 @@ class RunResults:
         return self.iterations["time"]
 
     @property
-    def energy(self) -> Optional[Table]:
+    def energy(self) -> Table | None:
         """The energy balance of each time step, uJ (docs/energy.md)."""
         return self._optional("energy.csv")
 
     @property
-    def coupling(self) -> Optional[Table]:
+    def coupling(self) -> Table | None:
         """Passes and residuals of each time step of a partitioned run."""
         return self._optional("coupling.csv")
 
     @cached_property
-    def centre_line(self) -> Optional[Line]:
+    def centre_line(self) -> Line | None:
         """'pressure' in Pa along the middle of the fluid."""
         return self._whole("centerline_pressure.csv", "centre line")
 
     @cached_property
-    def wall_line(self) -> Optional[Line]:
+    def wall_line(self) -> Line | None:
         """'radial' and 'axial' displacement in mm of the inner wall, mean over the circumference."""
         return self._whole("wall_displacement.csv", "wall")
 
-    def _whole(self, file: str, name: str) -> Optional[Line]:
+    def _whole(self, file: str, name: str) -> Line | None:
         """The line that is all of a table."""
         if file not in self.tables:
             return None
@@ -124,33 +123,31 @@ class RunResults:
         return line_of(name, path, read_samples(path, finished=self.status == "done")[""])
 
     @cached_property
-    def lines(self) -> Dict[str, Line]:
+    def lines(self) -> dict[str, Line]:
         """Lines that the case asks for, by name; empty for none."""
-        if LINES not in self.tables:
-            return {}
-        return lines_of(self.folder / LINES, finished=self.status == "done")
+        return lines_of(self.folder / LINES, finished=self.status == "done") if LINES in self.tables else {}
 
     @cached_property
-    def points(self) -> Dict[str, Table]:
+    def points(self) -> dict[str, Table]:
         """Points that the case asks for, by name: a row for each time. Empty for none."""
         return self._named("points.csv", "point")
 
     @cached_property
-    def planes(self) -> Dict[str, Table]:
+    def planes(self) -> dict[str, Table]:
         """Planes that the case asks for, by name: flow, mean pressure and area, a row for each time. Empty for none."""
         return self._named("planes.csv", "plane")
 
     @cached_property
-    def surfaces(self) -> Dict[str, Table]:
+    def surfaces(self) -> dict[str, Table]:
         """Forces on the surfaces that the case asks for, by name: a row for each time. Empty for none."""
         return self._named("surfaces.csv", "surface")
 
-    def _named(self, file: str, column: str) -> Dict[str, Table]:
+    def _named(self, file: str, column: str) -> dict[str, Table]:
         table = self._optional(file)
         return {} if table is None else table.groups(column)
 
     @cached_property
-    def openings(self) -> Dict[str, Opening]:
+    def openings(self) -> dict[str, Opening]:
         """Openings by name; empty for a run without fluid."""
         table = self._optional("openings.csv")
         if table is not None:
@@ -161,13 +158,11 @@ class RunResults:
     @property
     def has_samples(self) -> bool:
         """Whether there is any line, opening, plane or point."""
-        lines = (self.centre_line, self.wall_line)
-        return any(line is not None for line in lines) or bool(
-            self.lines or self.openings or self.planes or self.points
-        )
+        lines = self.centre_line is not None or self.wall_line is not None
+        return lines or bool(self.lines or self.openings or self.planes or self.points)
 
     @cached_property
-    def fields(self) -> Dict[str, MediumFields]:
+    def fields(self) -> dict[str, MediumFields]:
         """Fields by medium, 'fluid' and 'wall'; empty when the run has written none. Values are read on demand."""
         return read_fields(self.folder)
 
@@ -184,13 +179,13 @@ class RunResults:
 
     def picture(
         self,
-        field: Optional[str] = None,
-        time: Optional[float] = None,
+        field: str | None = None,
+        time: float | None = None,
         factor: float = 1.0,
-        cut: Optional[bool] = None,
-        unit: Optional[str] = None,
-        span: Optional[Tuple[float, float]] = None,
-        view: Optional[str] = None,
+        cut: bool | None = None,
+        unit: str | None = None,
+        span: tuple[float, float] | None = None,
+        view: str | None = None,
     ) -> "Figure":
         """The vessel coloured by a field as a matplotlib figure: at a time in ms (default: the last), moved by `factor`
         times the displacement, `cut` open by a plane through its middle or not (default: for the velocity), in 'kPa',
@@ -215,7 +210,7 @@ class RunResults:
             raise InputError(self.folder / "fields.h5", "", problem, "put back its own, or run it again")
 
 
-def open_run(folder: "Union[str, PathLike[str]]", unfinished: bool = False) -> RunResults:
+def open_run(folder: "str | PathLike[str]", unfinished: bool = False) -> RunResults:
     """The run in a result folder.
 
     `unfinished`: also one that has not ended well or still goes on; what it has written so far is read. Raises
@@ -224,9 +219,7 @@ def open_run(folder: "Union[str, PathLike[str]]", unfinished: bool = False) -> R
     path = Path(folder)
     if not unfinished:
         return RunResults(path, read_finished(path))
-    if not is_folder(path):
-        problem = "is not a folder" if exists(path) else "no such folder"
-        raise InputError(path, "", problem, "give the folder that a run wrote with -o")
+    require_folder(path)
     summary = checked(path / FILE, read_object(path / FILE, FINISHED, AGAIN))
     if summary.get("program") not in PROGRAMS:
         raise InputError(path / FILE, "program", "is missing or unknown", "give the result folder of a driver")

@@ -1,31 +1,22 @@
 """What of a run is shown together: its surfaces by group, and which fields each has."""
 
 from dataclasses import dataclass
-from typing import Dict, List, Optional, Sequence, Tuple
+from typing import Sequence
 
 import numpy as np
 
 from ..drawing.camera import Camera, best_camera, longest_directions
+from .fields import MediumFields
 from .opening_faces import middle_of
 from .quantities import Quantity, quantities_of
 from .surfaces import Surface, Surfaces
 
 ON_LUMEN = ("wall_shear_stress", "tawss", "osi", "rrt")  # fields that are zero elsewhere
-OF_BOTH = ("displacement", "velocity")  # fields of fluid and wall that are one quantity
 FIRST = {False: ("wall_shear_stress", "displacement", "pressure"), True: ("velocity", "displacement", "pressure")}
 SNAPS = 0.995  # cosine of the angle to a coordinate axis that a cut's normal takes
 # Surfaces that are there by their group. Those of two-dimensional meshes are edges, which are swept around the axis.
-GROUPS: Dict[bool, Tuple[Tuple[str, str], ...]] = {
-    False: (("lumen", "lumen"), ("openings", "openings"), ("inner", "wall"), ("outer", "wall")),
-    True: (
-        ("fluid section", "section"),
-        ("wall section", "section"),
-        ("lumen", "lumen"),
-        ("openings", "openings"),
-        ("inner", "wall"),
-        ("outer", "wall"),
-    ),
-}
+IN_SPACE = (("lumen", "lumen"), ("openings", "openings"), ("inner", "wall"), ("outer", "wall"))
+GROUPS = {False: IN_SPACE, True: (("fluid section", "section"), ("wall section", "section"), *IN_SPACE)}
 
 
 @dataclass(frozen=True)
@@ -44,26 +35,30 @@ class CutPlane:
     normal: np.ndarray  # of length 1, (3,)
 
 
-def parts_of(meshes: Surfaces, plane: Optional[CutPlane]) -> List[Part]:
-    names = meshes.names
-    found = [Part(name, group, meshes.get(name)) for name, group in GROUPS[meshes.flat] if name in names]
+def parts_of(meshes: Surfaces, plane: CutPlane | None) -> list[Part]:
+    found = [Part(name, group, meshes.get(name)) for name, group in GROUPS[meshes.flat] if name in meshes.names]
     if plane is not None and not meshes.flat:
         cuts = [(medium, meshes.cut(medium, plane.origin, plane.normal)) for medium in meshes.media]
         found += [Part(f"{medium} cut", "cut", cut) for medium, cut in cuts if len(cut.triangles)]
     return found
 
 
-def middle_plane(meshes: Surfaces) -> Optional[CutPlane]:
+def middle_plane(meshes: Surfaces) -> CutPlane | None:
     """Through the middle of the fluid (without one, of the wall), spanned by the directions in which it spreads most;
     None in two dimensions."""
     if meshes.flat:
         return None
-    medium = meshes.media.get("fluid") or next(iter(meshes.media.values()))
+    medium = _main_medium(meshes)
     normal = longest_directions(medium.points)[2]
     nearest = int(np.argmax(np.abs(normal)))
     if abs(normal[nearest]) > SNAPS:
         normal = np.eye(3)[nearest]
     return CutPlane(0.5 * (medium.points.min(axis=0) + medium.points.max(axis=0)), normal)
+
+
+def _main_medium(meshes: Surfaces) -> MediumFields:
+    """The fluid; without one the wall."""
+    return meshes.media.get("fluid") or next(iter(meshes.media.values()))
 
 
 def key_of(medium: str, quantity: Quantity) -> str:
@@ -72,19 +67,15 @@ def key_of(medium: str, quantity: Quantity) -> str:
     return f"wall_{quantity.key}" if other else quantity.key
 
 
-def scene_quantities(meshes: Surfaces) -> Dict[str, Dict[str, Quantity]]:
+def scene_quantities(meshes: Surfaces) -> dict[str, dict[str, Quantity]]:
     """Quantities by key, then by medium."""
-    found: Dict[str, Dict[str, Quantity]] = {}
+    found: dict[str, dict[str, Quantity]] = {}
+    idle = ":y" if meshes.geometry == "axisymmetric" else ":z"  # what vectors of a two-dimensional scene do not have
     for name, medium in meshes.media.items():
         for quantity in quantities_of(medium):
-            if not (meshes.flat and quantity.key.endswith(_idle_component(meshes))):
+            if not (meshes.flat and quantity.key.endswith(idle)):
                 found.setdefault(key_of(name, quantity), {})[name] = quantity
     return found
-
-
-def _idle_component(meshes: Surfaces) -> str:
-    """The component that vectors of a two-dimensional scene do not have."""
-    return ":y" if meshes.geometry == "axisymmetric" else ":z"
 
 
 def first_quantity(keys: Sequence[str], flat: bool) -> str:
@@ -95,8 +86,7 @@ def first_quantity(keys: Sequence[str], flat: bool) -> str:
 def camera_of(meshes: Surfaces, swept: bool = False) -> Camera:
     """The usual view: two-dimensional scenes straight on, the axis across; swept ones from the open side."""
     if not meshes.flat:
-        medium = meshes.media.get("fluid") or next(iter(meshes.media.values()))
-        return best_camera(medium.points)
+        return best_camera(_main_medium(meshes).points)
     if meshes.geometry != "axisymmetric":
         return Camera(np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0]))
     if swept:
@@ -104,10 +94,10 @@ def camera_of(meshes: Surfaces, swept: bool = False) -> Camera:
     return Camera(np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0]))
 
 
-def views_of(meshes: Surfaces) -> List[Tuple[str, Camera, Optional[np.ndarray]]]:
+def views_of(meshes: Surfaces) -> list[tuple[str, Camera, np.ndarray | None]]:
     """Names, directions to look from (the usual one, along the axes, from the openings), and the middle to look at in
     mm."""
-    found: List[Tuple[str, Camera, Optional[np.ndarray]]] = [
+    found: list[tuple[str, Camera, np.ndarray | None]] = [
         ("section" if meshes.flat else "oblique", camera_of(meshes), None)
     ]
     if meshes.geometry == "axisymmetric":

@@ -3,12 +3,12 @@
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Dict, List, Mapping, Optional, Tuple
+from typing import Mapping
 
 import numpy as np
 
 from ..base.errors import InputError
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from .boundary import CORNERS, Boundary, boundary_of, straight_cells
 from .fields import MediumFields
 from .opening_faces import flat_pieces, named_openings
@@ -55,12 +55,12 @@ class Surface:
         return np.hstack([count, self.triangles]).ravel()
 
     @property
-    def names(self) -> List[str]:
+    def names(self) -> list[str]:
         """Names of the fields."""
         return self.medium.names
 
     @property
-    def units(self) -> Dict[str, str]:
+    def units(self) -> dict[str, str]:
         return self.medium.units
 
     @property
@@ -114,20 +114,19 @@ class Surfaces:
         return CORNERS[next(iter(self._fields.values())).cells.shape[1]] == 3
 
     @property
-    def names(self) -> List[str]:
+    def names(self) -> list[str]:
         """Names that get() knows."""
         return [*self._boundaries, *(f"{medium} section" for medium in self._fields if self.flat)]
 
     @property
-    def openings(self) -> List[str]:
+    def openings(self) -> list[str]:
         """Names of the openings that were found on the fluid's boundary."""
         return list(self._parts_of_fluid[1])
 
     def get(self, name: str) -> Surface:
         """The surface of this name. Raises InputError."""
         if name not in self.names:
-            hint = f"did you mean '{nearest(name, self.names)}'? It has {', '.join(self.names)}"
-            raise InputError(self._folder, "", f"has no surface '{name}'", hint)
+            raise InputError(self._folder, "", f"has no surface '{name}'", hint(name, self.names))
         if name not in self._boundaries:
             medium = self._fields[name.removesuffix(" section")]
             return made(name, medium, straight_cells(medium.cells))
@@ -149,8 +148,8 @@ class Surfaces:
         return self._boundaries[name][1].faces
 
     @cached_property
-    def _boundaries(self) -> Dict[str, Tuple[str, Boundary]]:
-        found: Dict[str, Tuple[str, Boundary]] = {}
+    def _boundaries(self) -> dict[str, tuple[str, Boundary]]:
+        found: dict[str, tuple[str, Boundary]] = {}
         if "fluid" in self._fields:
             whole, openings, interface = self._parts_of_fluid
             closed = np.ones(len(whole.faces), dtype=bool)
@@ -171,7 +170,7 @@ class Surfaces:
         return {name: (medium, part) for name, (medium, part) in found.items() if len(part.faces)}
 
     @cached_property
-    def _parts_of_fluid(self) -> Tuple[Boundary, Dict[str, np.ndarray], np.ndarray]:
+    def _parts_of_fluid(self) -> tuple[Boundary, dict[str, np.ndarray], np.ndarray]:
         """The fluid's boundary without the axis; its faces of each opening; whether each is on the wall."""
         fluid = self._fields["fluid"]
         whole, interface = self._wholes["fluid"], self._shared["fluid"]
@@ -181,7 +180,7 @@ class Surfaces:
         return whole, named_openings(fluid, whole, pieces, self._known_openings, self.up, turned), interface
 
     @cached_property
-    def _wholes(self) -> Dict[str, Boundary]:
+    def _wholes(self) -> dict[str, Boundary]:
         """Boundary of each medium, without the axis of an axisymmetric scene."""
         found = {}
         for name, medium in self._fields.items():
@@ -193,15 +192,14 @@ class Surfaces:
         return found
 
     @cached_property
-    def _shared(self) -> Dict[str, np.ndarray]:
+    def _shared(self) -> dict[str, np.ndarray]:
         """Whether each face of a medium is also one of the other. Nodes there have the same places, to the bit."""
         points = [medium.points for medium in self._fields.values()]
         numbers = np.unique(np.concatenate(points), axis=0, return_inverse=True)[1]
         places = dict(zip(self._fields, np.split(numbers, np.cumsum([len(each) for each in points])[:-1])))
         keys = [np.sort(places[name][whole.faces], axis=1) for name, whole in self._wholes.items()]
         of, counts = np.unique(np.concatenate(keys), axis=0, return_inverse=True, return_counts=True)[1:]
-        shared = np.split(counts[of] == 2, np.cumsum([len(each) for each in keys])[:-1])
-        return dict(zip(self._fields, shared))
+        return dict(zip(self._fields, np.split(counts[of] == 2, np.cumsum([len(each) for each in keys])[:-1])))
 
 
 def made(name: str, medium: MediumFields, parts: np.ndarray) -> Surface:
@@ -217,7 +215,7 @@ def displaced(surface: Surface, time: float, factor: float = 1.0) -> np.ndarray:
     return surface.points + factor * surface.at(time, "displacement")
 
 
-def largest_at(surface: Surface, values: np.ndarray) -> Tuple[float, Optional[np.ndarray]]:
+def largest_at(surface: Surface, values: np.ndarray) -> tuple[float, np.ndarray | None]:
     """The largest of these values at its points, and where that is, mm; None without points."""
     if not len(values):
         return float("nan"), None

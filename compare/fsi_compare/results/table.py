@@ -1,12 +1,12 @@
 """Any table of a result folder: columns by name, with the units that its header states."""
 
 from pathlib import Path
-from typing import Any, Dict, Iterator, Mapping, Sequence
+from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from ..base.errors import InputError
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from ..runs.columns import number, numbers, read_fields
 from .units import split_unit
 
@@ -35,7 +35,7 @@ class Table(Mapping[str, np.ndarray]):
         self._headers = {short[header]: header for header in columns}
         self._names = {header: name for name, header in self._headers.items()}
         #: unit of each column by its name, "" for none
-        self.units: Dict[str, str] = {short[header]: unit for header, (_, unit) in parts.items()}
+        self.units: dict[str, str] = {short[header]: unit for header, (_, unit) in parts.items()}
 
     def __getitem__(self, name: str) -> np.ndarray:
         return self._columns[self._name(name)]
@@ -70,7 +70,7 @@ class Table(Mapping[str, np.ndarray]):
             rows &= self[name] == value
         return self._rows(rows)
 
-    def groups(self, name: str) -> "Dict[Any, Table]":
+    def groups(self, name: str) -> "dict[Any, Table]":
         """One table for each value of a column, in the order in which they come. Raises MissingColumn."""
         column = self[name]
         return {value: self._rows(column == value) for value in dict.fromkeys(column.tolist())}
@@ -83,12 +83,7 @@ class Table(Mapping[str, np.ndarray]):
             return name
         if name in self._names:
             return self._names[name]
-        raise MissingColumn(
-            self.path,
-            "",
-            f"has no column '{name}'",
-            f"did you mean '{nearest(name, list(self._columns))}'? It has {', '.join(self._columns)}",
-        )
+        raise MissingColumn(self.path, "", f"has no column '{name}'", hint(name, self._columns))
 
 
 def read_table(path: Path, finished: bool = True) -> Table:

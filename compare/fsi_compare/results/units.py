@@ -1,13 +1,12 @@
 """Units in the headers of tables: a column's name ends with its unit, `flow_mm3_per_ms` is a flow in mm^3/ms."""
 
 import re
-from typing import Optional, Tuple
 
 SYMBOLS = ("ms", "s", "mm", "mg", "Pa", "kPa", "uN", "mN", "N", "uJ", "mJ", "uW", "mW", "deg", "rad", "MiB")
 _FACTOR = re.compile(rf"({'|'.join(SYMBOLS)})([2-9]?)$")
 
 
-def split_unit(header: str) -> Tuple[str, str]:
+def split_unit(header: str) -> tuple[str, str]:
     """('inlet_flow', 'mm^3/ms') for 'inlet_flow_mm3_per_ms'; ('step', '') for a column without unit. The longest end
     that is a unit counts, and something of the name is always left."""
     words = header.split("_")
@@ -18,7 +17,7 @@ def split_unit(header: str) -> Tuple[str, str]:
     return header, ""
 
 
-def _unit(text: str) -> Optional[str]:
+def _unit(text: str) -> str | None:
     """'mm^3/ms' for 'mm3_per_ms', '1/ms' for 'per_ms', 'Pa ms' for 'Pa_ms'; None for what is no unit."""
     above, *below = re.split(r"(?:^|_)per_", text)
     if text.endswith("_per") or (not above and not below):
@@ -30,6 +29,6 @@ def _unit(text: str) -> Optional[str]:
     return " ".join(map(str, tops)) + "".join(f"/{bottom}" for bottom in bottoms)
 
 
-def _factor(word: str) -> Optional[str]:
+def _factor(word: str) -> str | None:
     found = _FACTOR.match(word)
     return None if found is None else found[1] + (f"^{found[2]}" if found[2] else "")

@@ -2,7 +2,7 @@
 
 import math
 from pathlib import Path
-from typing import Dict, List, Mapping, Sequence
+from typing import Mapping, Sequence
 
 import numpy as np
 
@@ -18,7 +18,7 @@ INTERRUPTED = "the run was interrupted while writing; run it again"
 WENT_WRONG = "the run went wrong before this time; look at its run.log"
 
 
-class Columns(Dict[str, np.ndarray]):
+class Columns(dict[str, np.ndarray]):
     """Columns of a file. Asking for another one is an InputError about the file, not a KeyError of the program."""
 
     def __init__(self, path: Path, columns: Mapping[str, np.ndarray]) -> None:
@@ -36,7 +36,7 @@ def number(field: str) -> float:
     return float(field)
 
 
-def read_fields(path: Path, finished: bool = True) -> Dict[str, List[str]]:
+def read_fields(path: Path, finished: bool = True) -> dict[str, list[str]]:
     """The fields of each column by its name. `finished`: of a run that has ended, so that a last line without end is a
     mistake; else it is left out. Raises InputError."""
     text = read_text(path, FINISHED, AGAIN)
@@ -100,12 +100,10 @@ def read_iterations(folder: Path, needed: Sequence[str]) -> Columns:
     """`iterations.csv`, a line for each time step. Raises InputError."""
     path = folder / ITERATIONS
     columns = read_columns(path, needed)
-    for name in needed:
-        if np.any(columns[name] < 0):
-            line = int(np.flatnonzero(columns[name] < 0)[0]) + 2
-            raise InputError(path, f"line {line}", f"{name} is negative", "run it again")
-    for name in ("step", "time_ms"):
-        if name in columns and np.any(np.diff(columns[name]) <= 0):
-            line = int(np.flatnonzero(np.diff(columns[name]) <= 0)[0]) + 3
-            raise InputError(path, f"line {line}", f"{name} does not increase", "run it again")
+    wrong = [(columns[name] < 0, 2, f"{name} is negative") for name in needed]
+    rising = [name for name in ("step", "time_ms") if name in columns]
+    wrong += [(np.diff(columns[name]) <= 0, 3, f"{name} does not increase") for name in rising]
+    for rows, first_line, problem in wrong:
+        if rows.any():
+            raise InputError(path, f"line {int(np.argmax(rows)) + first_line}", problem, AGAIN)
     return columns

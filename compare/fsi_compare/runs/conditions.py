@@ -2,7 +2,7 @@
 in their waves for that reason too, whatever else is compared."""
 
 from dataclasses import dataclass
-from typing import List, Optional, Sequence
+from typing import Sequence
 
 import numpy as np
 
@@ -15,7 +15,7 @@ SAME = 1e-6  # relative: times that are nearer were written with different round
 @dataclass(frozen=True)
 class Conditions:
     mesh: str  # in words; empty: not recorded
-    mesh_identity: Optional[str]  # equal for equal meshes; None: not recorded
+    mesh_identity: str | None  # equal for equal meshes; None: not recorded
     smallest_step: float  # ms
     largest_step: float  # ms; greater where a restart changed it
     end: float  # ms
@@ -44,7 +44,7 @@ def conditions(run: Run) -> Conditions:
     )
 
 
-def departures(found: Sequence[Conditions], labels: Sequence[str]) -> List[str]:
+def departures(found: Sequence[Conditions], labels: Sequence[str]) -> list[str]:
     """A sentence, without its full stop, for each of mesh, step and length in which runs differ, naming each run's."""
 
     def differ(values: Sequence[float]) -> bool:

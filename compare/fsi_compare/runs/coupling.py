@@ -1,19 +1,19 @@
 """How a run has coupled fluid and wall, in the words of its `summary.json`: `interface`, `block` or `monolithic`
 (docs/coupling.md). Results of earlier versions do not say their kind, and older ones no scheme."""
 
-from typing import Any, Mapping, Optional
+from typing import Any, Mapping
 
 from ..base.errors import printable
 from .summary import PROGRAMS
 
 
-def coupling_kind(summary: Mapping[str, Any]) -> Optional[str]:
+def coupling_kind(summary: Mapping[str, Any]) -> str | None:
     """`interface`, `block` or `monolithic`; None: the summary does not say, or one medium is alone."""
     kind = summary.get("coupling_kind")
     return printable(kind) if isinstance(kind, str) else None
 
 
-def chosen_scheme(summary: Mapping[str, Any]) -> Optional[str]:
+def chosen_scheme(summary: Mapping[str, Any]) -> str | None:
     """The coupling scheme of a run of `fsi-partitioned`, named by the case or not; None: it does not say."""
     choices = summary.get("choices")
     choice = choices.get("partitioned.scheme") if isinstance(choices, Mapping) else None

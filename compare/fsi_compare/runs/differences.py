@@ -1,12 +1,12 @@
 """How far two runs' pressure waves are apart."""
 
-import math
 from dataclasses import dataclass
-from typing import Any, List, Optional, Sequence
+from typing import Any, Sequence
 
 import numpy as np
 
 from .pressure_waves import PressureWaves
+from .waves import norm
 
 
 @dataclass(frozen=True)
@@ -14,32 +14,19 @@ class Difference:
     """Norms of p - p_reference over the centre line; the relative ones are None where the reference is zero."""
 
     max_norm: float  # Pa
-    max_relative: Optional[float]  # to max |p_reference| at the same time
+    max_relative: float | None  # to max |p_reference| at the same time
     l2_norm: float  # Pa mm^(1/2)
-    l2_relative: Optional[float]  # to the L2 norm of p_reference at the same time
-
-
-def l2_norm(z: np.ndarray, values: np.ndarray) -> float:
-    """(integral of values^2 dz)^(1/2) by the trapezoidal rule."""
-    squares = values * values
-    return math.sqrt(float(np.sum(0.5 * (squares[1:] + squares[:-1]) * np.diff(z))))
+    l2_relative: float | None  # to the L2 norm of p_reference at the same time
 
 
 def difference(z: np.ndarray, reference: np.ndarray, other: np.ndarray) -> Difference:
     """Difference of two waves, in Pa, at the same points z, in mm."""
-    max_norm = float(np.max(np.abs(other - reference)))
-    l2 = l2_norm(z, other - reference)
-    max_reference = float(np.max(np.abs(reference)))
-    l2_reference = l2_norm(z, reference)
-    return Difference(
-        max_norm=max_norm,
-        max_relative=max_norm / max_reference if max_reference > 0 else None,
-        l2_norm=l2,
-        l2_relative=l2 / l2_reference if l2_reference > 0 else None,
-    )
+    largest, size = (float(np.max(np.abs(values))) for values in (other - reference, reference))
+    l2, l2_size = norm(z, other - reference), norm(z, reference)
+    return Difference(largest, largest / size if size > 0 else None, l2, l2 / l2_size if l2_size > 0 else None)
 
 
-def differences_at(reference: PressureWaves, other: PressureWaves, times: Sequence[float]) -> List[Difference]:
+def differences_at(reference: PressureWaves, other: PressureWaves, times: Sequence[float]) -> list[Difference]:
     """Differences at the given times, in ms, on the reference's points."""
     other = other.on(reference.z)
     return [difference(reference.z, reference.at(time), other.at(time)) for time in times]
@@ -50,7 +37,7 @@ class OverTime:
     """Each norm's largest value over the time levels that both runs have."""
 
     levels: int
-    largest: Optional[Difference]  # None when there is no common level
+    largest: Difference | None  # None when there is no common level
 
 
 def largest_difference(reference: PressureWaves, other: PressureWaves) -> OverTime:

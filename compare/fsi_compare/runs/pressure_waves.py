@@ -1,9 +1,12 @@
 """The pressure along the centre line over time, and the wave in it: crests and their speed."""
 
 from dataclasses import dataclass
-from typing import Optional, Tuple
+from pathlib import Path
 
 import numpy as np
+
+from ..base.errors import InputError
+from .levels import between_levels
 
 SPEED_WINDOW_MS = (4.5, 9.0)  # between start-up at the inlet and the arrival of reflections
 
@@ -32,7 +35,13 @@ class PressureWaves:
         """Whether `time`, in ms, lies between the first and the last level."""
         return self.times[0] - self.time_tolerance <= time <= self.times[-1] + self.time_tolerance
 
-    def level(self, time: float) -> Optional[int]:
+    def require(self, time: float, file: str | Path, key: str) -> None:
+        """Raises InputError about a file and key for a time, in ms, that is not covered."""
+        if not self.covers(time):
+            remedy = f"give times between {self.times[0]:g} and {self.times[-1]:g} ms"
+            raise InputError(file, key, f"{time:g} ms is outside the run", remedy)
+
+    def level(self, time: float) -> int | None:
         """Index of the level at `time`, in ms; None when no level is there."""
         nearest = int(np.argmin(np.abs(self.times - time)))
         return nearest if abs(self.times[nearest] - time) <= self.time_tolerance else None
@@ -40,17 +49,17 @@ class PressureWaves:
     def at(self, time: float) -> np.ndarray:
         """Pressure in Pa at `time` in ms, (points,); linear between the neighbouring levels. `time` must be covered."""
         assert self.covers(time)
-        level = self.level(time)
-        if level is not None:
-            return self.pressure[level]
-        after = int(np.searchsorted(self.times, time))
-        weight = (time - self.times[after - 1]) / (self.times[after] - self.times[after - 1])
-        return (1 - weight) * self.pressure[after - 1] + weight * self.pressure[after]
+        return between_levels(self.times, time, self.time_tolerance, self.pressure.__getitem__)
 
     def covers_line(self, z: np.ndarray) -> bool:
         """Whether all points `z`, in mm, lie on this run's centre line."""
         tolerance = 1e-9 * (self.z[-1] - self.z[0])
         return self.z[0] - tolerance <= z[0] and z[-1] <= self.z[-1] + tolerance
+
+    def elsewhere(self, z: np.ndarray, file: str | Path, key: str, whose: str) -> InputError:
+        """About a line that does not cover the points `z`, which are `whose`."""
+        problem = f"runs from {self.z[0]:g} to {self.z[-1]:g} mm, {whose} from {z[0]:g} to {z[-1]:g} mm"
+        return InputError(file, key, problem, "compare runs on the same geometry")
 
     def on(self, z: np.ndarray) -> "PressureWaves":
         """The waves at other points, in mm; linear between this run's points, which must cover them."""
@@ -81,7 +90,7 @@ def peak(z: np.ndarray, pressure: np.ndarray) -> Crest:
     return crest_at(z, pressure, int(np.argmax(pressure)))
 
 
-def crest_speed(waves: PressureWaves, window: Tuple[float, float] = SPEED_WINDOW_MS) -> Optional[float]:
+def crest_speed(waves: PressureWaves, window: tuple[float, float] = SPEED_WINDOW_MS) -> float | None:
     """Speed in mm/ms of the main crest: slope of the least-squares line through its positions at the levels of
     `window`.
 
@@ -96,12 +105,11 @@ def crest_speed(waves: PressureWaves, window: Tuple[float, float] = SPEED_WINDOW
     levels = np.flatnonzero((waves.times >= window[0] - tolerance) & (waves.times <= window[1] + tolerance))
     if len(levels) < 3:
         return None
-    first = waves.pressure[levels[0]]
-    here = int(np.argmax(first))
-    if not 0 < here < len(waves.z) - 1 or first[here] <= 0:
+    before = waves.pressure[levels[0]]
+    here = int(np.argmax(before))
+    if not 0 < here < len(waves.z) - 1 or before[here] <= 0:
         return None
     positions = []
-    before = first
     for level in levels:
         pressure = waves.pressure[level]
         crests = [i for i in _maxima(pressure) if pressure[i] > 0 and _on_same_hump(before, here, i)]

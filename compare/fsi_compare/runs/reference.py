@@ -2,10 +2,11 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Optional
+from typing import Any
 
 from ..base.errors import InputError, printable
 from ..base.files import read_object
+from ..base.numbers import is_number
 from .waves import QUANTITIES, Quantity, Waves, read_waves
 
 FILE = "reference.json"
@@ -18,10 +19,10 @@ class WaveReference:
 
     folder: Path
     description: str  # how it was computed
-    own_error: Dict[str, float]  # by quantity's column, relative L2
-    waves: Dict[str, Waves]  # by quantity's column
-    case: Dict[str, Any]  # the physical entries of the case that it solves, by dotted key; empty: not recorded
-    step: Optional[float] = None  # ms; None: extrapolated to zero
+    own_error: dict[str, float]  # by quantity's column, relative L2
+    waves: dict[str, Waves]  # by quantity's column
+    case: dict[str, Any]  # the physical entries of the case that it solves, by dotted key; empty: not recorded
+    step: float | None = None  # ms; None: extrapolated to zero
 
     def of(self, quantity: Quantity) -> Waves:
         return self.waves[quantity.column]
@@ -31,22 +32,17 @@ def read_reference(folder: Path) -> WaveReference:
     """Reads a kept reference. Raises InputError."""
     path = folder / FILE
     data = read_object(path, REMEDY, REMEDY)
-    own, case, step = data.get("own_error"), data.get("case", {}), data.get("step_ms")
-    if not isinstance(own, dict):
-        raise InputError(path, "own_error", "is not a JSON object", REMEDY)
-    for q in QUANTITIES:
-        if not _is_positive(own.get(q.column)):
-            raise InputError(path, f"own_error.{q.column}", "is not a positive number", REMEDY)
+    own: Any = data.get("own_error")
+    case, step = data.get("case", {}), data.get("step_ms")
+    for key, section in (("own_error", own), ("case", case)):
+        if not isinstance(section, dict):
+            raise InputError(path, key, "is not a JSON object", REMEDY)
+    numbers = {f"own_error.{q.column}": own.get(q.column) for q in QUANTITIES}
+    for key, value in {**numbers, **({} if step is None else {"step_ms": step})}.items():
+        if not (is_number(value) and 0 < value < 1e300):
+            raise InputError(path, key, "is not a positive number", REMEDY)
     if not isinstance(data.get("description"), str):
         raise InputError(path, "description", "is not a text", REMEDY)
-    if not isinstance(case, dict):
-        raise InputError(path, "case", "is not a JSON object", REMEDY)
-    if step is not None and not _is_positive(step):
-        raise InputError(path, "step_ms", "is not a positive number", REMEDY)
     waves = {q.column: read_waves(folder / q.file, q.column) for q in QUANTITIES}
     errors = {q.column: float(own[q.column]) for q in QUANTITIES}
     return WaveReference(folder, printable(data["description"]), errors, waves, case, step)
-
-
-def _is_positive(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and 0 < value < 1e300

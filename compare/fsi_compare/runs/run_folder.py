@@ -15,6 +15,9 @@ from .samples import CENTRE_LINE, LINES, requested_line, waves_along
 from .summary import FILE, read_summary
 
 
+ALONG_AXIS = "centerline_pressure.csv"
+
+
 @dataclass(frozen=True)
 class Run:
     """A finished run and its pressure along the centre line."""
@@ -27,11 +30,15 @@ class Run:
     pressure: PressureWaves
 
 
-def read_finished(folder: Path) -> dict:
-    """`summary.json` of a folder that must be a finished run's. Raises InputError."""
+def require_folder(folder: Path) -> None:
     if not is_folder(folder):
         problem = "is not a folder" if exists(folder) else "no such folder"
         raise InputError(folder, "", problem, "give the folder that a run wrote with -o")
+
+
+def read_finished(folder: Path) -> dict:
+    """`summary.json` of a folder that must be a finished run's. Raises InputError."""
+    require_folder(folder)
     return read_summary(folder / FILE)
 
 
@@ -39,33 +46,37 @@ def read_run(folder: Path) -> Run:
     """Reads `summary.json` and `centerline_pressure.csv`, or of a bent tube its centre line in `lines.csv`, arc length
     in place of z. Raises InputError naming file, key and problem unless the run is finished and both files are
     complete."""
-    summary = read_finished(folder)
-    along_axis = folder / "centerline_pressure.csv"
-    found = is_file(folder / LINES) and not exists(along_axis)
+    summary, file = read_finished(folder), pressure_file(folder)
     return Run(
         folder=folder,
         program=summary["program"],
         version=printable(summary.get("version", "")),
         title=printable(summary.get("title", "")),
         summary=summary,
-        pressure=waves_along(folder / LINES, CENTRE_LINE) if found else read_pressure(along_axis),
+        pressure=read_pressure(file) if file.name == ALONG_AXIS else waves_along(file, CENTRE_LINE),
     )
+
+
+def pressure_file(folder: Path) -> Path:
+    """The table with the pressure along the centre line; where there is none, that which ought to be there."""
+    found = is_file(folder / LINES) and not exists(folder / ALONG_AXIS)
+    return folder / (LINES if found else ALONG_AXIS)
 
 
 def has_pressure(folder: Path) -> bool:
     """Whether there is a line to read the pressure along. Raises InputError."""
     lines = folder / LINES
-    return is_file(folder / "centerline_pressure.csv") or (is_file(lines) and requested_line(lines) is not None)
+    return is_file(folder / ALONG_AXIS) or (is_file(lines) and requested_line(lines) is not None)
 
 
 def read_pressure_line(folder: Path) -> PressureWaves:
     """The pressure along the centre line; of a vessel without one along the line of `lines.csv` that stands for it
     (runs/samples.py), its arc length in place of z. Raises InputError."""
-    along_axis, lines = folder / "centerline_pressure.csv", folder / LINES
-    if exists(along_axis) or not is_file(lines):
-        return read_pressure(along_axis)
-    name = requested_line(lines)
-    return waves_along(lines, CENTRE_LINE if name is None else name)
+    file = pressure_file(folder)
+    if file.name == ALONG_AXIS:
+        return read_pressure(file)
+    name = requested_line(file)
+    return waves_along(file, CENTRE_LINE if name is None else name)
 
 
 def read_pressure(path: Path) -> PressureWaves:

@@ -6,7 +6,6 @@ values, NaN where the file has an empty cell: no velocity in a wall.
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
@@ -27,11 +26,11 @@ class Samples:
     """One point, line or plane over time."""
 
     times: np.ndarray  # ms, (levels,)
-    places: Dict[str, np.ndarray]  # of PLACES, (points,)
-    values: Dict[str, np.ndarray]  # by column, (levels, points)
+    places: dict[str, np.ndarray]  # of PLACES, (points,)
+    values: dict[str, np.ndarray]  # by column, (levels, points)
 
 
-def read_samples(path: Path, finished: bool = True) -> Dict[str, Samples]:
+def read_samples(path: Path, finished: bool = True) -> dict[str, Samples]:
     """The samples of a table by name, in the order in which they come; the whole of a table without a column of names
     is one sample "". `finished`: of a run that has ended; else an incomplete last level is left out. Raises
     InputError naming line and column unless each has the same places at each time."""
@@ -49,7 +48,7 @@ def read_samples(path: Path, finished: bool = True) -> Dict[str, Samples]:
     }
 
 
-def _by_level(path: Path, name: str, columns: Dict[str, np.ndarray], finished: bool) -> Samples:
+def _by_level(path: Path, name: str, columns: dict[str, np.ndarray], finished: bool) -> Samples:
     time = columns[TIME]
     points = int(np.argmax(time != time[0])) or len(time)
     whole = len(time) if finished else len(time) - len(time) % points
@@ -65,11 +64,10 @@ def _by_level(path: Path, name: str, columns: Dict[str, np.ndarray], finished: b
     return Samples(times, {column: place[0] for column, place in places.items()}, levels)
 
 
-def requested_line(path: Path) -> Optional[str]:
+def requested_line(path: Path) -> str | None:
     """The line of `lines.csv` along which a vessel's pressure is read: the centre line that was found, else the first
     that the case asks for with a pressure all along it. None where no line has one. Raises InputError."""
-    lines = read_samples(path)
-    for name, line in sorted(lines.items(), key=lambda entry: entry[0] != CENTRE_LINE):
+    for name, line in sorted(read_samples(path).items(), key=lambda entry: entry[0] != CENTRE_LINE):
         pressure = line.values.get("pressure_Pa")
         if pressure is not None and len(line.places.get("s_mm", ())) > 1 and not np.isnan(pressure).any():
             return name
@@ -100,7 +98,7 @@ class Difference:
     levels: int  # compared
 
 
-def differences_of_tables(one: Path, other: Path, tables: Tuple[str, ...]) -> List[Difference]:
+def differences_of_tables(one: Path, other: Path, tables: tuple[str, ...]) -> list[Difference]:
     """Differences between the columns of samples that two runs have in common, at the same places."""
     found = []
     for table in tables:
@@ -113,18 +111,17 @@ def differences_of_tables(one: Path, other: Path, tables: Tuple[str, ...]) -> Li
     return found
 
 
-def _differences(table: str, name: str, one: Samples, other: Samples) -> List[Difference]:
+def _differences(table: str, name: str, one: Samples, other: Samples) -> list[Difference]:
     tolerance = 1e-9 * max(abs(one.times[-1]), abs(other.times[-1]))
     pairs = [(i, int(np.argmin(np.abs(other.times - time)))) for i, time in enumerate(one.times)]
     pairs = [(i, j) for i, j in pairs if abs(other.times[j] - one.times[i]) <= tolerance]
     points = next(iter(one.values.values())).shape[1]
-    same = all(
-        place in other.places
-        and len(at) == len(other.places[place])
-        and np.allclose(at, other.places[place], rtol=0, atol=1e-9 * (np.abs(at).max() + 1))
-        for place, at in one.places.items()
-    )
-    if not pairs or not same:
+
+    def is_at(there: np.ndarray | None, at: np.ndarray) -> bool:
+        near = 1e-9 * (np.abs(at).max() + 1)
+        return there is not None and len(at) == len(there) and np.allclose(at, there, rtol=0, atol=near)
+
+    if not pairs or not all(is_at(other.places.get(place), at) for place, at in one.places.items()):
         return []
     mine, theirs = (list(level) for level in zip(*pairs))
     found = []

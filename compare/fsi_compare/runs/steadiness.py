@@ -1,6 +1,6 @@
 """What a curve over time tells of its run: whether it alternates from step to step, and whether it repeats."""
 
-from typing import Mapping, Optional
+from typing import Mapping
 
 import numpy as np
 
@@ -15,7 +15,7 @@ def sawtooth(values: np.ndarray) -> float:
     return float(pairs.max()) if len(pairs) else 0.0
 
 
-def period_of(times: np.ndarray, flows: Mapping[str, np.ndarray]) -> Optional[float]:
+def period_of(times: np.ndarray, flows: Mapping[str, np.ndarray]) -> float | None:
     """The shortest time in ms after which a flow repeats, twice at least; None where none does, or for unequal
     steps."""
     steps = np.diff(times)
@@ -30,10 +30,9 @@ def _repeats(values: np.ndarray) -> int:
     span = float(np.ptp(values))
     if not span > 0 or float(np.ptp(values[len(values) // 2 :])) < 0.1 * span:
         return 0
+    near = SAME * span
     for lag in range(2, len(values) // 2 + 1):
-        if abs(values[-1] - values[-1 - lag]) <= SAME * span and np.all(
-            np.abs(values[lag:] - values[:-lag]) <= SAME * span
-        ):
+        if abs(values[-1] - values[-1 - lag]) <= near and np.all(np.abs(values[lag:] - values[:-lag]) <= near):
             return lag
     return 0
 

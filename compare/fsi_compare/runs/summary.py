@@ -3,7 +3,7 @@
 import math
 import shlex
 from pathlib import Path
-from typing import Any, Callable, Dict, Mapping, Optional, Union
+from typing import Any, Callable, Mapping
 
 from ..base.errors import InputError
 from ..base.files import read_object
@@ -13,27 +13,17 @@ PROGRAMS = {"fsi-monolithic": "monolithic", "fsi-partitioned": "partitioned"}
 FINISHED = "give the result folder of a finished run"
 AGAIN = "the run was interrupted while writing; run it again"
 SPREAD = ("minimum", "mean", "maximum")  # of what each process of a run has
-PER_PROCESS = (
-    "threads",
-    "step_seconds",
-    "peak_memory_MiB",
-    "reading_memory_MiB",
-    "owned_nodes",
-    "halo_nodes",
-    "halo_unknowns",
-    "neighbours",
-    "messages_per_step",
-    "bytes_per_step",
-    "reductions_per_step",
-)
+PER_PROCESS: tuple[str, ...] = ("threads", "step_seconds", "peak_memory_MiB", "reading_memory_MiB")
+PER_PROCESS += ("owned_nodes", "halo_nodes", "halo_unknowns", "neighbours")
+PER_PROCESS += ("messages_per_step", "bytes_per_step", "reductions_per_step")
 MOST = 1 << 53  # counts up to here are exact as floating-point numbers too
 
 
-def _text(value: Any) -> Optional[str]:
+def _text(value: Any) -> str | None:
     return None if isinstance(value, str) else "is not a text"
 
 
-def _number(value: Any) -> Optional[str]:
+def _number(value: Any) -> str | None:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return "is not a number"
     if isinstance(value, float) and not math.isfinite(value):
@@ -41,13 +31,13 @@ def _number(value: Any) -> Optional[str]:
     return None if 0 <= value < 1e100 else "is negative" if value < 0 else "is too large"
 
 
-def _count(value: Any) -> Optional[str]:
+def _count(value: Any) -> str | None:
     if isinstance(value, bool) or not isinstance(value, int):
         return "is not a whole number"
     return None if 0 <= value <= MOST else "is negative" if value < 0 else "is too large"
 
 
-def _spread(value: Any) -> Optional[str]:
+def _spread(value: Any) -> str | None:
     """A number that is the same on all processes, or the least, the mean and the largest of theirs."""
     if not isinstance(value, dict):
         return _number(value)
@@ -64,20 +54,12 @@ class _Each(dict):
     """Entries of any name, all of one shape."""
 
 
-Shape = Union[Callable[[Any], Optional[str]], Mapping[str, Any]]
+Shape = Callable[[Any], str | None] | Mapping[str, Any]
 SHAPE: Mapping[str, Shape] = {
-    "title": _text,
-    "version": _text,
-    "case": _text,
-    "element": _text,
-    "geometry": _text,
-    "coupling_kind": _text,
-    "coupling_pass": _text,
-    "threads": _count,
-    "processes": _count,
+    **dict.fromkeys(("title", "version", "case", "element", "geometry", "coupling_kind", "coupling_pass"), _text),
+    **dict.fromkeys(("threads", "processes", "restarted_from_step"), _count),
     "per_process": {**{name: _spread for name in PER_PROCESS}, "phases": _Each(entry=_spread)},
     "peak_memory_MiB": _number,
-    "restarted_from_step": _count,
     "mesh": {"name": _text, "nodes": _count, "hash": _text},
     "unknowns": {"coupled": _count},
     "phases": _Each(entry={"calls": _count, "seconds": _number}),
@@ -89,7 +71,7 @@ SHAPE: Mapping[str, Shape] = {
 }
 
 
-def read_summary(path: Path) -> Dict[str, Any]:
+def read_summary(path: Path) -> dict[str, Any]:
     """Reads the summary of a run that reached its end. Only `program` and `status` are demanded; an entry that is null
     counts as missing. Raises InputError naming the key."""
     summary = read_object(path, FINISHED, AGAIN)
@@ -98,7 +80,7 @@ def read_summary(path: Path) -> Dict[str, Any]:
     return checked(path, summary)
 
 
-def checked(path: Path, summary: Dict[str, Any]) -> Dict[str, Any]:
+def checked(path: Path, summary: dict[str, Any]) -> dict[str, Any]:
     """The entries without nulls. Raises InputError for an entry of another kind."""
     return _checked(path, "", summary, SHAPE)
 
@@ -132,15 +114,14 @@ def _require_done(path: Path, summary: Mapping[str, Any]) -> None:
     resume = shlex.join(words)  # to be copied as it stands
     if status == "done":
         return
-    if status is None:
-        raise InputError(path, "status", "is missing", "run it again")
-    if status == "running":
-        raise InputError(path, "status", "the run is not finished", f"wait for its end or resume it with {resume}")
-    if status == "interrupted":
-        raise InputError(path, "status", "the run was interrupted", f"resume it with {resume}, or run it again")
-    if status == "not converged":
-        remedy = f"see {path.parent / 'run.log'}, change the solver's settings and run it again"
-        raise InputError(path, "status", "the run stopped without converging", remedy)
-    if status == "failed":
-        raise InputError(path, "status", "the run failed", f"see {path.parent / 'run.log'}")
-    raise InputError(path, "status", f"'{status}' is unknown", "it must be 'done'")
+    log = path.parent / "run.log"
+    change = f"see {log}, change the solver's settings and run it again"
+    known: dict[Any, tuple[str, str]] = {
+        None: ("is missing", "run it again"),
+        "running": ("the run is not finished", f"wait for its end or resume it with {resume}"),
+        "interrupted": ("the run was interrupted", f"resume it with {resume}, or run it again"),
+        "not converged": ("the run stopped without converging", change),
+        "failed": ("the run failed", f"see {log}"),
+    }
+    problem = known.get(status) if isinstance(status, (str, type(None))) else None
+    raise InputError(path, "status", *(problem or (f"'{status}' is unknown", "it must be 'done'")))

@@ -3,8 +3,9 @@
 import hashlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Mapping, Optional
+from typing import Any, Iterator, Mapping
 
+from ..base.numbers import number_of
 from ..base.files import is_file, listed, read_object
 from .columns import ITERATIONS, read_fields
 
@@ -20,8 +21,8 @@ class KeptBar:
     quantity: str
     unit: str
     value: float
-    error: Optional[float]  # None: not in the range where one can be given
-    error_percent: Optional[float]
+    error: float | None  # None: not in the range where one can be given
+    error_percent: float | None
     verdict: str
     advice: str
 
@@ -30,13 +31,13 @@ class KeptBar:
 class Verification:
     path: Path
     driver: str
-    bars: List[KeptBar]
+    bars: list[KeptBar]
 
 
-def find_verification(folder: Path, summary: Mapping[str, Any]) -> Optional[Verification]:
+def find_verification(folder: Path, summary: Mapping[str, Any]) -> Verification | None:
     """The bars for a run of the same `identity`, looked for in the run's own folder and in those around it. None where
     there are none. Raises InputError for a broken file."""
-    mine: Optional[Dict[str, Optional[str]]] = None
+    mine: dict[str, str | None] | None = None
     for path in _candidates(folder):
         data = read_object(path, AGAIN, AGAIN)
         mine = mine or identity(folder, summary)
@@ -58,7 +59,7 @@ def _candidates(folder: Path) -> Iterator[Path]:
             yield candidate / FILE
 
 
-def _fitting(path: Path, data: Dict[str, Any], mine: Mapping[str, Any]) -> Optional[Verification]:
+def _fitting(path: Path, data: dict[str, Any], mine: Mapping[str, Any]) -> Verification | None:
     sets = data.get("sets")
     for one in sets if isinstance(sets, list) else []:
         if isinstance(one, dict) and isinstance(one.get("run"), dict) and _same(mine, one["run"]):
@@ -67,19 +68,16 @@ def _fitting(path: Path, data: Dict[str, Any], mine: Mapping[str, Any]) -> Optio
     return None
 
 
-def identity(folder: Path, summary: Mapping[str, Any]) -> Dict[str, Optional[str]]:
+def identity(folder: Path, summary: Mapping[str, Any]) -> dict[str, str | None]:
     """What a run is recognised by: program, case, mesh, its steps and the iterations of each. The hash of a case holds
     what is solved, not how: step, end and tolerances are not in it. Newton's and the coupling's iterates are the same
     from run to run; runs with as many of them in each step were stopped at the same ones, whatever their tolerances are
     called. Raises InputError for a broken table."""
-    return {
-        **{name: summary.get(name) for name in ("program", "version", "case_hash")},
-        "mesh_hash": summary.get("mesh", {}).get("hash"),
-        "steps_hash": _steps_hash(folder / ITERATIONS),
-    }
+    found = {name: summary.get(name) for name in ("program", "version", "case_hash")}
+    return found | {"mesh_hash": summary.get("mesh", {}).get("hash"), "steps_hash": _steps_hash(folder / ITERATIONS)}
 
 
-def _steps_hash(table: Path) -> Optional[str]:
+def _steps_hash(table: Path) -> str | None:
     """SHA-256 of the steps; None: the run has not kept them."""
     if not is_file(table):
         return None
@@ -94,19 +92,6 @@ def _same(mine: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
 
 
 def _bar(entry: Mapping[str, Any]) -> KeptBar:
-    def number(name: str) -> Optional[float]:
-        value = entry.get(name)
-        return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else None
-
-    def text(name: str) -> str:
-        return str(entry.get(name) or "")
-
-    return KeptBar(
-        text("quantity"),
-        text("unit"),
-        number("value") or 0.0,
-        number("error"),
-        number("error_percent"),
-        text("verdict"),
-        text("advice"),
-    )
+    quantity, unit, verdict, advice = (str(entry.get(n) or "") for n in ("quantity", "unit", "verdict", "advice"))
+    value, error, percent = (number_of(entry, name) for name in ("value", "error", "error_percent"))
+    return KeptBar(quantity, unit, value or 0.0, error, percent, verdict, advice)

@@ -3,11 +3,11 @@
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, Sequence, Union
+from typing import Sequence
 
 import numpy as np
 
-from .levels import read_levels
+from .levels import between_levels, integral, read_levels
 
 
 @dataclass(frozen=True)
@@ -17,16 +17,14 @@ class Quantity:
     name: str
 
 
-WINDOW = (
-    0.7  # ms: takes most of the wall's thickness shear, of 0.4 and 0.9 ms, off the pressure (docs/evidence/evidence.md)
-)
+# ms: takes most of the wall's thickness shear, of 0.4 and 0.9 ms, off the pressure (docs/evidence/evidence.md).
+WINDOW = 0.7
 
 PRESSURE = Quantity("centerline_pressure.csv", "pressure_Pa", "centre-line pressure")
 AVERAGED = Quantity("averaged_pressure.csv", "averaged_pressure_Pa", f"centre-line pressure averaged over {WINDOW} ms")
 DISPLACEMENT = Quantity("wall_displacement.csv", "radial_mm", "wall displacement")
 WRITTEN = (PRESSURE, DISPLACEMENT)  # by the programs
 QUANTITIES = (PRESSURE, AVERAGED, DISPLACEMENT)  # in a reference's folder
-JUDGED = (AVERAGED, DISPLACEMENT)  # by which settings are chosen; the raw pressure is stated beside them
 
 
 @dataclass(frozen=True)
@@ -38,19 +36,13 @@ class Waves:
     def covers(self, time: float) -> bool:
         return self.times[0] - 1e-6 <= time <= self.times[-1] + 1e-6
 
-    def at(self, times: Union[Sequence[float], np.ndarray], z: np.ndarray) -> np.ndarray:
+    def at(self, times: Sequence[float] | np.ndarray, z: np.ndarray) -> np.ndarray:
         """(times, z), linear between levels and points; a level nearer than 1e-6 ms is taken as it is."""
         rows = []
         for time in times:
             if not self.covers(time):
                 raise ValueError(f"{time} ms is not between {self.times[0]} and {self.times[-1]} ms")
-            nearest = int(np.argmin(np.abs(self.times - time)))
-            if abs(self.times[nearest] - time) <= 1e-6:
-                row = self.values[nearest]
-            else:
-                after = int(np.searchsorted(self.times, time))
-                weight = (time - self.times[after - 1]) / (self.times[after] - self.times[after - 1])
-                row = (1 - weight) * self.values[after - 1] + weight * self.values[after]
+            row = between_levels(self.times, time, 1e-6, self.values.__getitem__)
             rows.append(row if np.array_equal(z, self.z) else np.interp(z, self.z, row))
         return np.array(rows)
 
@@ -63,9 +55,8 @@ def read_waves(path: Path, column: str) -> Waves:
 def averaged(waves: Waves, times: Sequence[float], window: float = WINDOW) -> Waves:
     """Mean over [t - window/2, t + window/2] of the waves, linear between levels; NaN where they do not cover that."""
     widths = np.diff(waves.times)[:, None]
-    integral = np.concatenate(
-        [np.zeros((1, len(waves.z))), np.cumsum(0.5 * widths * (waves.values[1:] + waves.values[:-1]), axis=0)]
-    )
+    sums = np.cumsum(0.5 * widths * (waves.values[1:] + waves.values[:-1]), axis=0)
+    integral = np.concatenate([np.zeros((1, len(waves.z))), sums])
 
     def until(time: float) -> np.ndarray:
         """Integral from the first level."""
@@ -81,7 +72,7 @@ def averaged(waves: Waves, times: Sequence[float], window: float = WINDOW) -> Wa
     return Waves(np.array(times, dtype=float), waves.z, np.array(rows))
 
 
-def read_run(folder: Path, times: Sequence[float]) -> Dict[str, Waves]:
+def read_run(folder: Path, times: Sequence[float]) -> dict[str, Waves]:
     """All quantities of a result folder by column, the averaged pressure at `times` (ms). Raises InputError."""
     waves = {q.column: read_waves(folder / q.file, q.column) for q in WRITTEN}
     return {**waves, AVERAGED.column: averaged(waves[PRESSURE.column], times)}
@@ -90,8 +81,7 @@ def read_run(folder: Path, times: Sequence[float]) -> Dict[str, Waves]:
 def norm(z: np.ndarray, values: np.ndarray) -> float:
     """(sum over the levels of the integral of values^2 dz)^(1/2), by the trapezoidal rule. Relative norms of equally
     spaced levels are those over space and time."""
-    squares = values * values
-    return math.sqrt(float(np.sum(0.5 * (squares[:, 1:] + squares[:, :-1]) * np.diff(z))))
+    return math.sqrt(integral(z, values * values))
 
 
 def relative_difference(other: Waves, reference: Waves, times: Sequence[float]) -> float:
@@ -99,11 +89,3 @@ def relative_difference(other: Waves, reference: Waves, times: Sequence[float]) 
     expected = reference.at(times, reference.z)
     size = norm(reference.z, expected)
     return norm(reference.z, other.at(times, reference.z) - expected) / size if size > 0 else math.nan
-
-
-def extrapolated(fine: Waves, coarse: Waves, factor: float) -> Waves:
-    """fine + factor (fine - coarse), point by point, at the times of the coarse waves that both have; factor 1 removes
-    a first-order error between a step and its half, 1/3 a second-order one."""
-    times = np.array([t for t in coarse.times if np.min(np.abs(fine.times - t)) <= 1e-6])
-    values = fine.at(times, fine.z)
-    return Waves(times, fine.z, values + factor * (values - coarse.at(times, fine.z)))

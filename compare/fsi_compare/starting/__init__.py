@@ -1,1 +1,1 @@
-"""Starting the programs: where they are, as processes of which none outlives fsi-compare, one study in a folder."""
+"""Starting the programs: where they are, and as processes of which none outlives fsi-compare."""

@@ -2,7 +2,7 @@
 
 import os
 import shutil
-from typing import List, Sequence
+from typing import Sequence
 
 from ..base.errors import InputError
 
@@ -12,7 +12,7 @@ def usable_cores() -> int:
     return len(os.sched_getaffinity(0))
 
 
-def launched(command: Sequence, processes: int) -> List[str]:
+def launched(command: Sequence, processes: int) -> list[str]:
     """The command that starts `command` as so many processes; itself for one. Raises InputError where there is no
     mpirun."""
     words = [str(word) for word in command]
@@ -20,14 +20,12 @@ def launched(command: Sequence, processes: int) -> List[str]:
         return words
     mpirun = shutil.which("mpirun")
     if mpirun is None:
-        raise InputError(
-            "mpirun", "", "is not on the path", "install the Debian package openmpi-bin, or run on one process"
-        )
+        remedy = "install the Debian package openmpi-bin, or run on one process"
+        raise InputError("mpirun", "", "is not on the path", remedy)
     # Placing is left to the system: a bound process cannot get out of the way of what else the machine does. Processes
     # that wait give way: on a busy machine a step on two took twenty times as long without.
     # --quiet ends mpirun of Open MPI 5 with an error; without_chatter() takes out what it would have kept back.
-    options = ["-n", str(processes), "--oversubscribe", "--bind-to", "none"]
-    options += ["--mca", "mpi_yield_when_idle", "1"]
+    options = ["-n", str(processes), "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"]
     if os.geteuid() == 0:
         options.append("--allow-run-as-root")
     return [mpirun, *options, *words]

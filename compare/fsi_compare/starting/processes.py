@@ -8,7 +8,7 @@ import threading
 import time
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, IO, Iterable, Iterator, List, Optional, Sequence
+from typing import Any, Callable, IO, Iterable, Iterator, Sequence
 
 from ..base import interruption
 from .launch import without_chatter
@@ -45,7 +45,7 @@ class _Running:
 
 def execute(command: Sequence, tick: Callable[[], None] = lambda: None) -> End:
     """Runs one program to its end, calling `tick` about once a second."""
-    ends: List[End] = []
+    ends: list[End] = []
     run_jobs([Job(0, command)], 1, lambda key, end: ends.append(end), lambda running: tick() if running else None)
     return ends[0]
 
@@ -59,12 +59,12 @@ def run_jobs(
     """Runs all, calling `ended` after each and `tick` with the keys of those that run, about once a second. When
     fsi-compare is interrupted, it ends them and raises Interrupted. A program that cannot be started ends with code
     1."""
-    running: Dict[int, _Running] = {}
+    running: dict[int, _Running] = {}
     waiting = iter(jobs)
     with interruption.at_sudden_end(lambda: _kill(running)), _stopped_together(running):
         try:
             interruption.check()
-            job: Optional[Job] = next(waiting, None)
+            job: Job | None = next(waiting, None)
             ticked = time.monotonic()
             while running or job is not None:
                 while job is not None and len(running) < at_once:
@@ -111,7 +111,7 @@ def _start(job: Job) -> _Running:
 
 
 def _process(command: Sequence, **streams: Any) -> subprocess.Popen:
-    """Starts a process in a group of its own: Ctrl-C comes to fsi-compare alone, which passes it on."""
+    """Starts a process in a group of its own (Python 3.11): Ctrl-C comes to fsi-compare alone, which passes it on."""
     words = [str(word) for word in command]
     ended_with_us = _die_with(os.getpid())
     return subprocess.Popen(words, stdin=subprocess.DEVNULL, process_group=0, preexec_fn=ended_with_us, **streams)
@@ -150,13 +150,13 @@ def _finish(processes: Sequence[subprocess.Popen]) -> None:
             process.wait()
 
 
-def _kill(running: Dict[int, _Running]) -> None:
+def _kill(running: dict[int, _Running]) -> None:
     for entry in list(running.values()):
         entry.process.kill()
 
 
 @contextmanager
-def _stopped_together(running: Dict[int, _Running]) -> Iterator[None]:
+def _stopped_together(running: dict[int, _Running]) -> Iterator[None]:
     """Stops the programs with Ctrl-Z, since they are in groups of their own; the pause does not count as their time."""
     if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTSTP) != signal.SIG_DFL:
         yield
@@ -200,7 +200,8 @@ def answer(command: Sequence, time_limit: float) -> str:
 
 def message_of(code: int, said: str) -> str:
     """Why a program ended, from what it said on its error stream; empty when it ended well. Warnings are no reason."""
-    lines = [line.strip() for line in without_chatter(said).splitlines() if line.strip() and not _is_no_reason(line)]
+    lines = [line.strip() for line in without_chatter(said).splitlines() if line.strip()]
+    lines = [line for line in lines if ": warning: " not in line and ": note: " not in line]
     if code < 0:
         try:
             name = signal.Signals(-code).name
@@ -211,7 +212,3 @@ def message_of(code: int, said: str) -> str:
         return f"ended with code {code} without a message" if code else ""
     head, mark, rest = lines[-1].partition(": error: ")
     return rest if mark and " " not in head else lines[-1]
-
-
-def _is_no_reason(line: str) -> bool:
-    return ": warning: " in line or ": note: " in line

@@ -1,5 +1,6 @@
 """The programs of the project: where they are, and which version."""
 
+import argparse
 import hashlib
 import os
 import re
@@ -8,7 +9,7 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Optional
+from typing import Iterable
 
 from ..base.errors import InputError
 from ..base.files import absolute, exists, is_file, is_folder, read_bytes
@@ -26,7 +27,7 @@ class Program:
     digest: str = ""  # SHA-256 of the executable: a program built anew may keep its version
 
 
-def find_program(name: str, named: Optional[Path] = None, option: str = "--program") -> Program:
+def find_program(name: str, named: Path | None = None, option: str = "--program") -> Program:
     """The program `named`, else the one of this name beside fsi-compare, else the one on the path. It must answer."""
     path = named if named is not None else _beside(Path(sys.argv[0]), name)
     if path is None:
@@ -39,10 +40,17 @@ def find_program(name: str, named: Optional[Path] = None, option: str = "--progr
     said = VERSION.fullmatch(answer_to(path, "--version").strip())
     if said is None or said["name"] != name:
         raise InputError(path, option, f"is not {name}", BUILD)
-    return Program(path, said["version"], _digest(_executable(path, said["level"])))
+    executable = read_bytes(_executable(path, said["level"]), BUILD, BUILD)
+    return Program(path, said["version"], hashlib.sha256(executable).hexdigest())
 
 
-def _executable(path: Path, level: Optional[str]) -> Path:
+def find_drivers(options: argparse.Namespace, names: Iterable[str]) -> dict[str, Program]:
+    """The drivers of these names, each beside fsi-compare or where its option says. Raises InputError."""
+    short = {name: name.removeprefix("fsi-") for name in names}
+    return {name: find_program(name, getattr(options, option), f"--{option}") for name, option in short.items()}
+
+
+def _executable(path: Path, level: str | None) -> Path:
     """The executable behind `path`: in a package with builds for several x86-64 levels, that of the level it reports
     (packages/start_level.c)."""
     own = Path(os.path.realpath(path))
@@ -50,20 +58,28 @@ def _executable(path: Path, level: Optional[str]) -> Path:
     return build if is_file(build) else path
 
 
-def _digest(path: Path) -> str:
-    return hashlib.sha256(read_bytes(path, BUILD, BUILD)).hexdigest()
-
-
-def find_mesh_maker(monolithic: Program) -> Optional[Path]:
+def find_mesh_maker(monolithic: Program) -> Path | None:
     return find_beside(monolithic, "fsi-mesh")
 
 
-def find_beside(program: Program, name: str) -> Optional[Path]:
+def need_mesh_maker(driver: Program) -> Path:
+    """Raises InputError where it is not there."""
+    found = find_mesh_maker(driver)
+    if found is None:
+        raise no_mesh_maker()
+    return found
+
+
+def no_mesh_maker() -> InputError:
+    return InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
+
+
+def find_beside(program: Program, name: str) -> Path | None:
     """The program of this name beside another one, else the one on the path."""
     return _beside(program.path, name)
 
 
-def _beside(program: Path, name: str) -> Optional[Path]:
+def _beside(program: Path, name: str) -> Path | None:
     for folder in (program.parent, absolute(program).parent):
         if is_file(folder / name):
             return folder / name

@@ -1,7 +1,6 @@
 """How many of the finished runs that a study takes up were made by another build of their program: they are
 recognised by its version, which a program built anew may keep."""
 
-from typing import List
 
 from ..starting.programs import Program
 
@@ -12,7 +11,7 @@ class Builds:
     def __init__(self, runs: str, remedy: str):
         self._runs, self._remedy = runs, remedy
         self._taken_up = 0
-        self._others: List[str] = []  # name and version of the program, for each run of another build
+        self._others: list[str] = []  # name and version of the program, for each run of another build
 
     def count(self, program: Program, digest: str) -> None:
         """`digest`: of the executable that made the run; empty: not recorded, so that it may be any."""

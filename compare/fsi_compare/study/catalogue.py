@@ -9,11 +9,11 @@ import importlib
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Mapping, Sequence, Tuple
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
 from ..base.files import is_file
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from ..reporting.matplotlib_loader import load_matplotlib
 from . import source_tree
 
@@ -23,11 +23,8 @@ class Catalogue:
     modules: Mapping[str, str]  # of the kinds, full names, by what a study file calls them
     folders: Sequence[Path]  # with the ready studies; case files that they use lie beside them
 
-    def and_also(self, other: "Catalogue") -> "Catalogue":
-        return Catalogue({**self.modules, **other.modules}, (*self.folders, *other.folders))
-
     @property
-    def kinds(self) -> Tuple[str, ...]:
+    def kinds(self) -> tuple[str, ...]:
         return tuple(self.modules)
 
     def kind(self, name: str) -> Any:
@@ -36,7 +33,7 @@ class Catalogue:
         return importlib.import_module(self.modules[name])
 
     @property
-    def ready(self) -> Dict[str, Path]:
+    def ready(self) -> dict[str, Path]:
         """The ready study files by name, in the order of their names."""
         files = [path for folder in self.folders for path in folder.glob("*.toml")]
         studies = [path for path in files if re.search(r"^kind\s*=", path.read_text(encoding="utf-8"), re.MULTILINE)]
@@ -51,10 +48,7 @@ class Catalogue:
             return ready[text]
         if text in source_tree.STUDIES:
             raise source_tree.refusal("", "STUDY", f"the study '{text}'")
-        problem = f"'{text}' is neither a file nor a ready study"
-        raise InputError(
-            "", "STUDY", problem, f"did you mean '{nearest(text, list(ready))}'? Ready: {', '.join(ready)}"
-        )
+        raise InputError("", "STUDY", f"'{text}' is neither a file nor a ready study", hint(text, ready, "Ready:"))
 
 
 OWN = Catalogue({"runs": "fsi_compare.study.plain_runs"}, (Path(__file__).resolve().parents[2] / "studies",))

@@ -4,18 +4,18 @@ import argparse
 import platform
 import time
 from pathlib import Path
-from typing import Any, Dict, List, Optional, TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
 from ..base.errors import InputError, ProgramError, printable, say_note, say_warning
 from ..base.files import absolute, folder, output_folder, together
-from ..base.options import Commands, add_command, add_drivers, add_usual, positive
-from ..starting.folder_lock import locked
+from ..base.options import Commands, add_command, add_count, add_drivers, add_usual
+from ..base.folder_lock import locked
 from ..starting.duration import duration
-from ..starting.programs import Program, find_mesh_maker, find_program
+from ..starting.programs import Program, find_drivers, find_mesh_maker
 from .catalogue import OWN, Catalogue
 from .overview import default_output, overview
 from .runner import Runner, remove_runs, sweep_study
-from .study_file import Study, read_study
+from .study_file import PROGRAMS, Study, read_study
 
 if TYPE_CHECKING:
     from ..reporting.report import Report  # matplotlib takes a second to load
@@ -41,38 +41,20 @@ examples:
 
 
 def add_parser(commands: Commands, version: str, catalogue: Catalogue = OWN) -> None:
-    command = add_command(
-        commands, "study", study, "a whole study: runs what is missing, writes an HTML report", DESCRIPTION, EXAMPLES
-    )
-    command.add_argument(
-        "study", metavar="STUDY", nargs="?", help=f"study file (TOML), or a ready one: {', '.join(catalogue.ready)}"
-    )
+    help = "a whole study: runs what is missing, writes an HTML report"
+    command = add_command(commands, "study", study, help, DESCRIPTION, EXAMPLES)
+    text = f"study file (TOML), or a ready one: {', '.join(catalogue.ready)}"
+    command.add_argument("study", metavar="STUDY", nargs="?", help=text)
     command.add_argument("-o", "--output", metavar="OUTDIR", type=folder, help="default: results/studies/NAME")
     command.add_argument("--quick", action="store_true", help="the study's short form")
-    command.add_argument(
-        "--list",
-        action="store_true",
-        help="say what would be run, and run nothing; without STUDY: the ready studies and what each still has to run",
-    )
-    command.add_argument(
-        "--fresh",
-        action="store_true",
-        help="make finished runs anew: removes the study's runs in OUTDIR/runs; of the kind paper, the linear systems in "
-        "OUTDIR/linear stay",
-    )
+    text = "say what would be run, and run nothing; without STUDY: the ready studies and what each still has to run"
+    command.add_argument("--list", action="store_true", help=text)
+    text = "make finished runs anew: removes the study's runs in OUTDIR/runs; of the kind paper, the linear systems in "
+    command.add_argument("--fresh", action="store_true", help=text + "OUTDIR/linear stay")
     add_drivers(command)
-    command.add_argument(
-        "--processes",
-        metavar="N",
-        type=positive("--processes"),
-        help="of each run, by mpirun (default: the study's); groups that vary them keep their numbers",
-    )
-    command.add_argument(
-        "--jobs",
-        metavar="N",
-        type=positive("--jobs"),
-        help="runs at once (default: the study's); more than one spoils the seconds",
-    )
+    text = "of each run, by mpirun (default: the study's); groups that vary them keep their numbers"
+    add_count(command, "--processes", text)
+    add_count(command, "--jobs", "runs at once (default: the study's); more than one spoils the seconds")
     add_usual(command, version, "of each run (default: the study's)")
     command.set_defaults(catalogue=catalogue)
 
@@ -99,22 +81,15 @@ def study(options: argparse.Namespace) -> int:
         return make(options, asked, kind, folder, programs)
 
 
-def make(options: argparse.Namespace, asked: Study, kind: Any, folder: Path, programs: Dict[str, Program]) -> int:
+def make(options: argparse.Namespace, asked: Study, kind: Any, folder: Path, programs: dict[str, Program]) -> int:
     """Makes the runs that are missing and the report from all. The folder is locked."""
     if options.fresh:
         remove_runs(folder)
     sweep_study(folder)
     begin = time.monotonic()
-    runner = Runner(
-        asked,
-        folder,
-        programs,
-        find_mesh_maker(programs["fsi-monolithic"]),
-        options.threads,
-        options.jobs,
-        options.quiet,
-        options.processes,
-    )
+    maker = find_mesh_maker(programs["fsi-monolithic"])
+    numbers = options.threads, options.jobs, options.quiet, options.processes
+    runner = Runner(asked, folder, programs, maker, *numbers)
     runs = runner.run(asked.requests)
     if all(run.status == "refused" for run in runs):
         raise ProgramError(asked.path, runs[0].request.label, runs[0].message, "mend the study or the case")
@@ -140,13 +115,12 @@ def make(options: argparse.Namespace, asked: Study, kind: Any, folder: Path, pro
 def list_ready(options: argparse.Namespace, catalogue: Catalogue) -> int:
     """Prints a line for each ready study, with what is still missing in its default output folder."""
     if not options.list:
-        raise InputError(
-            "", "STUDY", "is missing", f"give a study file, or a ready study: {', '.join(catalogue.ready)}"
-        )
+        remedy = f"give a study file, or a ready study: {', '.join(catalogue.ready)}"
+        raise InputError("", "STUDY", "is missing", remedy)
     if options.output is not None:
         raise InputError("", "--output", "is of one study, and --list without STUDY is of all", "name the study")
     try:
-        programs: Optional[Dict[str, Program]] = find_programs(options)
+        programs: dict[str, Program] | None = find_programs(options)
     except InputError as error:
         if options.monolithic or options.partitioned:
             raise
@@ -157,21 +131,15 @@ def list_ready(options: argparse.Namespace, catalogue: Catalogue) -> int:
     return 0
 
 
-def find_programs(options: argparse.Namespace) -> Dict[str, Program]:
+def find_programs(options: argparse.Namespace) -> dict[str, Program]:
     """Both drivers by name."""
-    return {
-        "fsi-monolithic": find_program("fsi-monolithic", options.monolithic, "--monolithic"),
-        "fsi-partitioned": find_program("fsi-partitioned", options.partitioned, "--partitioned"),
-    }
+    return find_drivers(options, PROGRAMS)
 
 
-def about(report: "Report", asked: Study, runner: Runner, programs: Dict[str, Program]) -> None:
+def about(report: "Report", asked: Study, runner: Runner, programs: dict[str, Program]) -> None:
     """How to make the report again, and on what it was made."""
     report.section("About this report")
-    if runner.warning:
-        report.text(f"**Note:** {runner.warning}.")
-    if runner.machines:
-        report.text(f"**Note:** {runner.machines}.")
+    report.text(*(f"**Note:** {note}." for note in (runner.warning, runner.machines) if note))
     versions = ", ".join(f"{name} {program.version}" for name, program in programs.items())
     report.text(
         f"Study `{printable(asked.path.name)}`{', quick form' if asked.quick else ''}; {versions}; {runner.threads} "

@@ -1,7 +1,7 @@
 """What a kind of study is given: the finished runs, a way to make more, and the report to fill."""
 
 from dataclasses import dataclass
-from typing import Any, List, Sequence
+from typing import Any, Sequence
 
 from ..reporting.report import Report
 from .runner import Runner
@@ -16,11 +16,11 @@ class Context:
     runner: Runner
     report: Report
 
-    def run(self, requests: Sequence[Request]) -> List[StudyRun]:
+    def run(self, requests: Sequence[Request]) -> list[StudyRun]:
         """More runs, for kinds that decide on the next one from the last."""
         return self.runner.run(requests)
 
-    def select(self, group: str = "", case: str = "", method: str = "", **values: Any) -> List[StudyRun]:
+    def select(self, group: str = "", case: str = "", method: str = "", **values: Any) -> list[StudyRun]:
         """Runs by their place in the study; a value's name is given with _ for each dot."""
 
         def fits(run: StudyRun) -> bool:

@@ -3,7 +3,7 @@
 import hashlib
 import json
 from pathlib import Path
-from typing import Any, List, Optional
+from typing import Any
 
 from ..base.errors import InputError
 from ..base.files import is_file, read_bytes, read_toml
@@ -15,20 +15,20 @@ UNREADABLE = "give a file that can be read"
 HEADINGS = ("title",)  # in the results; nothing is solved differently
 
 
-def fingerprint(request: Request, program: Program, mesh_file: Optional[Path], threads: int, processes: int) -> str:
+def fingerprint(request: Request, program: Program, mesh_file: Path | None, threads: int, processes: int) -> str:
     digest = hashlib.sha256(case_digest(request.case_file, request.method.program, HEADINGS).encode())
     mesh = mesh_file or _own_mesh(request)
     if mesh is not None and is_file(mesh):
         digest.update(read_bytes(mesh, UNREADABLE, UNREADABLE))
     level = request.mesh.name if request.mesh and not request.mesh.options else None
-    what: List[Any] = [program.path.name, program.version, level, dict(request.settings), threads]
+    what: list[Any] = [program.path.name, program.version, level, dict(request.settings), threads]
     if processes > 1:  # a run on one process is what it was before there were others
         what.append({"processes": processes})
     digest.update(json.dumps(what, sort_keys=True, default=str).encode())
     return digest.hexdigest()
 
 
-def _own_mesh(request: Request) -> Optional[Path]:
+def _own_mesh(request: Request) -> Path | None:
     """The mesh file that the case file names, unless the study gives another."""
     if request.mesh is not None:
         return None

@@ -1,7 +1,7 @@
 """The ready studies, and what each still has to run: `fsi-compare study --list` without a name."""
 
 from pathlib import Path
-from typing import Dict, List, Optional, Sequence
+from typing import Sequence
 
 from ..starting.programs import Program
 from .catalogue import Catalogue
@@ -19,10 +19,10 @@ def default_output(path: Path, quick: bool) -> Path:
 def overview(
     catalogue: Catalogue,
     quick: bool,
-    programs: Optional[Dict[str, Program]],
-    threads: Optional[int] = None,
-    mesh_maker: Optional[Path] = None,
-) -> List[str]:
+    programs: dict[str, Program] | None,
+    threads: int | None = None,
+    mesh_maker: Path | None = None,
+) -> list[str]:
     """A line for each ready study: name, title, and how its default output folder stands. `programs`: by name; None:
     they are not built, and nothing is known of finished runs. Makes nothing."""
     paths = list(catalogue.ready.values())

@@ -25,5 +25,4 @@ def evaluate(context: Context) -> None:
     context.report.section("Through time")
     some = f"The first {MOST_RUNS} of {len(done)} runs. " if len(done) > MOST_RUNS else ""
     context.report.text(f"{some}Needs JavaScript; `fsi-compare report` makes pictures for print of any runs.")
-    labels = [run.request.label for run, _ in shown]
-    context.report.player(Player(labels, panels([results for _, results in shown])))
+    context.report.player(Player([run.request.label for run, _ in shown], panels([results for _, results in shown])))

@@ -2,18 +2,14 @@
 
 import filecmp
 from pathlib import Path
-from typing import Iterable, List, Optional, Sequence
+from typing import Sequence
 
 from ..base.errors import InputError
 from ..base.files import is_file, remove_tree
 from ..runs.summary import FILE, read_summary
-from .study_run import StudyRun
 
-RESULTS = (
-    "centerline_pressure.csv",
-    "wall_displacement.csv",
-    "lines.csv",
-)  # the same bits whenever the same run is made
+# The same bits whenever the same run is made.
+RESULTS = ("centerline_pressure.csv", "wall_displacement.csv", "lines.csv")
 NOT_THE_SAME = "its results were not the same when it was repeated"
 
 
@@ -32,16 +28,12 @@ def step_seconds(folder: Path) -> float:
 
 def same_results(folders: Sequence[Path]) -> bool:
     """Whether the files of all repetitions equal the first one's, bit by bit; one that failed may have fewer."""
-    first = folders[0]
-    return all(
-        is_file(other / file) and filecmp.cmp(first / file, other / file, shallow=False)
-        for other in folders[1:]
-        for file in RESULTS
-        if is_file(first / file)
-    )
+    first, *others = folders
+    pairs = [(first / file, other / file) for other in others for file in RESULTS if is_file(first / file)]
+    return all(is_file(there) and filecmp.cmp(here, there, shallow=False) for here, there in pairs)
 
 
-def keep_median(folder: Path, repetitions: Sequence[Path]) -> List[float]:
+def keep_median(folder: Path, repetitions: Sequence[Path]) -> list[float]:
     """Leaves the repetition of median seconds (of two middle ones the faster) in `folder` and removes the others;
     the seconds of all, sorted. Where the process is killed in between, the run is made anew."""
     seconds = {place: step_seconds(place) for place in [folder, *repetitions]}
@@ -55,23 +47,6 @@ def keep_median(folder: Path, repetitions: Sequence[Path]) -> List[float]:
     return sorted(seconds.values())
 
 
-def spread(timings: Sequence[float]) -> Optional[float]:
+def spread(timings: Sequence[float]) -> float | None:
     """Slowest over fastest; None: timed once."""
     return max(timings) / min(timings) if len(timings) > 1 and min(timings) > 0 else None
-
-
-def timing_words(runs: Iterable[StudyRun]) -> str:
-    """How far seconds of these runs can be trusted, in a sentence."""
-    done = {run.folder: run for run in runs if run.done}.values()
-    spreads = [(len(run.timings), spread(run.timings)) for run in done]
-    repeated = [(count, ratio) for count, ratio in spreads if ratio is not None]
-    if not repeated:
-        return "Seconds are single timings."
-    ratios = sorted(ratio for _, ratio in repeated)
-    once = len(done) - len(repeated)
-    return (
-        f"Seconds are medians of {max(count for count, _ in repeated)} timings"
-        + (f", those of the {once} longest runs single ones" if once else "")
-        + f"; slowest over fastest of the same run: {ratios[len(ratios) // 2]:.2f} in the middle, {ratios[-1]:.2f} "
-        "at most. Smaller differences mean nothing."
-    )

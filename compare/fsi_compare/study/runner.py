@@ -8,26 +8,17 @@ import shlex
 import time
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Mapping, Sequence
 
 from ..base import interruption
 from ..base.errors import InputError, ProgramError
-from ..base.files import (
-    TEMPORARY,
-    absolute,
-    is_file,
-    listed,
-    make_folder,
-    read_bytes,
-    read_json,
-    read_object,
-    remove_tree,
-    replacing,
-)
+from ..base.files import TEMPORARY, absolute, is_file, listed, make_folder, read_bytes, read_json, read_object
+from ..base.files import remove_tree, replacing
+from ..base.toml import toml_value
 from ..starting.launch import launched
 from ..gallery.mesh_chain import contents, make_mesh
 from ..starting.processes import End, Job, run_jobs
-from ..starting.programs import Program
+from ..starting.programs import Program, no_mesh_maker
 from ..runs.summary import FILE, read_summary
 from ..runs.work_units import about_machines
 from . import repeats
@@ -61,30 +52,30 @@ class Runner:
         self,
         study: Study,
         folder: Path,
-        programs: Dict[str, Program],
-        mesh_maker: Optional[Path],
-        threads: Optional[int] = None,
-        jobs: Optional[int] = None,
+        programs: dict[str, Program],
+        mesh_maker: Path | None,
+        threads: int | None = None,
+        jobs: int | None = None,
         quiet: bool = False,
-        processes: Optional[int] = None,
+        processes: int | None = None,
     ):
         self.study, self.folder, self.programs, self.mesh_maker = study, folder, programs, mesh_maker
         self.threads = study.threads if threads is None else threads
         self.processes = study.processes if processes is None else processes  # of runs whose group does not say
         self.jobs = study.jobs if jobs is None else jobs
         self.quiet = quiet
-        self._known: Dict[str, StudyRun] = {}  # by fingerprint
+        self._known: dict[str, StudyRun] = {}  # by fingerprint
         self.seconds = 0.0  # of all runs asked for, whenever they were made
         self._taken_up = Builds("finished runs", "`--fresh`")
         self.builds = [self._taken_up]  # and of what a kind takes up by other means
 
-    def run(self, requests: Sequence[Request]) -> List[StudyRun]:
+    def run(self, requests: Sequence[Request]) -> list[StudyRun]:
         """Makes runs, and returns them in the order of the requests. The same run asked for twice is made once."""
         make_folder(self.folder / "runs")
         keys = [fingerprint(*self._what_decides(r)) for r in requests]
         progress = StudyProgress(self.quiet, self.jobs)
-        jobs: List[Job] = []
-        wanted: Dict[str, Request] = {}
+        jobs: list[Job] = []
+        wanted: dict[str, Request] = {}
         for key, request in zip(keys, requests):
             if key in self._known or key in wanted:
                 continue
@@ -94,9 +85,8 @@ class Runner:
                 progress.known(request, known)
             else:
                 wanted[key] = request
-        order = sorted(
-            wanted.items(), key=lambda item: progress.weight(item[1])
-        )  # small ones first: they tell the time left
+        # Small ones first: they tell the time left.
+        order = sorted(wanted.items(), key=lambda item: progress.weight(item[1]))
         progress.plan([request for _, request in order])
         for i, (key, request) in enumerate(order):
             folder = self._place(key, request)
@@ -112,26 +102,19 @@ class Runner:
         run_jobs(jobs, self.jobs, ended, lambda running: progress.tick([order[i][1] for i in running]))
         self._repeat(dict(zip(keys, requests)), progress)
         # What is known may have been asked for under another name: the run is the same, its place in the study is not.
-        return [self._as(self._known[key], request) for key, request in zip(keys, requests)]
+        return [replace(self._known[key], request=request) for key, request in zip(keys, requests)]
 
     def _repeat(self, requests: Mapping[str, Request], progress: StudyProgress) -> None:
         """Times the short runs again, one round after the other, so that a disturbance does not meet all of a run's."""
         study = self.study
-        known = self._known
-        short = {
-            key: request
-            for key, request in requests.items()
-            if study.repeats > 1
-            and known[key].done
-            and known[key].seconds < study.repeat_below
-            and len(known[key].timings) < study.repeats
-        }
-        again = [
-            (key, request, repeats.place_of(self._place(key, request), n))
-            for n in range(2, study.repeats + 1)
-            for key, request in short.items()
-        ]
-        places: Dict[str, List[Path]] = {key: [] for key in short}
+
+        def is_short(run: StudyRun) -> bool:
+            return run.done and run.seconds < study.repeat_below and len(run.timings) < study.repeats
+
+        short = {k: request for k, request in requests.items() if study.repeats > 1 and is_short(self._known[k])}
+        rounds = range(2, study.repeats + 1)
+        again = [(k, r, repeats.place_of(self._place(k, r), n)) for n in rounds for k, r in short.items()]
+        places: dict[str, list[Path]] = {key: [] for key in short}
         progress.repeat([request for _, request, _ in again])
         for _, _, place in again:
             remove_tree(place)
@@ -145,12 +128,8 @@ class Runner:
             if len(places[key]) == study.repeats - 1:
                 self._settle(key, request, places[key])
 
-        run_jobs(
-            [Job(i, self._command(request, place), request.time_limit) for i, (_, request, place) in enumerate(again)],
-            self.jobs,
-            ended,
-            lambda running: progress.tick([again[i][1] for i in running]),
-        )
+        jobs = [Job(i, self._command(r, place), r.time_limit) for i, (_, r, place) in enumerate(again)]
+        run_jobs(jobs, self.jobs, ended, lambda running: progress.tick([again[i][1] for i in running]))
 
     def _settle(self, key: str, request: Request, places: Sequence[Path]) -> None:
         """Keeps the median of all repetitions, if they had the same results."""
@@ -161,9 +140,8 @@ class Runner:
         else:
             record.update(status=CRASHED, message=repeats.NOT_THE_SAME)
         write_record(folder, record)
-        self._known[key] = replace(
-            run, status=record["status"], message=record["message"], timings=tuple(record.get("timings", ()))
-        )
+        told = {name: record[name] for name in ("status", "message")}
+        self._known[key] = replace(run, **told, timings=tuple(record.get("timings", ())))
 
     @property
     def machines(self) -> str:
@@ -179,11 +157,7 @@ class Runner:
         self._known[key] = run
         self.seconds += max(run.seconds, sum(run.timings))
 
-    @staticmethod
-    def _as(run: StudyRun, request: Request) -> StudyRun:
-        return replace(run, request=request)
-
-    def _what_decides(self, request: Request) -> Tuple[Request, Program, Optional[Path], int, int]:
+    def _what_decides(self, request: Request) -> tuple[Request, Program, Path | None, int, int]:
         mesh_file = self.mesh_file(request.mesh)
         return request, self._program(request), mesh_file, self.threads, self.processes_of(request)
 
@@ -193,7 +167,7 @@ class Runner:
     def _program(self, request: Request) -> Program:
         return self.programs[request.method.program]
 
-    def mesh_file(self, mesh: Optional[StudyMesh]) -> Optional[Path]:
+    def mesh_file(self, mesh: StudyMesh | None) -> Path | None:
         """The mesh made for the study; None: the driver makes it, or the case names it."""
         if mesh is None or not mesh.options:
             return None
@@ -201,14 +175,11 @@ class Runner:
         if self._mesh_is_made(mesh):
             return path
         if self.mesh_maker is None:
-            raise InputError(
-                "fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release"
-            )
+            raise no_mesh_maker()
         make_folder(path.parent)
         unfinished = path.with_name(f".{path.stem}{TEMPORARY}.msh")
         place = f"{self.study.path}: meshes.{mesh.name}"
-        words = [mesh.command, *mesh.options]
-        end = make_mesh(words, unfinished, self.mesh_maker, place, path.parent / PARTS)
+        end = make_mesh([mesh.command, *mesh.options], unfinished, self.mesh_maker, place, path.parent / PARTS)
         if end.code:
             raise ProgramError(self.study.path, f"meshes.{mesh.name}", end.message, "change its options")
         os.replace(unfinished, path)
@@ -229,7 +200,7 @@ class Runner:
 
     def standing(self, requests: Sequence[Request]) -> "Standing":
         """How many of the runs are there, without making any. The same run asked for twice counts once."""
-        found: Dict[str, Optional[StudyRun]] = {}
+        found: dict[str, StudyRun | None] = {}
         for request in requests:
             mesh = request.mesh
             if mesh is not None and mesh.options and not self._mesh_is_made(mesh):
@@ -245,16 +216,9 @@ class Runner:
         name = re.sub(r"[^A-Za-z0-9.+-]+", "-", f"{request.case}-{request.method.name}").strip("-")[:LONGEST_NAME]
         return self.folder / "runs" / f"{name}-{key[:12]}"
 
-    def _command(self, request: Request, folder: Path) -> List[str]:
-        words = [
-            str(self._program(request).path),
-            str(request.case_file),
-            "-o",
-            str(folder),
-            "-q",
-            "--threads",
-            str(self.threads),
-        ]
+    def _command(self, request: Request, folder: Path) -> list[str]:
+        words = [str(self._program(request).path), str(request.case_file), "-o", str(folder), "-q"]
+        words += ["--threads", str(self.threads)]
         mesh = self.mesh_file(request.mesh)
         settings = dict(request.settings)
         if mesh is not None:
@@ -262,10 +226,11 @@ class Runner:
         elif request.mesh is not None:
             settings["mesh.level"] = request.mesh.name
         for name, value in settings.items():
-            words += ["--set", f"{name}={toml_value(value)}"]
+            # A text by itself stands without quotation marks.
+            words += ["--set", f"{name}={value if isinstance(value, str) else toml_value(value)}"]
         return launched(words, self.processes_of(request))
 
-    def _finished(self, key: str, request: Request) -> Optional[StudyRun]:
+    def _finished(self, key: str, request: Request) -> StudyRun | None:
         folder = self._place(key, request)
         try:
             record = read_object(folder / RECORD, AGAIN, AGAIN)
@@ -274,15 +239,8 @@ class Runner:
                 return None
             if record["status"] == DONE:
                 read_summary(folder / FILE)
-            run = StudyRun(
-                request,
-                folder,
-                record["status"],
-                record["message"],
-                float(record["seconds"]),
-                record["command"],
-                tuple(record.get("timings", ())),
-            )
+            told = record["status"], record["message"], float(record["seconds"]), record["command"]
+            run = StudyRun(request, folder, *told, tuple(record.get("timings", ())))
             self._taken_up.count(self._program(request), record.get("executable", ""))
             return run
         except (OSError, ValueError, OverflowError, KeyError, TypeError, InputError):
@@ -293,20 +251,10 @@ class Runner:
         status, message = judge(folder, end)
         command = shlex.join(self._command(request, folder))
         make_folder(folder)
-        write_record(
-            folder,
-            {
-                "fingerprint": key,
-                "status": status,
-                "message": message,
-                "seconds": end.seconds,
-                "command": command,
-                "run": request.label,
-                "ended": time.strftime("%Y-%m-%d %H:%M:%S"),
-                "executable": self._program(request).digest,
-                "interrupted": is_interrupted(end.code) and not end.out_of_time,
-            },
-        )
+        record = {"fingerprint": key, "status": status, "message": message, "seconds": end.seconds, "command": command}
+        record |= {"run": request.label, "ended": time.strftime("%Y-%m-%d %H:%M:%S")}
+        record |= {"executable": self._program(request).digest}
+        write_record(folder, {**record, "interrupted": is_interrupted(end.code) and not end.out_of_time})
         return StudyRun(request, folder, status, message, end.seconds, command)
 
 
@@ -315,12 +263,12 @@ def is_interrupted(code: int) -> bool:
     return any(code in (-number, 128 + number) for number in interruption.WATCHED)
 
 
-def recipe(mesh: StudyMesh) -> List[str]:
+def recipe(mesh: StudyMesh) -> list[str]:
     """What decides a mesh: its options, and the contents of the scripts and meshes that they name."""
     return [*mesh.options, *contents([mesh.command, *mesh.options])]
 
 
-def write_record(folder: Path, record: Dict[str, Any]) -> None:
+def write_record(folder: Path, record: dict[str, Any]) -> None:
     with replacing(folder / RECORD) as temporary:
         temporary.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
 
@@ -334,39 +282,27 @@ def remove_runs(folder: Path) -> None:
 
 def sweep_study(folder: Path) -> None:
     """Removes the temporary files of calls that were killed. The folder must be locked: whose are they else?"""
-    for place in (
-        folder,
-        folder / "runs",
-        folder / "meshes",
-        folder / "meshes" / PARTS,
-        *(folder / "runs" / run for run in listed(folder / "runs")),
-    ):
+    runs, meshes = folder / "runs", folder / "meshes"
+    for place in (folder, runs, meshes, meshes / PARTS, *(runs / run for run in listed(runs))):
         for name in listed(place):
             if name.startswith(".") and TEMPORARY in name:
                 remove_tree(place / name)
 
 
-def judge(folder: Path, end: End) -> Tuple[str, str]:
+def judge(folder: Path, end: End) -> tuple[str, str]:
     """(status, message) of a run that has ended."""
     if end.out_of_time:
         return OUT_OF_TIME, end.message
-    if end.code == 0:
-        bad = first_not_finite(folder)
-        if bad:
-            return WRONG, bad
-        try:
-            read_summary(folder / FILE)
-        except InputError as error:
-            return CRASHED, f"exit code 0, but {error}"
-        return DONE, ""
     bad = first_not_finite(folder)
     if bad:
         return WRONG, bad
-    if end.code == 1:
-        return REFUSED, end.message
-    if end.code == 2:
-        return NOT_CONVERGED, end.message
-    return CRASHED, end.message
+    if end.code:
+        return {1: REFUSED, 2: NOT_CONVERGED}.get(end.code, CRASHED), end.message
+    try:
+        read_summary(folder / FILE)
+    except InputError as error:
+        return CRASHED, f"exit code 0, but {error}"
+    return DONE, ""
 
 
 def first_not_finite(folder: Path) -> str:
@@ -382,19 +318,6 @@ def first_not_finite(folder: Path) -> str:
 
 
 def _finite(value: Any) -> bool:
-    if isinstance(value, dict):
-        return all(_finite(entry) for entry in value.values())
-    if isinstance(value, list):
-        return all(_finite(entry) for entry in value)
+    if isinstance(value, (dict, list)):
+        return all(map(_finite, value.values() if isinstance(value, dict) else value))
     return not isinstance(value, float) or math.isfinite(value)
-
-
-def toml_value(value: Any) -> str:
-    """The value as the drivers read it behind --set key=."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, list):
-        return "[" + ", ".join(f'"{v}"' if isinstance(v, str) else toml_value(v) for v in value) + "]"
-    if isinstance(value, float):
-        return repr(value) if math.isfinite(value) else str(value)
-    return str(value)

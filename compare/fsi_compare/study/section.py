@@ -1,9 +1,10 @@
 """A section of a study file: its entries, each of the kind that is asked for."""
 
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Iterator, Mapping, Sequence
 
 from ..base.errors import InputError
+from ..base.numbers import is_number
 from ..base.suggestions import check_keys, nearest
 
 LARGEST_COUNT = 10_000  # threads, processes, runs at once, repetitions
@@ -42,11 +43,11 @@ class Section:
             raise self.wrong(name, problem, f"write a section [{self.key_of(name)}]")
         return found
 
-    def settings(self, name: str) -> Dict[str, Any]:
+    def settings(self, name: str) -> dict[str, Any]:
         """Case-file entries, keys in quotes ("time.step" = 0.1) or nested (time.step = 0.1)."""
         return dict(flat(self.table(name)))
 
-    def text(self, name: str, default: Optional[str] = None) -> str:
+    def text(self, name: str, default: str | None = None) -> str:
         if name not in self.entries and default is not None:
             return default
         value = self.entries.get(name)
@@ -61,19 +62,15 @@ class Section:
             raise self.wrong(name, problem, f"leave it out for {default}")
         return value
 
-    def number(self, name: str, default: Optional[float] = None) -> float:
-        if name not in self.entries and default is not None:
-            return default
-        value = self.entries.get(name)
+    def number(self, name: str, default: float | None = None) -> float:
+        value = self.entries.get(name, default)
         if not is_positive(value):
             problem = "is missing" if value is None else f"{value} is not a positive number"
             raise self.wrong(name, problem, "give a number" if default is None else f"leave it out for {default:g}")
-        return float(self.entries[name])
+        return float(value)
 
-    def numbers(self, name: str, default: Optional[Sequence[float]] = None) -> List[float]:
-        if name not in self.entries and default is not None:
-            return list(default)
-        values = self.entries.get(name)
+    def numbers(self, name: str, default: Sequence[float] | None = None) -> list[float]:
+        values = self.entries.get(name, default and list(default))
         if not isinstance(values, list) or not values or not all(map(is_positive, values)):
             problem = "is missing" if values is None else "is not a list of positive numbers"
             raise self.wrong(name, problem, "write [a, b, ...]" if default is None else f"write {list(default)}")
@@ -84,7 +81,7 @@ class Section:
         self._require_known(name, value, known, what)
         return str(value)
 
-    def names(self, name: str, known: Sequence[str], default: Sequence[str], what: str) -> List[str]:
+    def names(self, name: str, known: Sequence[str], default: Sequence[str], what: str) -> list[str]:
         """`what` they are, e.g. "method of the study"."""
         values = self.entries.get(name, list(default))
         if not isinstance(values, list):
@@ -100,10 +97,10 @@ class Section:
 
 
 def is_positive(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and 0 < value <= LARGEST_NUMBER
+    return is_number(value) and 0 < value <= LARGEST_NUMBER
 
 
-def flat(table: Mapping[str, Any], prefix: str = "") -> Iterator[Tuple[str, Any]]:
+def flat(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
     """The entries of nested tables by dotted keys."""
     for key, value in table.items():
         if isinstance(value, dict):

@@ -3,19 +3,19 @@
 import itertools
 import math
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Iterable, Mapping, Sequence
 
 from ..base.case_names import short_name
 from ..base.errors import InputError
 from ..base.files import absolute, exists, is_file, read_toml
-from . import source_tree
-from .mesh_levels import MESHES
-from ..base.suggestions import nearest
+from ..base.suggestions import hint
 from ..gallery.mesh_chain import with_places
 from ..gallery.scene import READY, Scene, read_scene, ready_scenes
 from ..starting.launch import usable_cores
+from . import source_tree
+from .mesh_levels import MESHES
 from .section import LARGEST_COUNT, LARGEST_NUMBER, Section
 
 PROGRAMS = ("fsi-monolithic", "fsi-partitioned")
@@ -23,26 +23,13 @@ MESH = "mesh"  # among what is varied: a level or a section of [meshes]
 PROCESSES = "processes"  # among what is varied: numbers, or
 CORES = "cores"  # for 1, 2, 4, ... up to the cores that may be used, the last number included
 
+Entries = Mapping[str, Any]  # of a case, by full keys, or of a section
 LONGEST_NAME = 200  # characters of a key
 MOST_RUNS = 100_000
 FILE_NAME = re.compile(r"[^/.][^/]{0,59}")
 
-TOP_KEYS = (
-    "title",
-    "kind",
-    "threads",
-    "processes",
-    "jobs",
-    "time_limit",
-    "repeats",
-    "repeat_below",
-    "set",
-    "cases",
-    "methods",
-    "meshes",
-    "runs",
-    "report",
-)
+TOP_KEYS = ("title", "kind", "threads", "processes", "jobs", "time_limit", "repeats", "repeat_below", "set")
+TOP_TABLES = ("cases", "methods", "meshes", "runs", "report")
 METHOD_KEYS = ("program", "label", "set")
 CASE_KEYS = ("file", "scene", "set")
 MESH_KEYS = ("options", "label")
@@ -55,14 +42,14 @@ class Method:
     name: str
     label: str
     program: str
-    settings: Mapping[str, Any]
+    settings: Entries
 
 
 @dataclass(frozen=True)
 class StudyMesh:
     name: str
     label: str
-    options: Tuple[str, ...]  # of fsi-mesh's command; empty: a level of the same name, made by the driver on demand
+    options: tuple[str, ...]  # of fsi-mesh's command; empty: a level of the same name, made by the driver on demand
     command: str = "artery"  # others may follow among the options (gallery/mesh_chain.py)
 
 
@@ -73,18 +60,17 @@ class Request:
     group: str
     case: str
     method: Method
-    values: Mapping[str, Any]  # label or value of each quantity that the group varies, by its name
+    values: Entries  # label or value of each quantity that the group varies, by its name
     case_file: Path
-    mesh: Optional[StudyMesh]  # None: the case file's own
-    settings: Mapping[str, Any]  # entries over the case file's, without the mesh
+    mesh: StudyMesh | None  # None: the case file's own
+    settings: Entries  # entries over the case file's, without the mesh
     time_limit: float  # s
-    processes: Optional[int] = None  # None: as many as the study's other runs
+    processes: int | None = None  # None: as many as the study's other runs
 
     @property
     def label(self) -> str:
         values = [f"{short_name(key)} {show(value)}" for key, value in self.values.items()]
-        parts = [self.case, self.method.name, *values]
-        return ", ".join(part for part in parts if part)
+        return ", ".join(part for part in [self.case, self.method.name, *values] if part)
 
 
 @dataclass(frozen=True)
@@ -99,52 +85,43 @@ class Study:
     methods: Mapping[str, Method]
     meshes: Mapping[str, StudyMesh]
     requests: Sequence[Request]
-    report: Mapping[str, Any]  # settings of the report, checked by its kind
+    report: Entries  # settings of the report, checked by its kind
     quick: bool
     repeats: int = 1  # of each run that takes less than `repeat_below` s, in full: its seconds are then their median
     repeat_below: float = 60.0
-    settings: Mapping[str, Any] = field(default_factory=dict)  # of all runs
-    case_settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # of all runs of a case
+    settings: Entries = field(default_factory=dict)  # of all runs
+    case_settings: Mapping[str, Entries] = field(default_factory=dict)  # of all runs of a case
     processes: int = 1  # of each run whose group does not say
     scenes: Mapping[str, Scene] = field(default_factory=dict)  # of the cases that are scenes of the gallery
 
     def request(
-        self,
-        group: str,
-        case: str,
-        method: str,
-        values: Mapping[str, Any],
-        settings: Mapping[str, Any],
-        mesh: Optional[str] = None,
+        self, group: str, case: str, method: str, values: Entries, settings: Entries, mesh: str | None = None
     ) -> Request:
         """One more run, for kinds that decide on the next run from the last."""
         chosen = self.methods[method]
         merged = {**self.settings, **self.case_settings.get(case, {}), **chosen.settings, **settings}
-        return Request(
-            group,
-            case,
-            chosen,
-            dict(values),
-            self.cases[case],
-            self.meshes[mesh] if mesh else _mesh_of(self.scenes.get(case), self.quick),
-            merged,
-            self.time_limit,
-        )
+        made = self.meshes[mesh] if mesh else mesh_of_scene(self.scenes.get(case), self.quick)
+        return Request(group, case, chosen, dict(values), self.cases[case], made, merged, self.time_limit)
 
 
-def _mesh_of(scene: Optional[Scene], quick: bool) -> Optional[StudyMesh]:
-    """The mesh of a scene; None where the case is no scene."""
-    return None if scene is None else mesh_of_scene(scene, quick)
+def method_of(driver: str) -> Method:
+    """A driver as it is: `monolithic` or `partitioned`."""
+    return Method(driver, driver, f"fsi-{driver}", {})
 
 
-def mesh_of_scene(scene: Scene, quick: bool) -> StudyMesh:
-    """Its files named by their full paths."""
+def study_of_case(
+    path: Path, kind: str, name: str, case: Path, methods: Mapping[str, Method], threads: int, time_limit: float
+) -> Study:
+    """The study of a command that decides on its runs itself, one at a time; `path`: the user's case."""
+    return Study(path, name, kind, threads, 1, time_limit, {name: case}, methods, {}, (), {}, False)
+
+
+def mesh_of_scene(scene: Scene | None, quick: bool) -> StudyMesh | None:
+    """Its files named by their full paths; None where a case is no scene."""
+    if scene is None:
+        return None
     command, *options = with_places(scene.mesh_words(quick), scene.folder)
     return StudyMesh(scene.name + ("-quick" if quick else ""), "", tuple(options), command)
-
-
-def report_of(study: Study, known: Sequence[str]) -> Section:
-    return Section(study.path, "report", study.report, known)
 
 
 def show(value: Any) -> str:
@@ -165,14 +142,12 @@ def _require_shown(path: Path, key: str, entry: Any) -> None:
     """Names and texts end in tables, reports and names of files: they must be such that people can read them."""
     if isinstance(entry, dict):
         for name, value in entry.items():
-            if not name.isprintable() or len(name) > LONGEST_NAME:
-                raise InputError(
-                    path,
-                    f"{key}.{name}".lstrip("."),
-                    f"has more than {LONGEST_NAME} characters" if name.isprintable() else "holds a control character",
-                    "choose another name",
-                )
-            _require_shown(path, f"{key}.{name}".lstrip("."), value)
+            full = f"{key}.{name}".lstrip(".")
+            if not name.isprintable():
+                raise InputError(path, full, "holds a control character", "choose another name")
+            if len(name) > LONGEST_NAME:
+                raise InputError(path, full, f"has more than {LONGEST_NAME} characters", "choose another name")
+            _require_shown(path, full, value)
     elif isinstance(entry, list):
         for value in entry:
             _require_shown(path, key, value)
@@ -185,26 +160,25 @@ class _Value:
     """A value of a quantity that a group varies."""
 
     shown: Any
-    settings: Mapping[str, Any] = field(default_factory=dict)
-    mesh: Optional[StudyMesh] = None
-    processes: Optional[int] = None
+    settings: Entries = field(default_factory=dict)
+    mesh: StudyMesh | None = None
+    processes: int | None = None
 
 
 class _Reader:
     def __init__(self, path: Path, quick: bool):
         self.path, self.quick = path, quick
-        self.scenes: Dict[str, Scene] = {}  # of the cases that are scenes
+        self.scenes: dict[str, Scene] = {}  # of the cases that are scenes
 
     def wrong(self, key: str, problem: str, remedy: str) -> InputError:
         return InputError(self.path, key, problem, remedy)
 
-    def study(self, data: Dict[str, Any], kinds: Sequence[str]) -> Study:
-        top = self.section("", data, TOP_KEYS)
+    def study(self, data: dict[str, Any], kinds: Sequence[str]) -> Study:
+        top = self.section("", data, (*TOP_KEYS, *TOP_TABLES))
         kind = top.text("kind")
         if kind not in kinds and kind in source_tree.KINDS:
             raise source_tree.refusal(self.path, "kind", f"the kind '{kind}'")
         kind = self.one_of("kind", kind, kinds)
-        limit = top.number("time_limit", 3600.0)
         entries = top.table("cases", True)
         cases = {name: self.case(name, entry) for name, entry in entries.items()}
         of_case = {
@@ -216,31 +190,29 @@ class _Reader:
         meshes = {level: StudyMesh(level, level, ()) for level in MESHES}
         for name, entry in top.table("meshes").items():
             meshes[name] = self.mesh(name, entry)
-        settings = top.settings("set")
-        repeats = top.count("repeats", 1)
-        requests: List[Request] = []
-        for name, group in top.table("runs").items():
-            requests += self.group(name, group, cases, methods, meshes, settings, of_case, limit)
-        return Study(
+        repeats, settings = top.count("repeats", 1), top.settings("set")
+        study = Study(
             path=self.path,
             title=top.text("title"),
             kind=kind,
             threads=top.count("threads", 1),
             processes=top.count("processes", 1),
             jobs=top.count("jobs", 1),
-            time_limit=limit,
+            time_limit=top.number("time_limit", 3600.0),
             repeats=1 if self.quick else repeats,
             repeat_below=top.number("repeat_below", 60.0),
             cases=cases,
             methods=methods,
             meshes=meshes,
-            requests=requests,
+            requests=(),
             report=top.table("report"),
             quick=self.quick,
             settings=settings,
             case_settings=of_case,
             scenes=self.scenes,
         )
+        groups = [self.group(name, group, study) for name, group in top.table("runs").items()]
+        return replace(study, requests=[request for group in groups for request in group])
 
     def case(self, name: str, entry: Any) -> Path:
         """A file name, or a section with `set` and either `file` or `scene`, the name of a scene of the gallery."""
@@ -257,14 +229,14 @@ class _Reader:
             raise self.wrong(f"cases.{name}", f"no such case file: {path}", "give it relative to the study file")
         return path
 
-    def scene(self, name: str, entry: Dict[str, Any]) -> Path:
+    def scene(self, name: str, entry: dict[str, Any]) -> Path:
         key = f"cases.{name}.scene"
         if "file" in entry:
             raise self.wrong(key, "has a file beside it", "give one of the two")
         self.scenes[name] = read_scene(READY / self.one_of(key, entry["scene"], ready_scenes()))
         return self.scenes[name].case
 
-    def of_scene(self, name: str) -> Dict[str, Any]:
+    def of_scene(self, name: str) -> dict[str, Any]:
         """Settings of a scene's short form, where that is asked for."""
         return dict(self.scenes[name].quick) if self.quick and name in self.scenes else {}
 
@@ -280,24 +252,13 @@ class _Reader:
             raise self.wrong(key, "is a level's name already", "choose another name")
         options = entry.get("options")
         if not isinstance(options, list) or not options or not all(isinstance(word, str) for word in options):
-            raise self.wrong(
-                f"{key}.options", "is not a list of words", 'give options of fsi-mesh artery, e.g. ["--size", "0.5"]'
-            )
+            remedy = 'give options of fsi-mesh artery, e.g. ["--size", "0.5"]'
+            raise self.wrong(f"{key}.options", "is not a list of words", remedy)
         if not FILE_NAME.fullmatch(name):
             raise self.wrong(key, "is no name for a file", "choose a short one without '/'")
         return StudyMesh(name, section.text("label", name), tuple(options))
 
-    def group(
-        self,
-        name: str,
-        group: Any,
-        cases: Mapping[str, Path],
-        methods: Mapping[str, Method],
-        meshes: Mapping[str, StudyMesh],
-        settings: Mapping[str, Any],
-        of_case: Mapping[str, Mapping[str, Any]],
-        limit: float,
-    ) -> List[Request]:
+    def group(self, name: str, group: Any, study: Study) -> list[Request]:
         key = f"runs.{name}"
         self.section(key, group, GROUP_KEYS)
         quick = group.get("quick", False)
@@ -308,14 +269,11 @@ class _Reader:
                 return []
             if quick is not True:
                 group = {**group, **quick}
-        names = self.names(group, "cases", cases, key)
-        chosen = [methods[method] for method in self.names(group, "methods", methods, key)]
+        names = self.names(group, "cases", study.cases, key)
+        chosen = [study.methods[method] for method in self.names(group, "methods", study.methods, key)]
         section = self.section(key, group, GROUP_KEYS)
         own, vary = section.settings("set"), section.table("vary")
-        axes = [
-            [(quantity, self.value(f"{key}.vary.{quantity}", quantity, value, meshes)) for value in points]
-            for quantity, points in ((name, self.points(f"{key}.vary.{name}", name, vary[name])) for name in vary)
-        ]
+        axes = [self.axis(f"{key}.vary.{quantity}", quantity, vary[quantity], study.meshes) for quantity in vary]
         if len(names) * len(chosen) * math.prod(len(axis) for axis in axes) > MOST_RUNS:
             raise self.wrong(key, f"asks for more than {MOST_RUNS} runs", "vary less in one group")
         requests = []
@@ -323,25 +281,27 @@ class _Reader:
             scene = self.scenes.get(case)
             if scene is not None and method.program not in scene.drivers:
                 continue
-            merged = {**settings, **of_case.get(case, {}), **method.settings, **own}
-            values, mesh, processes = {}, _mesh_of(scene, self.quick), None
+            merged = {**study.settings, **study.case_settings.get(case, {}), **method.settings, **own}
+            values, mesh, processes = {}, mesh_of_scene(scene, self.quick), None
             for quantity, value in point:
                 values[quantity] = value.shown
                 merged.update(value.settings)
                 mesh = value.mesh or mesh
                 processes = value.processes or processes
-            requests.append(Request(name, case, method, values, cases[case], mesh, merged, limit, processes))
+            file, limit = study.cases[case], study.time_limit
+            requests.append(Request(name, case, method, values, file, mesh, merged, limit, processes))
         return requests
 
-    def points(self, key: str, quantity: str, values: Any) -> List[Any]:
-        """The values of an axis as they are given, or those that "cores" stands for."""
+    def axis(self, key: str, quantity: str, values: Any, meshes: Mapping[str, StudyMesh]) -> list[tuple[str, _Value]]:
+        """The quantity with each of its values, or with those that "cores" stands for."""
         if quantity == PROCESSES and values == CORES:
             most = usable_cores()
-            doubled = [2**power for power in range(most.bit_length()) if 2**power < most]
-            return [*doubled, most]
-        return self.list(key, values)
+            values = [*(2**power for power in range(most.bit_length()) if 2**power < most), most]
+        if not isinstance(values, list) or not values:
+            raise self.wrong(key, "is not a list of values", "write [a, b, ...]")
+        return [(quantity, self.value(key, quantity, value, meshes)) for value in values]
 
-    def value(self, key: str, quantity: str, value: Any, meshes: Mapping[str, StudyMesh]) -> "_Value":
+    def value(self, key: str, quantity: str, value: Any, meshes: Mapping[str, StudyMesh]) -> _Value:
         """One value on an axis."""
         if quantity == MESH:
             return _Value(value, mesh=meshes[self.one_of(key, value, meshes)])
@@ -352,12 +312,9 @@ class _Reader:
             if "label" not in value:
                 raise self.wrong(key, "a value with settings has no label", 'write { label = "...", set = { ... } }')
             self.scalar(f"{key}.label", value["label"])
-            return _Value(
-                value["label"],
-                section.settings("set"),
-                meshes[self.one_of(f"{key}.mesh", value["mesh"], meshes)] if "mesh" in value else None,
-                self.processes(f"{key}.processes", value["processes"]) if "processes" in value else None,
-            )
+            mesh = meshes[self.one_of(f"{key}.mesh", value["mesh"], meshes)] if "mesh" in value else None
+            processes = self.processes(f"{key}.processes", value["processes"]) if "processes" in value else None
+            return _Value(value["label"], section.settings("set"), mesh, processes)
         self.scalar(key, value)
         if "." not in quantity:
             problem = "is neither 'mesh', 'processes' nor a key of the case file"
@@ -375,25 +332,17 @@ class _Reader:
 
     def one_of(self, key: str, name: Any, names: Iterable[str]) -> str:
         if not isinstance(name, str) or name not in names:
-            remedy = f"did you mean '{nearest(str(name), list(names))}'? There are {', '.join(names)}"
-            raise self.wrong(key, f"'{name}' is unknown", remedy)
+            raise self.wrong(key, f"'{name}' is unknown", hint(str(name), names, "There are"))
         return name
 
-    def names(self, group: Dict[str, Any], name: str, known: Mapping[str, Any], section: str) -> List[str]:
+    def names(self, group: dict[str, Any], name: str, known: Entries, section: str) -> list[str]:
         """Cases or methods: those that a group names, or all."""
         given = group.get(name, list(known))
         if not isinstance(given, list):
             raise self.wrong(f"{section}.{name}", "is not a list of names", "write [a, b, ...]")
-        chosen = [self.one_of(f"{section}.{name}", entry, known) for entry in given]
-        return list(dict.fromkeys(chosen))
+        return list(dict.fromkeys([self.one_of(f"{section}.{name}", entry, known) for entry in given]))
 
     def scalar(self, key: str, value: Any) -> None:
         if not isinstance(value, (str, int, float)) or (isinstance(value, int) and abs(value) > LARGEST_NUMBER):
-            raise self.wrong(
-                key, f"{show(value)} is no number or text", "write { label = ..., set = { ... } } for others"
-            )
-
-    def list(self, key: str, values: Any) -> List[Any]:
-        if not isinstance(values, list) or not values:
-            raise self.wrong(key, "is not a list of values", "write [a, b, ...]")
-        return values
+            remedy = "write { label = ..., set = { ... } } for others"
+            raise self.wrong(key, f"{show(value)} is no number or text", remedy)

@@ -2,9 +2,10 @@
 
 import sys
 import time
-from typing import Any, Dict, List, Sequence, Tuple
+from typing import Any, Sequence
 
 from .mesh_levels import MESH_NODES
+from ..base.numbers import is_number
 from ..starting.duration import duration
 from .study_file import Request
 from .study_run import StudyRun
@@ -16,19 +17,16 @@ class StudyProgress:
     def __init__(self, quiet: bool, jobs: int):
         self._quiet, self._jobs = quiet, jobs
         self._terminal = sys.stderr.isatty()
-        self._left: List[Request] = []
+        self._left: list[Request] = []
         self._total = self._known_count = self._failed_count = 0
-        self._rates: Dict[str, Tuple[float, float]] = {}  # method -> (weight, seconds)
-        self._began: Dict[int, float] = {}
+        self._rates: dict[str, tuple[float, float]] = {}  # method -> (weight, seconds)
+        self._began: dict[int, float] = {}
 
     @staticmethod
     def weight(request: Request) -> float:
         nodes = MESH_NODES.get(request.mesh.name if request.mesh else "coarse", 3e3)
-        return (
-            nodes
-            * _positive(request.settings.get("time.end"), 12.0)
-            / _positive(request.settings.get("time.step"), 0.125)
-        )
+        end, step = (request.settings.get(f"time.{name}") for name in ("end", "step"))
+        return nodes * _positive(end, 12.0) / _positive(step, 0.125)
 
     def known(self, request: Request, run: StudyRun) -> None:
         self._known_count += 1
@@ -55,23 +53,18 @@ class StudyProgress:
         self._left.remove(request)
         if run.done:
             self._learn(request, run.seconds)
-        said = "" if run.done else f", {run.status}: {run.message}"
-        self._say(
-            f"[{self._total - len(self._left)}/{self._total}] {request.label}: "
-            f"{duration(run.seconds)}{said}{self._left_text()}"
-        )
+        said = "" if run.done else f", {run.end_words}"
+        self._say(f"{self._words(request, run.seconds)}{said}{self._left_text()}")
 
     def tick(self, running: Sequence[Request]) -> None:
         if self._terminal and not self._quiet and running:
             now = time.monotonic()
             began = self._began.setdefault(id(running[0]), now)
-            print(
-                f"\r\033[K[{self._total - len(self._left)}/{self._total}] {running[0].label}: "
-                f"{duration(now - began)}{self._left_text()}",
-                end="",
-                file=sys.stderr,
-                flush=True,
-            )
+            text = f"\r\033[K{self._words(running[0], now - began)}{self._left_text()}"
+            print(text, end="", file=sys.stderr, flush=True)
+
+    def _words(self, request: Request, seconds: float) -> str:
+        return f"[{self._total - len(self._left)}/{self._total}] {request.label}: {duration(seconds)}"
 
     def _learn(self, request: Request, seconds: float) -> None:
         weight, known = self._rates.get(request.method.name, (0.0, 0.0))
@@ -95,4 +88,4 @@ class StudyProgress:
 def _positive(value: Any, usual: float) -> float:
     """The value if it is a positive number, else the usual one. A study's settings are for the driver to judge; here
     they only weigh the work."""
-    return float(value) if isinstance(value, (int, float)) and 1e-9 < value < 1e9 else usual
+    return float(value) if is_number(value) and 1e-9 < value < 1e9 else usual

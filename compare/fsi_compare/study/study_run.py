@@ -3,14 +3,13 @@
 import functools
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Optional, Tuple
 
 from ..base.errors import InputError
 from ..base.files import is_file, read_object
 from ..runs.coupling import chosen_scheme, coupling_kind
 from ..runs.columns import Columns, read_columns
 from ..runs.pressure_waves import PressureWaves
-from ..runs.run_folder import has_pressure, read_pressure_line
+from ..runs.run_folder import read_pressure_line
 from ..runs.summary import FILE, checked
 from ..runs.work_units import in_all, per_step
 from .study_file import Request
@@ -21,22 +20,26 @@ REFUSED = "refused"  # exit code 1: bad input
 CRASHED = "crashed"  # a signal, or an exit code that no program of ours has
 OUT_OF_TIME = "out of time"
 WRONG = "not finite"  # it says done, and a result file holds NaN or infinity
-STATUSES = (DONE, NOT_CONVERGED, REFUSED, CRASHED, OUT_OF_TIME, WRONG)
 
 
 @dataclass(frozen=True)
 class StudyRun:
     request: Request
     folder: Path
-    status: str  # one of STATUSES
+    status: str  # one of the above
     message: str  # why it is not done
     seconds: float  # of the process, start to end
     command: str  # to repeat it by hand
-    timings: Tuple[float, ...] = ()  # s, of the time steps: of all repetitions, of which this is the median
+    timings: tuple[float, ...] = ()  # s, of the time steps: of all repetitions, of which this is the median
 
     @property
     def done(self) -> bool:
         return self.status == DONE
+
+    @property
+    def end_words(self) -> str:
+        """How it ended, with what is known about a bad end."""
+        return self.status if self.done else f"{self.status}: {self.message}"
 
     def __hash__(self) -> int:
         return hash(self.folder)
@@ -56,11 +59,6 @@ class StudyRun:
     def pressure(self) -> PressureWaves:
         """Along the centre line, or the line that the case asks for. Raises InputError."""
         return read_pressure_line(self.folder)
-
-    @property
-    def has_pressure(self) -> bool:
-        """Whether there is a line of pressure. Raises InputError."""
-        return has_pressure(self.folder)
 
     def columns(self, file: str) -> Columns:
         """All columns of a CSV of the run, e.g. `iterations.csv`. Raises InputError when it is missing or broken."""
@@ -89,12 +87,12 @@ class StudyRun:
         return float(self.summary.get("totals", {}).get("wall_s", float("nan")))
 
     @property
-    def work_units_per_step(self) -> Optional[float]:
+    def work_units_per_step(self) -> float | None:
         """Work units per step; None: the run did not measure the unit."""
         return per_step(self.summary)
 
     @property
-    def work_units(self) -> Optional[float]:
+    def work_units(self) -> float | None:
         """Work units of all time steps."""
         return in_all(self.summary)
 
@@ -106,6 +104,6 @@ class StudyRun:
         return totals.get(key, float("nan")) / self.steps if self.steps else float("nan")
 
 
-def known(value: float) -> Optional[float]:
+def known(value: float) -> float | None:
     """The value; None for NaN."""
     return value if value == value else None

@@ -1,7 +1,7 @@
 """What a beat shows: of a run, and of the periodic state of the model."""
 
 from dataclasses import dataclass
-from typing import Dict, List, Mapping, Sequence
+from typing import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -12,9 +12,9 @@ from .targets import DIASTOLIC, FLOW, MEAN, SPLIT, SYSTOLIC, Target
 from .vessel import Vessel
 
 
-def given_ends(scene: Scene, curves: Curves, phases: int) -> Dict[str, End]:
+def given_ends(scene: Scene, curves: Curves, phases: int) -> dict[str, End]:
     """Ends of all openings, with the laws of the case; what the case gives there, as a run shows it."""
-    found: Dict[str, End] = {}
+    found: dict[str, End] = {}
     for name in curves.names:
         kind = scene.kind(name)
         if kind in ("resistance", "windkessel"):
@@ -26,7 +26,7 @@ def given_ends(scene: Scene, curves: Curves, phases: int) -> Dict[str, End]:
     return found
 
 
-def with_values(ends: Mapping[str, End], values: Mapping[str, Windkessel]) -> Dict[str, End]:
+def with_values(ends: Mapping[str, End], values: Mapping[str, Windkessel]) -> dict[str, End]:
     return {name: values.get(name, end) for name, end in ends.items()}
 
 
@@ -38,7 +38,7 @@ def shown_by_run(curves: Curves, targets: Sequence[Target], outlets: Sequence[st
     return _shown(targets, late.pressure, means, flows)
 
 
-def cut_off(curves: Curves, targets: Sequence[Target], period: float) -> List[str]:
+def cut_off(curves: Curves, targets: Sequence[Target], period: float) -> list[str]:
     """Extremes that a beat has at the end of its lead, so that they may lie within it; in words."""
     late = curves.after(LEAD * period).pressure
     first = {SYSTOLIC: np.argmax, DIASTOLIC: np.argmin}
@@ -57,12 +57,11 @@ def shown_by_model(state: State, vessel: Vessel, ends: Mapping[str, End], target
     return _shown(targets, state.pressure, means, {name: flows[name] for name in outlets})
 
 
-def outlets_of(ends: Mapping[str, End]) -> List[str]:
+def outlets_of(ends: Mapping[str, End]) -> list[str]:
     """Openings by which flow leaves that is not given: laws, and free ones where something else drives the flow."""
     laws = [name for name, end in ends.items() if isinstance(end, Windkessel)]
-    if not any(isinstance(end, GivenFlow) for end in ends.values()):
-        return laws
-    return laws + [name for name, end in ends.items() if isinstance(end, GivenPressure)]
+    free = [name for name, end in ends.items() if isinstance(end, GivenPressure)]
+    return laws + free if any(isinstance(end, GivenFlow) for end in ends.values()) else laws
 
 
 def _shown(
@@ -72,20 +71,14 @@ def _shown(
     flows: Mapping[str, float],
 ) -> np.ndarray:
     total = sum(flows.values())
-    found = []
-    for target in targets:
-        if target.kind == DIASTOLIC:
-            found.append(float(pressure[target.opening].min()))
-        elif target.kind == SYSTOLIC:
-            found.append(float(pressure[target.opening].max()))
-        elif target.kind == MEAN:
-            found.append(means[target.opening])
-        elif target.kind == FLOW:
-            found.append(flows[target.opening])
-        else:
-            assert target.kind == SPLIT
-            found.append(flows[target.opening] / total if total else 0.0)
-    return np.array(found)
+    of_kind: dict[str, Callable[[str], float]] = {
+        DIASTOLIC: lambda opening: float(pressure[opening].min()),
+        SYSTOLIC: lambda opening: float(pressure[opening].max()),
+        MEAN: lambda opening: means[opening],
+        FLOW: lambda opening: flows[opening],
+        SPLIT: lambda opening: flows[opening] / total if total else 0.0,
+    }
+    return np.array([of_kind[target.kind](target.opening) for target in targets])
 
 
 @dataclass(frozen=True)
@@ -109,7 +102,7 @@ class Repetition:
 
 def repetitions(
     curves: Curves, values: Mapping[str, Windkessel], starts: Mapping[str, float], period: float
-) -> Dict[str, Repetition]:
+) -> dict[str, Repetition]:
     """Repetitions of all Windkessels. `starts`: their pressures in kPa at the start; without them the first level's."""
     found = {}
     for name, law in values.items():

@@ -10,7 +10,7 @@ where e_i is the pressure that opening i is given, or the distal one behind its 
 """
 
 from dataclasses import dataclass
-from typing import Dict, Mapping, Union
+from typing import Mapping
 
 import numpy as np
 
@@ -43,12 +43,17 @@ class Windkessel:
     def resistance(self) -> float:
         return self.proximal + self.distal
 
+    @property
+    def values(self) -> dict[str, float]:
+        """Entries of a case that are tuned."""
+        return {"proximal": self.proximal, "compliance": self.compliance, "distal": self.distal}
+
     def behind(self, frequency: np.ndarray) -> np.ndarray:
         """R_d / (1 + j w R_d C): pressure stored over flow."""
         return self.distal / (1 + 1j * frequency * self.distal * self.compliance)
 
 
-End = Union[GivenFlow, GivenPressure, Windkessel]
+End = GivenFlow | GivenPressure | Windkessel
 
 
 @dataclass(frozen=True)
@@ -70,22 +75,19 @@ def periodic_state(vessel: Vessel, ends: Mapping[str, End], period: float) -> St
         if isinstance(end, GivenFlow):
             given[name] = np.fft.rfft(end.flow)
             continue
-        law: Union[float, np.ndarray] = end.proximal + end.behind(frequency) if isinstance(end, Windkessel) else 0.0
+        law: float | np.ndarray = end.proximal + end.behind(frequency) if isinstance(end, Windkessel) else 0.0
         admittance[name] = 1 / (serial[name] + law + short)
         source[name] = _source(end, len(frequency))
     total = sum(admittance.values()) + 1j * frequency * vessel.compliance
     point = (sum(admittance[n] * source[n] for n in admittance) - sum(given.values(), np.zeros(1))) / total
     flows = {n: given[n] if n in given else admittance[n] * (point - source[n]) for n in ends}
     pressure = {n: _in_time(point - serial[n] * flows[n]) for n in ends}
-    stored = {
-        n: _in_time(source[n] + end.behind(frequency) * flows[n])
-        for n, end in ends.items()
-        if isinstance(end, Windkessel)
-    }
+    laws = {n: end for n, end in ends.items() if isinstance(end, Windkessel)}
+    stored = {n: _in_time(source[n] + law.behind(frequency) * flows[n]) for n, law in laws.items()}
     return State(pressure, {n: _in_time(q) for n, q in flows.items()}, stored)
 
 
-def mean_flows(vessel: Vessel, ends: Mapping[str, End]) -> Dict[str, float]:
+def mean_flows(vessel: Vessel, ends: Mapping[str, End]) -> dict[str, float]:
     """Outwards, of harmonic 0 alone."""
     short = _short(vessel, ends)
     laws = {n: end.resistance if isinstance(end, Windkessel) else 0.0 for n, end in ends.items()}

@@ -3,18 +3,18 @@
 import argparse
 import shlex
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional
+from typing import Any, Mapping
 
 from ..base.errors import InputError, ProgramError, printable, say_note, say_warning
-from ..base.files import absolute, folder, is_file, output_folder, read_toml, remove_tree, together
-from ..base.options import Commands, add_command, add_drivers, add_usual
+from ..base.files import absolute, is_file, output_folder, read_toml, remove_tree, together
+from ..base.options import Commands, add_case, add_command, add_drivers, add_time_limit, add_usual, share
 from ..results.run import open_run
 from ..gallery.mesh_chain import with_places
 from ..gallery.scene import read_scene as read_gallery_scene
 from ..study.runner import Runner, sweep_study
-from ..study.study_file import Method, Request, Study, StudyMesh, mesh_of_scene
-from ..starting.folder_lock import locked
-from ..starting.programs import find_mesh_maker, find_program
+from ..study.study_file import Request, StudyMesh, mesh_of_scene, method_of, study_of_case
+from ..base.folder_lock import locked
+from ..starting.programs import find_mesh_maker, find_program, no_mesh_maker
 from ..verify.found_case import write_case
 from ..verify.mesh_family import find_recipe
 from .curves import curves_of
@@ -58,34 +58,26 @@ a table of targets:
 
 
 def add_parser(commands: Commands, version: str) -> None:
-    command = add_command(
-        commands, "tune", run, "Windkessels for given pressures and flow splits", DESCRIPTION, EXAMPLES
-    )
-    command.add_argument("case", metavar="CASE.toml", type=Path, help="case file")
-    command.add_argument("-o", "--output", metavar="OUTDIR", type=folder, help="default: results/tune/CASE")
-    several: Dict[str, Any] = {"action": "append", "default": []}
-    command.add_argument(
-        "--pressure", metavar="NAME=LOW/HIGH", **several, help="of one opening, diastolic and systolic, in kPa or mmHg"
-    )
-    command.add_argument("--mean-pressure", metavar="NAME=P", **several, help="in place of them")
-    command.add_argument("--split", metavar="NAME=N%", **several, help="share of the mean flow of an outlet")
-    command.add_argument(
-        "--flow", metavar="NAME=Q", **several, help="mean flow outwards, in ml/s, ml/min, l/min, mm3/ms"
-    )
+    help = "Windkessels for given pressures and flow splits"
+    command = add_command(commands, "tune", run, help, DESCRIPTION, EXAMPLES)
+    add_case(command, "tune")
+    for option, metavar, text in (
+        ("--pressure", "NAME=LOW/HIGH", "of one opening, diastolic and systolic, in kPa or mmHg"),
+        ("--mean-pressure", "NAME=P", "in place of them"),
+        ("--split", "NAME=N%", "share of the mean flow of an outlet"),
+        ("--flow", "NAME=Q", "mean flow outwards, in ml/s, ml/min, l/min, mm3/ms"),
+    ):
+        command.add_argument(option, metavar=metavar, action="append", default=[], help=text)
     command.add_argument("--targets", metavar="FILE.toml", type=Path, help="the same in a table")
-    command.add_argument(
-        "--proximal",
-        metavar="N%",
-        default="8%",
-        help="of an outlet's resistance that is before its compliance; kept: as in the case (default: 8%%)",
-    )
-    command.add_argument("--tolerance", metavar="N%", default="1%", help="of each target (default: 1%%)")
+    text = "of an outlet's resistance that is before its compliance; kept: as in the case (default: 8%%)"
+    command.add_argument("--proximal", metavar="N%", default="8%", help=text)
+    text = "of each target (default: 1%%)"
+    command.add_argument("--tolerance", metavar="N%", type=share("--tolerance"), default="1%", help=text)
     command.add_argument("--beats", metavar="N", type=int, default=3, help="at most (default: %(default)s)")
-    command.add_argument(
-        "--driver", metavar="NAME", default="monolithic", help="monolithic or partitioned (default: %(default)s)"
-    )
+    text = "monolithic or partitioned (default: %(default)s)"
+    command.add_argument("--driver", metavar="NAME", default="monolithic", help=text)
     command.add_argument("--mesh", metavar="WORDS", help="of the fsi-mesh command that makes the mesh, without -o")
-    command.add_argument("--time-limit", metavar="S", type=float, default=3600.0, help="of each beat (default: 3600)")
+    add_time_limit(command, "beat")
     add_drivers(command)
     add_usual(command, version, "of each run (default: 1)")
 
@@ -98,10 +90,9 @@ def run(options: argparse.Namespace) -> int:
         raise InputError("", "--driver", f"'{options.driver}' is no driver", f"give {' or '.join(DRIVERS)}")
     if not 1 <= options.beats <= MOST_BEATS:
         raise InputError("", "--beats", f"{options.beats} beats will not do", f"give 1 to {MOST_BEATS}")
-    rule = Rule(None if options.proximal == "kept" else _share("--proximal", options.proximal))
-    tolerance = _share("--tolerance", options.tolerance)
+    rule = Rule(None if options.proximal == "kept" else share("--proximal")(options.proximal))
     scene = read_scene(options.case, read_toml(options.case, GIVE, GIVE))
-    demand = Demand(checked_targets(scene, targets), rule, tolerance, options.beats)
+    demand = Demand(checked_targets(scene, targets), rule, options.tolerance, options.beats)
     place = options.output or Path("results", "tune", options.case.stem)
     with output_folder(place), locked(place):
         sweep_study(place)
@@ -110,14 +101,12 @@ def run(options: argparse.Namespace) -> int:
         for line in decided(scene, demand):
             say(line)
         if scene.elastic and "prestress" not in scene.entries:
-            say_warning(
-                "the wall has no [prestress]: under a pressure like the one asked for it is thrown outwards first"
-            )
-        outcome = tune(scene, demand, beats.run, say)
-        return _write(options, scene, demand, outcome, beats)
+            words = "under a pressure like the one asked for it is thrown outwards first"
+            say_warning(f"the wall has no [prestress]: {words}")
+        return _write(options, scene, demand, tune(scene, demand, beats.run, say), beats)
 
 
-def decided(scene: Scene, demand: Demand) -> List[str]:
+def decided(scene: Scene, demand: Demand) -> list[str]:
     """Sentences on what was decided without the call saying it."""
     lines = [f"tuned: the Windkessels of {', '.join(scene.windkessels)}; a beat takes {scene.period:g} ms"]
     lines.append(f"proximal resistance: {demand.rule.words}; compliance: shared out like the mean flow")
@@ -130,17 +119,6 @@ def decided(scene: Scene, demand: Demand) -> List[str]:
     return lines
 
 
-def _share(option: str, text: str) -> float:
-    """Reads a share: 0.02 for 2% and for 0.02. Raises InputError."""
-    try:
-        value = float(text[:-1]) / 100 if text.endswith("%") else float(text)
-    except ValueError:
-        value = 0.0
-    if not 0 < value < 1:
-        raise InputError("", option, f"{text} is no part of a value", "give a percentage, like 1%")
-    return value
-
-
 class Beats:
     """Runs them. The folder is locked."""
 
@@ -150,23 +128,11 @@ class Beats:
         program = find_program(self.name, getattr(options, options.driver), f"--{options.driver}")
         mesh_maker = find_mesh_maker(program)
         self.mesh = _mesh(scene, options.mesh, mesh_maker, place)
-        self.method = Method(options.driver, options.driver, self.name, {})
+        self.method = method_of(options.driver)
         self.case = self._case()
-        title, methods = scene.path.stem, {options.driver: self.method}
-        study = Study(
-            scene.path,
-            title,
-            "tune",
-            options.threads or 1,
-            1,
-            self.limit,
-            {title: self.case},
-            methods,
-            {},
-            (),
-            {},
-            False,
-        )
+        methods = {options.driver: self.method}
+        name, threads = scene.path.stem, options.threads or 1
+        study = study_of_case(scene.path, "tune", name, self.case, methods, threads, self.limit)
         self.runner = Runner(study, place, {self.name: program}, mesh_maker, options.threads, 1, options.quiet)
 
     def _case(self) -> Path:
@@ -184,10 +150,8 @@ class Beats:
 
     def run(self, number: int, settings: Mapping[str, Any]) -> Ran:
         """Runs one beat. Raises InputError where the first one fails, BeatFailed where a later one does."""
-        merged = {"time.end": self.scene.period, **settings}
-        request = Request(
-            "beats", self.scene.path.stem, self.method, {"beat": number}, self.case, self.mesh, merged, self.limit
-        )
+        name, merged = self.scene.path.stem, {"time.end": self.scene.period, **settings}
+        request = Request("beats", name, self.method, {"beat": number}, self.case, self.mesh, merged, self.limit)
         done = self.runner.run([request])[0]
         if not done.done:
             message = done.message or done.status
@@ -196,18 +160,18 @@ class Beats:
             raise ProgramError(self.scene.path, f"beat {number}", message, "mend the case first")
         return Ran(curves_of(open_run(done.folder).openings), done.seconds)
 
-    def mesh_file(self) -> Optional[Path]:
+    def mesh_file(self) -> Path | None:
         return self.runner.mesh_file(self.mesh)
 
 
-def _mesh(scene: Scene, words: Optional[str], mesh_maker: Optional[Path], place: Path) -> Optional[StudyMesh]:
+def _mesh(scene: Scene, words: str | None, mesh_maker: Path | None, place: Path) -> StudyMesh | None:
     """The mesh of the beats; None: the case's own file or level."""
     section = scene.entries.get("mesh", {})
     own = section.get("file") if isinstance(section, dict) else None
     if words is None and (own is None or is_file(scene.path.parent / str(own))):
         return None
     if mesh_maker is None:
-        raise InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
+        raise no_mesh_maker()
     folder = scene.path.parent
     if words is not None:
         command, *others = with_places(shlex.split(words), Path(".")) or [""]
@@ -245,12 +209,11 @@ def _write_tuned(inside: Path, scene: Scene, outcome: Outcome, beats: Beats) -> 
     return path
 
 
-def _tuned(opening: Mapping[str, Any], values: Mapping[str, Any], starts: Mapping[str, float]) -> Dict[str, Any]:
+def _tuned(opening: Mapping[str, Any], values: Mapping[str, Any], starts: Mapping[str, float]) -> dict[str, Any]:
     name = str(opening.get("surface"))
     if name not in values:
         return dict(opening)
-    law = values[name]
-    found = {**opening["windkessel"], "proximal": law.proximal, "compliance": law.compliance, "distal": law.distal}
+    found = {**opening["windkessel"], **values[name].values}
     if name in starts:
         found["initial_pressure"] = starts[name]
     return {**opening, "windkessel": found}

@@ -6,6 +6,7 @@ from typing import Mapping
 import numpy as np
 
 from ..results.openings import Opening
+from ..runs.levels import integral
 
 LEAD = 0.1  # of a beat, in which what the start at rest leaves dies out: not looked at
 
@@ -20,16 +21,14 @@ class Curves:
     stored: Mapping[str, np.ndarray]  # kPa, of the Windkessels
 
     @property
-    def names(self) -> "list[str]":
+    def names(self) -> list[str]:
         return list(self.flow)
 
     def after(self, time: float) -> "Curves":
         """The levels from `time` on."""
         kept = self.time >= time - 1e-9 * self.time[-1]
-        parts = [
-            {name: values[kept] for name, values in part.items()} for part in (self.pressure, self.flow, self.stored)
-        ]
-        return Curves(self.time[kept], *parts)
+        parts = (self.pressure, self.flow, self.stored)
+        return Curves(self.time[kept], *({name: values[kept] for name, values in part.items()} for part in parts))
 
 
 def curves_of(openings: Mapping[str, Opening]) -> Curves:
@@ -50,4 +49,4 @@ def over_period(time: np.ndarray, values: np.ndarray, period: float, count: int)
 
 def mean(time: np.ndarray, values: np.ndarray, period: float) -> float:
     """The mean over one period, by the trapezoidal rule; before the first level that level's value holds."""
-    return float(np.trapz(np.append(values[0], values), np.append(0.0, time)) / period)
+    return integral(np.append(0.0, time), np.append(values[0], values)) / period

@@ -1,10 +1,12 @@
 """What the tuning needs of a case file: its openings, their Windkessels, the period."""
 
+import math
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Sequence
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
+from ..base.numbers import is_number
 from ..base.suggestions import nearest
 from .circuit import Windkessel
 from .targets import FLOW, MEAN, SPLIT, SPLITS_MISS, SYSTOLIC, Target, no_pressure
@@ -22,7 +24,7 @@ class Scene:
     period: float  # ms
 
     @property
-    def windkessels(self) -> List[str]:
+    def windkessels(self) -> list[str]:
         return [name for name, one in self.openings.items() if WINDKESSEL in one]
 
     @property
@@ -46,13 +48,11 @@ def read_scene(path: Path, entries: Mapping[str, Any]) -> Scene:
     """Reads the openings of a case. What the drivers check is left to them. Raises InputError."""
     if "network" in entries:
         problem = "what is tuned are the Windkessels of [[opening]], not a network"
-        raise InputError(
-            path, "network", problem, "write the outlets as Windkessels, tune them, and take their values over"
-        )
+        remedy = "write the outlets as Windkessels, tune them, and take their values over"
+        raise InputError(path, "network", problem, remedy)
     listed = entries.get("opening", [])
-    openings = {
-        str(one.get("surface")): one for one in (listed if isinstance(listed, list) else []) if isinstance(one, dict)
-    }
+    sections = [one for one in (listed if isinstance(listed, list) else []) if isinstance(one, dict)]
+    openings = {str(one.get("surface")): one for one in sections}
     if "static" in entries or not isinstance(entries.get("time"), dict):
         raise InputError(path, "time", "is missing, and a beat takes some", "give a case with a section [time]")
     scene = Scene(path, entries, openings, _period(path, entries, openings))
@@ -61,24 +61,31 @@ def read_scene(path: Path, entries: Mapping[str, Any]) -> Scene:
         raise InputError(path, "opening", "none has a Windkessel, so that nothing can be tuned", remedy)
     for name in scene.windkessels:
         _require_numbers(path, name, openings[name][WINDKESSEL])
+    for name, section in openings.items():
+        if scene.kind(name) == "resistance":
+            for key in ("resistance", "distal_pressure"):
+                _require_number(path, f"opening.{name}.{key}", section.get(key, 0.0))
     return scene
 
 
 def _require_numbers(path: Path, name: str, values: Any) -> None:
+    given = values if isinstance(values, dict) else {}
     for key in ("proximal", "compliance", "distal"):
-        value = values.get(key) if isinstance(values, dict) else None
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or value < 0:
-            raise InputError(
-                path,
-                f"opening.{name}.windkessel.{key}",
-                "is no number from 0 on",
-                "give one: the first beat begins from it",
-            )
+        _require_number(path, f"opening.{name}.windkessel.{key}", given.get(key), 0.0)
+    for key in ("distal_pressure", "initial_pressure"):
+        _require_number(path, f"opening.{name}.windkessel.{key}", given.get(key, 0.0))
+
+
+def _require_number(path: Path, key: str, value: Any, least: float = -math.inf) -> None:
+    if not is_number(value) or value < least:
+        problem = f"is no number{' from 0 on' if least == 0 else ''}"
+        raise InputError(path, key, problem, "give one: the first beat begins from it")
 
 
 def _period(path: Path, entries: Mapping[str, Any], openings: Mapping[str, Mapping[str, Any]]) -> float:
     own = entries["time"].get("period")
-    found = {float(p) for p in [own, *(one.get("period") for one in openings.values())] if _is_number(p)}
+    given = [own, *(one.get("period") for one in openings.values())]
+    found = {float(period) for period in given if is_number(period) and period > 0}
     if not found:
         raise InputError(path, "opening", "nothing repeats itself, so that there is no beat", GIVE_PERIOD)
     longest = max(found)
@@ -89,24 +96,20 @@ def _period(path: Path, entries: Mapping[str, Any], openings: Mapping[str, Mappi
     return longest
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and value > 0
-
-
-def checked_targets(scene: Scene, targets: Sequence[Target]) -> List[Target]:
+def checked_targets(scene: Scene, targets: Sequence[Target]) -> list[Target]:
     """The targets, with the remaining share for an outlet without a target. Raises InputError."""
     for target in targets:
         if target.opening not in scene.openings:
-            raise InputError(
-                scene.path, "opening", f"'{target.opening}' is no opening", f"did you mean {_nearest(target, scene)}?"
-            )
+            remedy = f"did you mean {nearest(target.opening, scene.openings)}?"
+            raise InputError(scene.path, "opening", f"'{target.opening}' is no opening", remedy)
         kind = scene.kind(target.opening)
         if target.is_pressure and kind in ("pressure", ""):
             problem = f"'{target.opening}' has its pressure from the case, not from the Windkessels"
             raise InputError("", "--pressure", problem, "name an opening with a Windkessel or a given flow")
         if target.kind in (SPLIT, FLOW) and kind != WINDKESSEL:
             problem = f"'{target.opening}' has no Windkessel, so that its flow cannot be tuned"
-            raise InputError("", "--split" if target.kind == SPLIT else "--flow", problem, _windkessels(scene))
+            option = "--split" if target.kind == SPLIT else "--flow"
+            raise InputError("", option, problem, f"those with one: {', '.join(scene.windkessels)}")
         if target.kind in (SYSTOLIC, MEAN):
             _require_above_distal(scene, target)
     driven = any(scene.kind(name) == "pressure" for name in scene.openings) or "inlet" in scene.entries
@@ -115,26 +118,17 @@ def checked_targets(scene: Scene, targets: Sequence[Target]) -> List[Target]:
     return _with_rest(scene, list(targets))
 
 
-def _nearest(target: Target, scene: Scene) -> str:
-    return nearest(target.opening, list(scene.openings))
-
-
-def _windkessels(scene: Scene) -> str:
-    return f"those with one: {', '.join(scene.windkessels)}"
-
-
 def _require_above_distal(scene: Scene, target: Target) -> None:
     for name in scene.windkessels:
         behind = scene.law(name).distal_pressure
         if not target.value > behind:
-            problem = (
-                f"the {target.kind} of {target.value:g} kPa is not above the distal_pressure of {name}, {behind:g} kPa"
-            )
+            what = f"the {target.kind} of {target.value:g} kPa"
+            problem = f"{what} is not above the distal_pressure of {name}, {behind:g} kPa"
             raise InputError("", "--pressure", problem, "give a higher one")
 
 
-def _with_rest(scene: Scene, targets: List[Target]) -> List[Target]:
-    named: Dict[str, Target] = {t.opening: t for t in targets if t.kind in (SPLIT, FLOW)}
+def _with_rest(scene: Scene, targets: list[Target]) -> list[Target]:
+    named: dict[str, Target] = {t.opening: t for t in targets if t.kind in (SPLIT, FLOW)}
     missing = [name for name in scene.windkessels if name not in named]
     if not named:
         return targets

@@ -7,7 +7,7 @@ flow. Least squares of the relative differences by Levenberg's and Marquardt's m
 """
 
 from dataclasses import dataclass
-from typing import Callable, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -26,7 +26,7 @@ DIGITS = 6  # of the values that a case gets
 class Rule:
     """Rule for proximal resistances."""
 
-    share: Optional[float]  # of an outlet's whole; None: the case's values stay
+    share: float | None  # of an outlet's whole; None: the case's values stay
 
     def law(self, case: Windkessel, whole: float, compliance: float) -> Windkessel:
         proximal = case.proximal if self.share is None else self.share * whole
@@ -64,33 +64,28 @@ class Unknowns:
 
     def start(self) -> np.ndarray:
         whole = [np.log(self.model.case[name].resistance) for name in self.names] if self.each else [0.0]
-        return np.array([*whole, *([np.log(self._compliance())] if self.pulse else [])])
+        compliance = sum(law.compliance for law in self.model.case.values())
+        return np.array([*whole, *([np.log(compliance)] if self.pulse else [])])
 
-    def _compliance(self) -> float:
-        return sum(law.compliance for law in self.model.case.values())
-
-    def values(self, unknowns: np.ndarray) -> Dict[str, Windkessel]:
+    def values(self, unknowns: np.ndarray) -> dict[str, Windkessel]:
         factors = np.exp(unknowns)
-        if self.each:
-            whole = dict(zip(self.names, factors))
-        else:
-            whole = {name: factors[0] * self.model.case[name].resistance for name in self.names}
+        case = self.model.case
+        shared = {} if self.each else {n: factors[0] * law.resistance for n, law in case.items()}
+        whole = shared or dict(zip(self.names, factors))
         if not self.pulse:
-            return {n: self.rule.law(law, whole[n], law.compliance) for n, law in self.model.case.items()}
-        laws = {n: self.rule.law(law, whole[n], 1.0) for n, law in self.model.case.items()}
+            return {n: self.rule.law(law, whole[n], law.compliance) for n, law in case.items()}
+        laws = {n: self.rule.law(law, whole[n], 1.0) for n, law in case.items()}
         flows = mean_flows(self.model.vessel, with_values(self.model.ends, laws))
         out = {name: max(flows[name], 0.0) for name in self.names}
         total = sum(out.values())
         shares = {n: out[n] / total if total > 0 else 1 / len(out) for n in out}
-        compliance = factors[-1]
-        return {
-            n: self.rule.law(law, whole[n], compliance * max(shares[n], 1e-6)) for n, law in self.model.case.items()
-        }
+        compliance = {n: factors[-1] * max(shares[n], 1e-6) for n in out}
+        return {n: self.rule.law(law, whole[n], compliance[n]) for n, law in case.items()}
 
 
 @dataclass(frozen=True)
 class Solution:
-    values: Dict[str, Windkessel]
+    values: dict[str, Windkessel]
     foreseen: np.ndarray  # the targets' values by the model, corrected, (targets,)
     unknowns: np.ndarray
 
@@ -112,7 +107,8 @@ def _least_squares(left: Callable[[np.ndarray], np.ndarray], start: np.ndarray) 
     x, damping = start.copy(), 1e-3
     residual = left(x)
     for _ in range(ITERATIONS):
-        jacobian = np.column_stack([(left(x + step) - left(x - step)) / (2 * DIFFERENCE) for step in _steps(len(x))])
+        steps = DIFFERENCE * np.eye(len(x))
+        jacobian = np.column_stack([(left(x + step) - left(x - step)) / (2 * DIFFERENCE) for step in steps])
         normal, slope = jacobian.T @ jacobian, jacobian.T @ residual
         for _ in range(12):
             scale = np.maximum(np.diag(normal), 1e-12 * max(float(normal.max()), 1e-300))
@@ -131,21 +127,15 @@ def _least_squares(left: Callable[[np.ndarray], np.ndarray], start: np.ndarray) 
     return x
 
 
-def _steps(count: int) -> List[np.ndarray]:
-    return list(DIFFERENCE * np.eye(count))
-
-
 def rounded(law: Windkessel) -> Windkessel:
     """The law with the digits that a case file gets, so that a beat and the case are the same."""
-    proximal, compliance, distal = (
-        float(f"{value:.{DIGITS}g}") for value in (law.proximal, law.compliance, law.distal)
-    )
+    proximal, compliance, distal = (float(f"{value:.{DIGITS}g}") for value in law.values.values())
     return Windkessel(proximal, compliance, distal, law.distal_pressure)
 
 
 def reachable_pulse(
     model: Model, targets: Sequence[Target], rule: Rule, solution: Solution
-) -> Optional[Tuple[float, float]]:
+) -> tuple[float, float] | None:
     """The smallest and largest pulse pressure in kPa that compliances behind the outlets can give with the resistances
     found; None where no pulse is asked for."""
     unknowns = Unknowns(model, targets, rule)

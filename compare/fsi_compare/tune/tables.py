@@ -3,7 +3,7 @@
 import json
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Sequence
 
 from ..base.errors import printable
 from ..base.files import absolute, replacing
@@ -22,7 +22,7 @@ class Found:
     beat: int
     target: Target
     got: float
-    foreseen: Optional[float]
+    foreseen: float | None
 
     @property
     def percent(self) -> float:
@@ -36,10 +36,6 @@ class Value:
     beat: Beat
     outlet: str
     law: Windkessel
-
-
-def _number(value: float) -> str:
-    return f"{value:.4g}"
 
 
 def _shown(found: Found, value: float) -> str:
@@ -63,32 +59,35 @@ TARGETS: Sequence[Column[Found]] = (
 VALUES: Sequence[Column[Value]] = (
     Column("beat", "beat", lambda v: v.beat.number),
     Column("outlet", "outlet", lambda v: v.outlet, left=True),
-    Column("proximal [{unit}]", "proximal", lambda v: v.law.proximal, _number, unit="kPa ms/mm^3"),
-    Column("compliance [{unit}]", "compliance", lambda v: v.law.compliance, _number, unit="mm^3/kPa"),
-    Column("distal [{unit}]", "distal", lambda v: v.law.distal, _number, unit="kPa ms/mm^3"),
-    Column("starts from [{unit}]", "start", lambda v: v.beat.repeats[v.outlet].begin, _number, unit="kPa"),
-    Column("ends with [{unit}]", "end", lambda v: v.beat.repeats[v.outlet].end, _number, unit="kPa"),
-    Column("periodic [{unit}]", "periodic", lambda v: v.beat.repeats[v.outlet].periodic, _number, unit="kPa"),
+    Column("proximal [{unit}]", "proximal", lambda v: v.law.proximal, ".4g", unit="kPa ms/mm^3"),
+    Column("compliance [{unit}]", "compliance", lambda v: v.law.compliance, ".4g", unit="mm^3/kPa"),
+    Column("distal [{unit}]", "distal", lambda v: v.law.distal, ".4g", unit="kPa ms/mm^3"),
+    Column("starts from [{unit}]", "start", lambda v: v.beat.repeats[v.outlet].begin, ".4g", unit="kPa"),
+    Column("ends with [{unit}]", "end", lambda v: v.beat.repeats[v.outlet].end, ".4g", unit="kPa"),
+    Column("periodic [{unit}]", "periodic", lambda v: v.beat.repeats[v.outlet].periodic, ".4g", unit="kPa"),
 )
-VESSEL: Sequence[Column[Tuple[Beat, str]]] = (
+
+
+def _left(of: str, head: str, csv: str) -> Column[tuple[Beat, str]]:
+    return Column(head, csv, lambda v: 100 * getattr(v[0].vessel, f"unexplained_{of}"), ".1f")
+
+
+VESSEL: Sequence[Column[tuple[Beat, str]]] = (
     Column("beat", "beat", lambda v: v[0].number),
     Column("opening", "opening", lambda v: v[1], left=True),
-    Column("resistance [{unit}]", "resistance", lambda v: v[0].vessel.resistance[v[1]], _number, unit="kPa ms/mm^3"),
-    Column("inertance [{unit}]", "inertance", lambda v: v[0].vessel.inertance[v[1]], _number, unit="kPa ms^2/mm^3"),
-    Column("compliance [{unit}]", "compliance", lambda v: v[0].vessel.compliance, _number, unit="mm^3/kPa"),
-    Column(
-        "left of pressures [%]", "left_of_pressures_percent", lambda v: 100 * v[0].vessel.unexplained_pressure, ".1f"
-    ),
-    Column("left of volume [%]", "left_of_volume_percent", lambda v: 100 * v[0].vessel.unexplained_volume, ".1f"),
+    Column("resistance [{unit}]", "resistance", lambda v: v[0].vessel.resistance[v[1]], ".4g", unit="kPa ms/mm^3"),
+    Column("inertance [{unit}]", "inertance", lambda v: v[0].vessel.inertance[v[1]], ".4g", unit="kPa ms^2/mm^3"),
+    Column("compliance [{unit}]", "compliance", lambda v: v[0].vessel.compliance, ".4g", unit="mm^3/kPa"),
+    _left("pressure", "left of pressures [%]", "left_of_pressures_percent"),
+    _left("volume", "left of volume [%]", "left_of_volume_percent"),
 )
 
 
-def tables_of(demand: Demand, outcome: Outcome) -> List[Table]:
-    found = [
-        Found(beat.number, target, float(beat.got[i]), None if beat.foreseen is None else float(beat.foreseen[i]))
-        for beat in outcome.beats
-        for i, target in enumerate(demand.targets)
-    ]
+def tables_of(demand: Demand, outcome: Outcome) -> list[Table]:
+    found = []
+    for beat in outcome.beats:
+        foreseen = [None] * len(demand.targets) if beat.foreseen is None else map(float, beat.foreseen)
+        found += [Found(beat.number, *one) for one in zip(demand.targets, map(float, beat.got), foreseen)]
     values = [Value(beat, name, law) for beat in outcome.beats for name, law in beat.values.items()]
     vessels = [(beat, name) for beat in outcome.beats for name in beat.vessel.resistance]
     return [
@@ -100,31 +99,20 @@ def tables_of(demand: Demand, outcome: Outcome) -> List[Table]:
 
 def write_results(
     folder: Path, scene: Scene, demand: Demand, outcome: Outcome, program: str
-) -> Tuple[List[Table], List[Path]]:
+) -> tuple[list[Table], list[Path]]:
     tables = tables_of(demand, outcome)
     written = write_tables(folder, tables, "tune.md", f"Tuning of {printable(scene.path.stem)}")
     last = outcome.beats[-1]
-    said: Dict[str, Any] = {
-        "case": str(absolute(scene.path)),
-        "program": program,
-        "period_ms": scene.period,
-        "proximal": demand.rule.words,
-        "tolerance": demand.tolerance,
+    begins = {name: one.begin for name, one in last.repeats.items()}
+    said: dict[str, Any] = {"case": str(absolute(scene.path)), "program": program, "period_ms": scene.period}
+    said |= {"proximal": demand.rule.words, "tolerance": demand.tolerance}
+    said |= {
         "reached": outcome.reached,
         "notes": outcome.lines,
-        "targets": [
-            {"opening": t.opening, "quantity": t.kind, "unit": t.unit, "asked": t.value, "found": float(got)}
-            for t, got in zip(demand.targets, last.got)
-        ],
-        "windkessels": {
-            name: {"proximal": law.proximal, "compliance": law.compliance, "distal": law.distal,
-                   "initial_pressure": last.repeats[name].begin}
-            for name, law in last.values.items()
-        },
-        "beats": [
-            {"beat": b.number, "seconds": b.seconds, "distance_from_periodic": b.period_share} for b in outcome.beats
-        ],
-    }  # fmt: skip
+        "targets": [{**target.about, "found": float(got)} for target, got in zip(demand.targets, last.got)],
+        "windkessels": {n: {**law.values, "initial_pressure": begins[n]} for n, law in last.values.items()},
+        "beats": [one.about for one in outcome.beats],
+    }
     path = folder / "tune.json"
     with replacing(path) as temporary:
         temporary.write_text(json.dumps(said, indent=1) + "\n", encoding="utf-8")

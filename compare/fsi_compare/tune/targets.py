@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Sequence
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
 from ..base.files import read_toml
@@ -18,12 +18,7 @@ HIGHEST = 40.0  # kPa, 300 mmHg: no artery has more
 SPLITS_MISS = 0.005  # by which shares may miss the whole: they are given with few digits
 NUMBER = r"[-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?"
 OPTIONS = {"pressure": "--pressure", "mean_pressure": "--mean-pressure", "split": "--split", "flow": "--flow"}
-EXAMPLES = {
-    "pressure": "inlet=80/120mmHg",
-    "mean_pressure": "inlet=93mmHg",
-    "split": "left=60%",
-    "flow": "left=1.2ml/s",
-}
+EXAMPLES = dict(zip(OPTIONS, ("inlet=80/120mmHg", "inlet=93mmHg", "left=60%", "left=1.2ml/s")))
 TABLE = 'give sections [pressure], [mean_pressure], [split], [flow] with NAME = "VALUE"'
 
 
@@ -36,6 +31,10 @@ class Target:
     @property
     def unit(self) -> str:
         return {SPLIT: "1", FLOW: "mm^3/ms"}.get(self.kind, "kPa")
+
+    @property
+    def about(self) -> dict[str, Any]:
+        return {"opening": self.opening, "quantity": self.kind, "unit": self.unit, "asked": self.value}
 
     @property
     def is_pressure(self) -> bool:
@@ -56,7 +55,7 @@ class _Word:
         return InputError(self.place, self.key, problem, remedy or f"give one like {EXAMPLES[self.section]}")
 
 
-def read_targets(options: Mapping[str, Sequence[str]], table: "Path | None") -> List[Target]:
+def read_targets(options: Mapping[str, Sequence[str]], table: "Path | None") -> list[Target]:
     """`options`: texts NAME=VALUE by section. Raises InputError."""
     words = []
     for section, texts in options.items():
@@ -67,7 +66,7 @@ def read_targets(options: Mapping[str, Sequence[str]], table: "Path | None") -> 
                 raise word.refuse(f"'{text}' names no opening and value")
             words.append(word)
     words += _words_of(table) if table is not None else []
-    targets: Dict[Any, Target] = {}
+    targets: dict[Any, Target] = {}
     for word in words:
         for target in _targets(word):
             if (target.opening, target.kind) in targets:
@@ -84,7 +83,7 @@ def no_pressure() -> InputError:
     return InputError("", "--pressure", "is missing", f"give one like {EXAMPLES['pressure']}")
 
 
-def _words_of(path: Path) -> List[_Word]:
+def _words_of(path: Path) -> list[_Word]:
     sections = read_toml(path, "give a TOML file of targets", TABLE)
     check_keys(path, "", sections, list(OPTIONS))
     words = []
@@ -99,7 +98,7 @@ def _words_of(path: Path) -> List[_Word]:
     return words
 
 
-def _targets(word: _Word) -> List[Target]:
+def _targets(word: _Word) -> list[Target]:
     if word.section == "pressure":
         match = re.fullmatch(rf"({NUMBER})\s*/\s*({NUMBER})\s*([A-Za-z]*)", word.text)
         if match is None:
@@ -135,9 +134,8 @@ def _kpa(word: _Word, number: str, unit: str) -> float:
         raise word.refuse(f"a pressure of {number} {unit} is not positive")
     if value > HIGHEST:
         problem = f"{number} {unit} is {value / KPA['mmHg']:.0f} mmHg, more than any artery has"
-        raise word.refuse(
-            problem, "was it mmHg?" if unit == "kPa" else f"give at most {HIGHEST / KPA['mmHg']:.0f} mmHg"
-        )
+        remedy = "was it mmHg?" if unit == "kPa" else f"give at most {HIGHEST / KPA['mmHg']:.0f} mmHg"
+        raise word.refuse(problem, remedy)
     return value
 
 
@@ -148,6 +146,5 @@ def _require_one_kind(targets: Sequence[Target]) -> None:
     pressures = sorted(t.kind for t in targets if t.is_pressure)
     if pressures not in ([DIASTOLIC, SYSTOLIC], [MEAN], []):
         problem = f"{len(pressures)} pressures are given where one opening's are found"
-        raise InputError(
-            "", "--pressure", problem, "give the diastolic and systolic pressure of one opening, or a mean one"
-        )
+        remedy = "give the diastolic and systolic pressure of one opening, or a mean one"
+        raise InputError("", "--pressure", problem, remedy)

@@ -1,7 +1,7 @@
 """Beat after beat: run, fit the model, find values, until a beat shows what is asked for."""
 
 from dataclasses import dataclass, field
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence
+from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -18,6 +18,10 @@ NEAR = 0.01  # of the pressure: beats that begin further from periodic say nothi
 FEWEST_LEVELS = 16  # behind the lead of a beat
 
 
+Laws = Mapping[str, Windkessel]  # by outlet
+Starts = Mapping[str, float]  # pressures in kPa, by outlet
+
+
 @dataclass(frozen=True)
 class Demand:
     targets: Sequence[Target]
@@ -31,14 +35,18 @@ class Beat:
     """One that was run."""
 
     number: int
-    values: Mapping[str, Windkessel]
-    starts: Mapping[str, float]  # kPa, of the Windkessels; empty: as the case says
+    values: Laws
+    starts: Starts  # kPa, of the Windkessels; empty: as the case says
     got: np.ndarray  # (targets,)
-    foreseen: Optional[np.ndarray]  # by the model of the beat before; None: there was none
+    foreseen: np.ndarray | None  # by the model of the beat before; None: there was none
     repeats: Mapping[str, Repetition]
     vessel: Vessel
     period_share: float  # distance from the periodic state over the largest pressure of the beat
     seconds: float
+
+    @property
+    def about(self) -> dict[str, float]:
+        return {"beat": self.number, "seconds": self.seconds, "distance_from_periodic": self.period_share}
 
     def differences(self, targets: Sequence[Target]) -> np.ndarray:
         """Relative, (targets,)."""
@@ -52,9 +60,9 @@ class Beat:
 
 @dataclass
 class Outcome:
-    beats: List[Beat] = field(default_factory=list)
+    beats: list[Beat] = field(default_factory=list)
     reached: bool = False
-    lines: List[str] = field(default_factory=list)  # what was decided and found, in sentences
+    lines: list[str] = field(default_factory=list)  # what was decided and found, in sentences
 
 
 @dataclass(frozen=True)
@@ -77,9 +85,9 @@ def tune(scene: Scene, demand: Demand, run_beat: RunBeat, tell: Callable[[str], 
     outcome = Outcome()
     case = {name: scene.law(name) for name in scene.windkessels}
     values, starts = case, _starts_of_case(scene)
-    settings: Dict[str, Any] = {}
-    foreseen: Optional[np.ndarray] = None
-    limits: List[str] = []
+    settings: dict[str, Any] = {}
+    foreseen: np.ndarray | None = None
+    limits: list[str] = []
     for number in range(1, demand.beats + 1):
         try:
             ran = run_beat(number, settings)
@@ -105,47 +113,36 @@ def tune(scene: Scene, demand: Demand, run_beat: RunBeat, tell: Callable[[str], 
         correction = beat.got - model.shown(values, demand.targets) if near else np.zeros(len(demand.targets))
         offset = {n: r.periodic - float(state.stored[n][0]) if near else 0.0 for n, r in beat.repeats.items()}
         solution = solved(model, demand.targets, demand.rule, correction)
-        limits = _limits(
-            model, demand, solution.foreseen, reachable_pulse(model, demand.targets, demand.rule, solution)
-        )
+        pulse = reachable_pulse(model, demand.targets, demand.rule, solution)
+        limits = _limits(model, demand, solution.foreseen, pulse)
         values, foreseen = solution.values, solution.foreseen
         stored = model.state(values).stored
         starts = {n: float(f"{float(stored[n][0]) + offset[n]:.{DIGITS}g}") for n in values}
         settings = settings_of(scene, values, starts)
-    cut = cut_off(ran.curves, demand.targets, scene.period)
-    outcome.lines += [*_missed(outcome.beats[-1], demand), *cut, *limits]
+    outcome.lines += [*_missed(outcome.beats[-1], demand), *cut_off(ran.curves, demand.targets, scene.period), *limits]
     return outcome
 
 
-def _starts_of_case(scene: Scene) -> Dict[str, float]:
+def _starts_of_case(scene: Scene) -> dict[str, float]:
     """Pressures that the case gives at the start; with a lumped start the driver finds them."""
     if scene.entries["time"].get("start") == "lumped":
         return {}
     return {n: float(scene.openings[n][WINDKESSEL].get("initial_pressure", 0.0)) for n in scene.windkessels}
 
 
-def settings_of(scene: Scene, values: Mapping[str, Windkessel], starts: Mapping[str, float]) -> Dict[str, Any]:
+def settings_of(scene: Scene, values: Laws, starts: Starts) -> dict[str, Any]:
     """Entries of a case by their full keys."""
-    found: Dict[str, Any] = {}
+    found: dict[str, Any] = {}
     for name, law in values.items():
-        key = f"opening.{name}.windkessel"
-        found.update(
-            {f"{key}.proximal": law.proximal, f"{key}.compliance": law.compliance, f"{key}.distal": law.distal}
-        )
-        found[f"{key}.initial_pressure"] = starts[name]
+        values_of = {**law.values, "initial_pressure": starts[name]}
+        found |= {f"opening.{name}.windkessel.{key}": value for key, value in values_of.items()}
     if "start" in scene.entries["time"]:
         found["time.start"] = "given"
     return found
 
 
 def _beat(
-    scene: Scene,
-    demand: Demand,
-    number: int,
-    ran: Ran,
-    values: Mapping[str, Windkessel],
-    starts: Mapping[str, float],
-    foreseen: Optional[np.ndarray],
+    scene: Scene, demand: Demand, number: int, ran: Ran, values: Laws, starts: Starts, foreseen: np.ndarray | None
 ) -> Beat:
     curves, period = ran.curves, scene.period
     for name in [*scene.windkessels, *(target.opening for target in demand.targets)]:
@@ -160,8 +157,7 @@ def _beat(
     repeats = repetitions(curves, values, starts, period)
     largest = max(float(np.abs(pressure).max()) for pressure in late.pressure.values())
     away = max(one.distance for one in repeats.values()) / largest
-    vessel = fitted_vessel(late, scene.elastic)
-    return Beat(number, values, starts, got, foreseen, repeats, vessel, away, ran.seconds)
+    return Beat(number, values, starts, got, foreseen, repeats, fitted_vessel(late, scene.elastic), away, ran.seconds)
 
 
 def _words(beat: Beat, demand: Demand) -> str:
@@ -170,18 +166,23 @@ def _words(beat: Beat, demand: Demand) -> str:
     return f"beat {beat.number}: largest difference {worst:.2g} %, {away:.2g} % from its periodic state at the start"
 
 
+def _entering(model: Model) -> float | None:
+    """The mean flow into the vessel; None where a pressure is given, which decides it."""
+    if not all(isinstance(end, (GivenFlow, Windkessel)) for end in model.ends.values()):
+        return None
+    return -sum(float(end.flow.mean()) for end in model.ends.values() if isinstance(end, GivenFlow))
+
+
 def _no_flow(model: Model) -> str:
     """Why no resistances can give a pressure; empty: they can."""
-    if not all(isinstance(e, (GivenFlow, Windkessel)) for e in model.ends.values()):
-        return ""
-    entering = -sum(float(e.flow.mean()) for e in model.ends.values() if isinstance(e, GivenFlow))
-    if entering > 0:
+    entering = _entering(model)
+    if entering is None or entering > 0:
         return ""
     said = f"the mean flow into the vessel is {entering:.3g} mm^3/ms"
     return f"Nothing can be found: {said}. Give a table with a positive mean."
 
 
-def _limits(model: Model, demand: Demand, foreseen: np.ndarray, pulse: Optional["tuple[float, float]"]) -> List[str]:
+def _limits(model: Model, demand: Demand, foreseen: np.ndarray, pulse: tuple[float, float] | None) -> list[str]:
     """Why the model itself does not come to what is asked for, with what to try."""
     asked = np.array([target.value for target in demand.targets])
     if bool(np.all(np.abs(foreseen - asked) <= 0.5 * demand.tolerance * asked)):
@@ -196,17 +197,13 @@ def _limits(model: Model, demand: Demand, foreseen: np.ndarray, pulse: Optional[
         if wanted < pulse[0]:
             lines.append("Try a smaller --proximal, which lowers the least pulse pressure.")
         elif wanted > pulse[1]:
-            stored = (
-                f"the vessel's own compliance of {model.vessel.compliance:.3g} mm^3/kPa"
-                if model.vessel.compliance
-                else "the flow"
-            )
-            lines.append(
-                f"What limits it is {stored}: try a stiffer wall, a larger pulse of the flow, or less pulse pressure."
-            )
+            own = model.vessel.compliance
+            stored = f"the vessel's own compliance of {own:.3g} mm^3/kPa" if own else "the flow"
+            remedy = "try a stiffer wall, a larger pulse of the flow, or less pulse pressure."
+            lines.append(f"What limits it is {stored}: {remedy}")
     flows = [target.value for target in demand.targets if target.kind == FLOW]
-    if flows and all(isinstance(e, (GivenFlow, Windkessel)) for e in model.ends.values()):
-        entering = -sum(float(e.flow.mean()) for e in model.ends.values() if isinstance(e, GivenFlow))
+    entering = _entering(model)
+    if flows and entering is not None:
         if len(flows) == len(model.case) and abs(sum(flows) / entering - 1) > demand.tolerance:
             lines.append(f"The flows asked for are {sum(flows):.4g} mm^3/ms together, and {entering:.4g} enter.")
     if not lines:
@@ -214,19 +211,15 @@ def _limits(model: Model, demand: Demand, foreseen: np.ndarray, pulse: Optional[
     return lines
 
 
-def _missed(beat: Beat, demand: Demand) -> List[str]:
+def _missed(beat: Beat, demand: Demand) -> list[str]:
     lines = [f"Not reached in {demand.beats} beat{'s' if demand.beats > 1 else ''}."]
     if beat.period_share > demand.tolerance:
-        far = 100 * beat.period_share
-        lines.append(
-            f"Beat {beat.number} begins {far:.2g} % from its periodic state: "
-            "try a wall with prestress, or more --beats."
-        )
+        begins = f"Beat {beat.number} begins {100 * beat.period_share:.2g} % from its periodic state"
+        lines.append(f"{begins}: try a wall with prestress, or more --beats.")
     for target, got, far in zip(demand.targets, beat.got, beat.differences(demand.targets)):
         if abs(far) > demand.tolerance:
-            lines.append(
-                f"{target.opening}, {target.kind}: {target.value:.4g} asked for, {got:.4g} found, {100 * far:+.2g} %."
-            )
+            numbers = f"{target.value:.4g} asked for, {got:.4g} found, {100 * far:+.2g} %."
+            lines.append(f"{target.opening}, {target.kind}: {numbers}")
     left = beat.vessel.unexplained_pressure
     if left > 0.2:
         lines.append(f"The model leaves {100 * left:.0f} % of the pressure differences within the vessel unexplained.")

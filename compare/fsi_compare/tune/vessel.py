@@ -77,7 +77,7 @@ def not_negative(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
     return found
 
 
-def _slope(pressure: np.ndarray, volume: np.ndarray) -> "tuple[float, float]":
+def _slope(pressure: np.ndarray, volume: np.ndarray) -> tuple[float, float]:
     """dV/dP by least squares, no less than 0, and what it leaves."""
     p, v = pressure - pressure.mean(), volume - volume.mean()
     slope = max(0.0, float(p @ v) / max(float(p @ p), 1e-300))

@@ -7,7 +7,7 @@ do with N^(-p/d), also where the solution has kinks that would cost the uniform 
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Dict, Mapping, Optional, Sequence, Tuple
+from typing import Literal, Mapping, Sequence
 
 from ..base.errors import InputError
 from ..base.files import read_bytes
@@ -27,9 +27,8 @@ class Adapted(Recipe):
 
     base: Recipe = None  # type: ignore[assignment]
     dimension: int = 3
-    parents: Dict[int, Tuple[Path, Path]] = field(
-        default_factory=dict
-    )  # mesh and run by level; the case's own is level 0
+    # Mesh and run by level; the case's own is level 0.
+    parents: dict[int, tuple[Path, Path]] = field(default_factory=dict)
 
     @property
     def coarsens(self) -> bool:
@@ -51,7 +50,7 @@ class Adapted(Recipe):
     def level(self, mesh: float) -> int:
         return round(-math.log(mesh) / math.log(RATIO))
 
-    def mesh(self, factor: float, folder: Path, case: str) -> Optional[StudyMesh]:
+    def mesh(self, factor: float, folder: Path, case: str) -> StudyMesh | None:
         """The mesh of a level. Raises InputError where the run that it is made from is missing."""
         level = self.level(1 / factor)
         if level == 0:
@@ -99,10 +98,9 @@ def nodes_of(mesh: Path) -> int:
             return int(data[begin:].split(None, 1)[0])
         if kind == b"1":
             number = int(size)
-            order = (
-                "little" if data[data.index(b"\n", data.index(b"$MeshFormat") + 12) + 1 :][:4] == b"\1\0\0\0" else "big"
-            )
-            return int.from_bytes(data[begin + number : begin + 2 * number], order)  # type: ignore[arg-type]
+            one = data[data.index(b"\n", data.index(b"$MeshFormat") + 12) + 1 :][:4]
+            order: Literal["little", "big"] = "little" if one == b"\1\0\0\0" else "big"
+            return int.from_bytes(data[begin + number : begin + 2 * number], order)
         return int(data[begin:].split(None, 2)[1])
     except (ValueError, IndexError):
         raise InputError(mesh, "$Nodes", "cannot be read", REMEDY) from None

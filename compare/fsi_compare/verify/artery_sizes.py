@@ -3,10 +3,12 @@
 import re
 import tempfile
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Sequence
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
+from ..base.numbers import is_number
 from ..starting.processes import answer
+from .chain_sizes import number_in, options_of, without
 
 LEVEL_SIZES = ("--level", "--for", "--error", "--waves")
 RECOMMENDED = re.compile(
@@ -27,7 +29,7 @@ def keeps_short_waves(entries: Mapping[str, Any]) -> bool:
     if "static" in entries or time.get("scheme") in FIRST_ORDER:
         return False
     step = time.get("step", 1.0)
-    return bool(step == "adaptive" or step <= SHORT_STEP)
+    return bool(step == "adaptive" or (is_number(step) and step <= SHORT_STEP))
 
 
 def waves_of(entries: Mapping[str, Any]) -> str:
@@ -35,24 +37,24 @@ def waves_of(entries: Mapping[str, Any]) -> str:
     return str(entries.get("mesh", {}).get("waves") or ("resolved" if keeps_short_waves(entries) else "damped"))
 
 
-def cells_of(words: Sequence[str]) -> List[float]:
+def require_numbers(words: Sequence[str], source: str) -> None:
+    """Raises InputError for a size that is no number, or a level that is none."""
+    options = options_of(words)
+    for name in (*CELLS, *SIZE_OPTIONS):
+        if name in options:
+            number_in(options[name], f"artery {name}", source)
+    level = options.get("--level") or "coarse"
+    if level not in LEVELS:
+        raise InputError(source, "artery --level", f"'{level}' is no level", f"there are {', '.join(LEVELS)}")
+
+
+def cells_of(words: Sequence[str]) -> list[float]:
     """Numbers of cells that are given."""
     found = options_of(words)
     return [float(found[name]) for name in CELLS if name in found]
 
 
-def options_of(words: Sequence[str]) -> Dict[str, str]:
-    """Options by name, of --name value and --name=value; a flag has an empty value."""
-    found: Dict[str, str] = {}
-    for i, word in enumerate(words):
-        if word.startswith("--"):
-            name, mark, value = word.partition("=")
-            following = words[i + 1] if i + 1 < len(words) and not words[i + 1].startswith("--") else ""
-            found[name] = value if mark else following
-    return found
-
-
-def with_numbers(words: List[str], mesh_maker: Path) -> List[str]:
+def with_numbers(words: list[str], mesh_maker: Path) -> list[str]:
     """The words with the numbers of cells that fsi-mesh reports in the place of a recommended mesh."""
     options = options_of(words)
     if "--for" not in options:
@@ -64,47 +66,28 @@ def with_numbers(words: List[str], mesh_maker: Path) -> List[str]:
         raise InputError(mesh_maker, "artery", f"gives no answer: {error}", "build it again") from None
     numbers = RECOMMENDED.search(said)
     if numbers is None:
-        raise InputError(
-            mesh_maker, "artery --for", "does not say its numbers of cells", 'give them by --mesh "artery ..."'
-        )
+        remedy = 'give them by --mesh "artery ..."'
+        raise InputError(mesh_maker, "artery --for", "does not say its numbers of cells", remedy)
     lumen, wall, media, adventitia, around, axial, inlet = numbers.groups()
-    kept = _without(words, LEVEL_SIZES)
+    kept = without(words, LEVEL_SIZES)
     kept += ["--lumen-cells", lumen, "--media-cells", media, "--axial-cells", axial]
-    for name, value in (("--adventitia-cells", adventitia), ("--around", around)):
-        kept += [name, value] if value is not None else []
-    for name, value in (("--lumen-grading", wall), ("--axial-grading", inlet)):
+    optional = {"--adventitia-cells": adventitia, "--around": around, "--lumen-grading": wall, "--axial-grading": inlet}
+    for name, value in optional.items():
         kept += [name, value] if value is not None else []
     return kept if "--order" in options else [*kept, "--order", "2"]
 
 
-def _without(words: Sequence[str], names: Sequence[str]) -> List[str]:
-    kept, skip = [], False
-    for word in words:
-        name = word.partition("=")[0]
-        if skip and not word.startswith("--"):
-            skip = False
-            continue
-        skip = name in names and "=" not in word
-        if name not in names:
-            kept.append(word)
-    return kept
-
-
-def artery_words(words: Sequence[str], factor: float) -> List[str]:
+def artery_words(words: Sequence[str], factor: float) -> list[str]:
     """Counts times the factor, sizes by it."""
     options = options_of(words)
-    changed: Dict[str, str] = {}
-    for name in CELLS:
-        if name in options:
-            changed[name] = str(max(1, round(float(options[name]) * factor)))
+    changed = {n: str(max(1, round(float(options[n]) * factor))) for n in CELLS if n in options}
     for name in SIZE_OPTIONS:
         if name in options:
             changed[name] = f"{float(options[name]) / factor:.8g}"
-    kept = _without(words, tuple(changed))
+    kept = without(words, tuple(changed) or ("--level",))
+    if not changed:
+        sizes = LEVELS[options.get("--level") or "coarse"]
+        changed = {name: f"{size / factor:.8g}" for name, size in zip(SIZE_OPTIONS, sizes)}
     for name, value in changed.items():
         kept += [name, value]
-    if not changed:
-        size, along = LEVELS[options.get("--level") or "coarse"]
-        kept = _without(kept, ("--level",))
-        kept += ["--size", f"{size / factor:.8g}", "--axial-size", f"{along / factor:.8g}"]
     return kept

@@ -15,7 +15,7 @@ import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Mapping, Sequence
 
 from ..base.errors import InputError
 
@@ -29,19 +29,19 @@ DIVIDED = ("--edge-length", "--shortest-edge")
 class Command:
     """One of a chain, with its words. This one has no sizes."""
 
-    words: Tuple[str, ...]
+    words: tuple[str, ...]
 
     @property
-    def counts(self) -> List[float]:
+    def counts(self) -> list[float]:
         """Numbers of elements, which must stay whole and can become fewer."""
         return []
 
     @property
-    def elements(self) -> Dict[str, int]:
+    def elements(self) -> dict[str, int]:
         """Through each layer of a wall that it grows, by the layer's name."""
         return {}
 
-    def finer(self, factor: float, folder: Path) -> List[str]:
+    def finer(self, factor: float, folder: Path) -> list[str]:
         """Its words for a mesh finer by the factor. `folder`: for scripts that have to be changed."""
         return list(self.words)
 
@@ -49,11 +49,11 @@ class Command:
 @dataclass(frozen=True)
 class Lumen(Command):
     @property
-    def counts(self) -> List[float]:
+    def counts(self) -> list[float]:
         layers = value_of(self.words, "--layers")
         return [] if layers is None else [float(layers)]
 
-    def finer(self, factor: float, folder: Path) -> List[str]:
+    def finer(self, factor: float, folder: Path) -> list[str]:
         if factor == 1:
             return list(self.words)
         changed = self._layers(factor)
@@ -64,7 +64,7 @@ class Lumen(Command):
                     changed[name] = f"{float(value) * by:.8g}"
         return with_values(self.words, changed)
 
-    def _layers(self, factor: float) -> Dict[str, str]:
+    def _layers(self, factor: float) -> dict[str, str]:
         """n layers, the first t thick and each g times its neighbour: t (g^n - 1)/(g - 1) in all. That and g^n stay."""
         given = value_of(self.words, "--layers")
         if given is None:
@@ -87,15 +87,15 @@ def _sum(growth: float, layers: int) -> float:
 @dataclass(frozen=True)
 class Thicken(Command):
     @property
-    def counts(self) -> List[float]:
+    def counts(self) -> list[float]:
         return [float(number) for number in self.elements.values() if number > 1]
 
     @property
-    def elements(self) -> Dict[str, int]:
+    def elements(self) -> dict[str, int]:
         layers = [LAYER.fullmatch(self.words[place]) for place in layer_places(self.words)]
         return {layer[1]: int(layer[3] or 1) for layer in layers if layer is not None}
 
-    def finer(self, factor: float, folder: Path) -> List[str]:
+    def finer(self, factor: float, folder: Path) -> list[str]:
         words = list(self.words)
         for place in layer_places(words):
             layer = LAYER.fullmatch(words[place])
@@ -150,21 +150,53 @@ def _is_positive(text: str, whole: bool) -> bool:
 # ---- words ----
 
 
-def apart(words: Sequence[str]) -> List[str]:
+def number_in(text: str, key: str, source: str) -> float:
+    """Reads a number of a mesh's commands. Raises InputError."""
+    try:
+        return float(text)
+    except ValueError:
+        raise InputError(source, key, f"'{text}' is no number", "give one") from None
+
+
+def options_of(words: Sequence[str]) -> dict[str, str]:
+    """Options by name, of --name value and --name=value; a flag has an empty value."""
+    found: dict[str, str] = {}
+    for word, following in zip(words, [*words[1:], ""]):
+        if word.startswith("--"):
+            name, mark, value = word.partition("=")
+            found[name] = value if mark else "" if following.startswith("--") else following
+    return found
+
+
+def without(words: Sequence[str], names: Sequence[str]) -> list[str]:
+    """The words without these options and their values."""
+    kept, skip = [], False
+    for word in words:
+        name = word.partition("=")[0]
+        if skip and not word.startswith("--"):
+            skip = False
+            continue
+        skip = name in names and "=" not in word
+        if name not in names:
+            kept.append(word)
+    return kept
+
+
+def apart(words: Sequence[str]) -> list[str]:
     """--name=value as two words; a value may hold more of the signs."""
-    found: List[str] = []
+    found: list[str] = []
     for word in words:
         name, mark, value = word.partition("=")
         found += [name, value] if mark and word.startswith("--") else [word]
     return found
 
 
-def value_of(words: Sequence[str], name: str) -> Optional[str]:
+def value_of(words: Sequence[str], name: str) -> str | None:
     """An option's value; None: it is not given."""
     return next((value for word, value in zip(words, [*words[1:], ""]) if word == name), None)
 
 
-def with_values(words: Sequence[str], values: Mapping[str, str]) -> List[str]:
+def with_values(words: Sequence[str], values: Mapping[str, str]) -> list[str]:
     """The words with these values in the place of given ones, others behind."""
     found = list(words)
     for name, value in values.items():
@@ -175,7 +207,7 @@ def with_values(words: Sequence[str], values: Mapping[str, str]) -> List[str]:
     return found
 
 
-def layer_places(words: Sequence[str]) -> List[int]:
+def layer_places(words: Sequence[str]) -> list[int]:
     """Places of the values of --layer, which takes several."""
     found, inside = [], False
     for place, word in enumerate(words):

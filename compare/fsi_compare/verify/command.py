@@ -2,25 +2,26 @@
 
 import argparse
 from pathlib import Path
-from typing import Any, Dict, List, Sequence
+from typing import Any, Sequence
 
 from ..base.errors import InputError, printable
-from ..base.files import absolute, folder, output_folder, together
-from ..base.options import Commands, add_command, add_drivers, add_usual
+from ..base.files import absolute, output_folder, together
+from ..base.options import Commands, add_case, add_command, add_drivers, add_time_limit, add_usual
+from ..base.options import positive_number, share
 from ..reporting.layout import say_written
 from ..reporting.matplotlib_loader import load_matplotlib
 from ..reporting.pressure import read_times
 from ..study.runner import Runner, sweep_study
-from ..starting.folder_lock import locked
+from ..base.folder_lock import locked
 from ..starting.duration import duration
-from ..starting.programs import Program, find_mesh_maker, find_program
+from ..starting.programs import Program, find_drivers, need_mesh_maker
 from .adapting import adapted
 from .doubt import step_within
 from .family import CaseFacts, Member, Requests, read_case
 from .lean import starting_member
 from .making import Maker
 from .mesh_family import find_recipe
-from .preparing import PRINTED, plan, sample, tell_mesh, tell_unpaid, tell_unrefined, within_budget
+from .preparing import PRINTED, plan, sample, samples_nothing, tell_mesh, tell_unpaid, tell_unrefined, within_budget
 from .results import BarsOfRun, Judged, bands, judge
 from .search import Demand, Search, by_each_driver, write_found
 from .tables import bars_table, counts, write_json
@@ -55,47 +56,28 @@ examples:
 
 
 def add_parser(commands: Commands, version: str) -> None:
-    command = add_command(
-        commands, "verify", verify, "error bars on a case of one's own, from a family of runs", DESCRIPTION, EXAMPLES
-    )
-    command.add_argument("case", metavar="CASE.toml", type=Path, help="case file")
-    command.add_argument("-o", "--output", metavar="OUTDIR", type=folder, help="default: results/verify/CASE")
-    command.add_argument(
-        "--mesh",
-        metavar="WORDS",
-        help="of the fsi-mesh command that makes the case's mesh, without -o; several with | between, each of the file of the "
-        "one before",
-    )
-    command.add_argument(
-        "--drivers", metavar="A,B", default="monolithic", help="monolithic, partitioned (default: %(default)s)"
-    )
-    command.add_argument(
-        "--of", metavar="NAME", action="append", default=[], help="quantities whose name holds this; may be repeated"
-    )
+    help = "error bars on a case of one's own, from a family of runs"
+    command = add_command(commands, "verify", verify, help, DESCRIPTION, EXAMPLES)
+    add_case(command, "verify")
+    text = "of the fsi-mesh command that makes the case's mesh, without -o; several with | between, each of the file of the "
+    command.add_argument("--mesh", metavar="WORDS", help=text + "one before")
+    text = "monolithic, partitioned (default: %(default)s)"
+    command.add_argument("--drivers", metavar="A,B", default="monolithic", help=text)
+    text = "quantities whose name holds this; may be repeated"
+    command.add_argument("--of", metavar="NAME", action="append", default=[], help=text)
     command.add_argument("--times", metavar="T,T,...", help="times in ms at which curves are verified, too")
-    command.add_argument(
-        "--levels", metavar="N", type=int, default=3, help="meshes of the family, 3 to 6 (default: %(default)s)"
-    )
-    command.add_argument(
-        "--coarser", action="store_true", help="no member finer than the case itself: cheaper, wider bars"
-    )
-    command.add_argument(
-        "--adapt",
-        action="store_true",
-        help="finer members by fsi-mesh adapt, from the error indicator of the run on the mesh before",
-    )
-    command.add_argument(
-        "--budget", metavar="MINUTES", type=float, help="that all runs of the family may take together"
-    )
-    command.add_argument(
-        "--time-limit", metavar="S", type=float, default=3600.0, help="of each run (default: %(default)s)"
-    )
-    command.add_argument(
-        "--error",
-        metavar="E",
-        type=_share,
-        help="go on to settings whose bars are within this, like 2%%: see found.toml",
-    )
+    text = "meshes of the family, 3 to 6 (default: %(default)s)"
+    command.add_argument("--levels", metavar="N", type=int, default=3, help=text)
+    text = "no member finer than the case itself: cheaper, wider bars"
+    command.add_argument("--coarser", action="store_true", help=text)
+    text = "finer members by fsi-mesh adapt, from the error indicator of the run on the mesh before"
+    command.add_argument("--adapt", action="store_true", help=text)
+    budget = positive_number("--budget", "min is no time", "give a positive number of minutes")
+    text = "that all runs of the family may take together"
+    command.add_argument("--budget", metavar="MINUTES", type=budget, help=text)
+    add_time_limit(command, "run")
+    text = "go on to settings whose bars are within this, like 2%%: see found.toml"
+    command.add_argument("--error", metavar="E", type=share("--error"), help=text)
     command.add_argument("--list", action="store_true", help="say which runs would be made, and make none")
     add_drivers(command)
     add_usual(command, version, "of each run (default: 1)")
@@ -106,14 +88,10 @@ def verify(options: argparse.Namespace) -> int:
     names = _drivers(options.drivers)
     if not 3 <= options.levels <= MOST_LEVELS:
         raise InputError("", "--levels", f"{options.levels} meshes will not do", f"give 3 to {MOST_LEVELS}")
-    if options.budget is not None and not options.budget > 0:
-        raise InputError("", "--budget", f"{options.budget:g} min is no time", "give a positive number of minutes")
-    times = read_times(options.times) if options.times is not None else []
+    times = read_times(options.times)
     facts = read_case(options.case)
-    programs = {f"fsi-{name}": find_program(f"fsi-{name}", getattr(options, name), f"--{name}") for name in names}
-    mesh_maker = find_mesh_maker(next(iter(programs.values())))
-    if mesh_maker is None:
-        raise InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
+    programs = find_drivers(options, [f"fsi-{name}" for name in names])
+    mesh_maker = need_mesh_maker(next(iter(programs.values())))
     recipe = find_recipe(options.case, facts.entries, options.mesh, mesh_maker)
     if options.adapt:
         recipe = adapted(recipe, dimension_of(facts))
@@ -132,15 +110,7 @@ def dimension_of(facts: CaseFacts) -> int:
     return 3 if facts.entries.get("geometry", "3d") == "3d" else 2
 
 
-def _share(text: str) -> float:
-    """0.02 for 2% and for 0.02. Raises ValueError."""
-    value = float(text[:-1]) / 100 if text.endswith("%") else float(text)
-    if not 0 < value < 1:
-        raise InputError("", "--error", f"{text} is no part of a value", "give a percentage, like 2%")
-    return value
-
-
-def _drivers(text: str) -> List[str]:
+def _drivers(text: str) -> list[str]:
     names = [name.strip() for name in text.split(",")]
     for name in names:
         if name not in DRIVERS:
@@ -152,16 +122,15 @@ def make(
     options: argparse.Namespace,
     requests: Requests,
     family: Sequence[Member],
-    programs: Dict[str, Program],
+    programs: dict[str, Program],
     mesh_maker: Path,
     times: Sequence[float],
 ) -> int:
     """The folder is locked."""
     place = requests.folder
     sweep_study(place)
-    runner = Runner(
-        requests.study(options.threads or 1), place, programs, mesh_maker, options.threads, 1, options.quiet
-    )
+    study = requests.study(options.threads or 1)
+    runner = Runner(study, place, programs, mesh_maker, options.threads, 1, options.quiet)
     facts = requests.facts
     maker = Maker(runner, requests, dimension_of(facts), options.quiet, options.of)
     tell_mesh(maker, requests.recipe)
@@ -175,12 +144,11 @@ def make(
     return write(options, maker, [one for each in sets for one in each.judged], waves, sets)
 
 
-def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], programs: Dict[str, Program]) -> int:
+def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], programs: dict[str, Program]) -> int:
     """--error: on to settings that reach it."""
     requests = maker.requests
     demand = Demand(options.error, options.budget and 60 * options.budget, options.of, times)
-    levels = list(range(-1, options.levels + 1))
-    ratio = requests.recipe.ratio(levels)
+    ratio = requests.recipe.ratio(list(range(-1, options.levels + 1)))
     facts, longest = requests.facts, step_within(requests.facts)
     start = starting_member(requests.recipe, facts.static, ratio, options.levels, maker.nodes, longest)
     search = Search(maker, demand, ratio, options.levels, start)
@@ -188,14 +156,12 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
     if sample(maker, first) != first:
         search = Search(maker, demand, ratio, options.levels, Member(1.0, 1.0))
     outcome = search.go()
-    others = [name.removeprefix("fsi-") for name in programs]
-    seconds = by_each_driver(maker, outcome, others)
+    seconds = by_each_driver(maker, outcome, [name.removeprefix("fsi-") for name in programs])
     for name, run in seconds.items():
         took = duration(run.seconds) if run.done else f"{run.status}, {run.message}"
         outcome.lines.append(f"fsi-{name} with these settings: {took}.")
     outcome.lines.append(f"All runs took {duration(maker.seconds)}.")
-    for line in outcome.lines:
-        maker.notes.append(line)
+    maker.notes += outcome.lines
     with together(requests.folder) as inside:
         written = [path.name for path in write_found(inside, maker, outcome, seconds)]
     code = write(options, maker, outcome.judged, [], list(search.sets.values()))
@@ -208,10 +174,10 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
 
 def look(
     maker: Maker, facts: CaseFacts, times: Sequence[float], names: Sequence[str]
-) -> "tuple[List[BarsOfRun], List[Any]]":
+) -> tuple[list[BarsOfRun], list[Any]]:
     """All bars, by driver, and bands. Raises InputError where nothing is sampled, or nothing of that name."""
-    sets: List[BarsOfRun] = []
-    waves: List[Any] = []
+    sets: list[BarsOfRun] = []
+    waves: list[Any] = []
     for family in maker.families.values():
         curves = family.read()
         found = judge(family, curves, facts, times, names)
@@ -222,9 +188,7 @@ def look(
         if names:
             problem = "no quantity has this in its name"
             raise InputError("", f"--of {' '.join(names)}", problem, "leave it out to see all names")
-        raise InputError(
-            facts.path, "output", "samples nothing", "ask for a point: [output.points] with NAME = [x, y, z]"
-        )
+        raise samples_nothing(facts)
     return sets, waves
 
 

@@ -6,7 +6,7 @@ start, of the program itself, does not grow. alpha is fitted to the members of s
 one, of quadratic elements that of a sparse factorisation."""
 
 from dataclasses import dataclass
-from typing import Mapping, Optional, Sequence
+from typing import Mapping, Sequence
 
 import numpy as np
 
@@ -37,7 +37,7 @@ class Costs:
         return float(self.memory_own * mesh**-self.memory_power)
 
 
-def learn(runs: Mapping[Member, StudyRun], dimension: int, element: str = "p2p1") -> Optional[Costs]:
+def learn(runs: Mapping[Member, StudyRun], dimension: int, element: str = "p2p1") -> Costs | None:
     """Fits costs to the runs; None where no member has run."""
     done = {member: run for member, run in runs.items() if run.done and not member.looser and run.seconds > 0}
     if not done:

@@ -7,7 +7,6 @@ Both have the unit of y. Curves are compared at the levels and points of one of 
 """
 
 from dataclasses import dataclass
-from typing import Optional, Tuple
 
 import numpy as np
 
@@ -20,7 +19,7 @@ class Stretch:
     """Which part of a curve is compared, and how."""
 
     largest: bool  # the largest difference, at any level and point; else the mean square
-    time: Optional[float] = None  # ms, along the line then; None: at all levels
+    time: float | None = None  # ms, along the line then; None: at all levels
 
 
 @dataclass(frozen=True)
@@ -60,7 +59,7 @@ def norm_on(times: np.ndarray, s: np.ndarray, stretch: Stretch) -> CurveNorm:
 
 
 def stretch_of(
-    times: np.ndarray, s: np.ndarray, values: np.ndarray, of: "Tuple[np.ndarray, np.ndarray]", at: Stretch
+    times: np.ndarray, s: np.ndarray, values: np.ndarray, of: tuple[np.ndarray, np.ndarray], at: Stretch
 ) -> np.ndarray:
     """`values`, (levels, points), at the levels and points `of` another curve, (levels * points,). Levels that lie
     between this curve's own stay NaN: straight lines between them would be an error of their own."""

@@ -5,7 +5,7 @@ whose widest predicted bar is within the demand, the cheapest is taken. The fami
 bar."""
 
 from dataclasses import dataclass, replace
-from typing import List, Optional, Sequence
+from typing import Sequence
 
 from .cost import Costs
 from .quantities import Curve
@@ -16,10 +16,8 @@ RESERVE = 0.9  # of the demanded error, that a prediction is held to
 COARSEST, FINEST = -4, 12  # powers of a ratio
 STEPS_COARSEST, STEPS_FINEST = -3, 10  # powers of two
 SOLVER_SHARE = 0.1  # of the demanded error
-TOLERANCES = (
-    1e-4,
-    10.0,
-)  # factors by which a tolerance may be changed; looser ones than the family has tried are not taken
+# Factors by which a tolerance may be changed; looser ones than the family has tried are not taken.
+TOLERANCES = (1e-4, 10.0)
 
 
 @dataclass(frozen=True)
@@ -40,9 +38,9 @@ def widest(judged: Sequence[Judged], mesh: float = 1.0, step: float = 1.0) -> fl
 
 def cheapest(
     judged: Sequence[Judged], costs: Costs, demand: float, ratio: float, static: bool, coarsens: bool
-) -> Optional[Settings]:
+) -> Settings | None:
     """The cheapest pair of sizes that is predicted to reach the demand; None: no pair on the grid is."""
-    best: Optional[Settings] = None
+    best: Settings | None = None
     steps = [1.0] if static else [2.0**-k for k in range(STEPS_COARSEST, STEPS_FINEST + 1)]
     for power in range(COARSEST if coarsens else 0, FINEST + 1):
         mesh = ratio**-power if power else 1.0
@@ -78,19 +76,19 @@ def reached(judged: Sequence[Judged], demand: float) -> bool:
     return all(one.bar.given and one.bar.relative <= demand for one in judged)
 
 
-def outside(judged: Sequence[Judged]) -> List[Judged]:
+def outside(judged: Sequence[Judged]) -> list[Judged]:
     """Quantities without a bar."""
     return [one for one in judged if not one.bar.given]
 
 
-def refinable(judged: Sequence[Judged]) -> List[Judged]:
+def refinable(judged: Sequence[Judged]) -> list[Judged]:
     """Quantities without a bar that may get one by refinement: no mesh makes one line of several."""
     return [one for one in outside(judged) if "mesh" in one.bar.advice or "step" in one.bar.advice]
 
 
 def direction_of(judged: Sequence[Judged]) -> str:
     """What to refine so that more of them get a bar: "mesh", "step" or "both"."""
-    bars: List[Bar] = [one.bar for one in outside(judged)]
+    bars: list[Bar] = [one.bar for one in outside(judged)]
     mesh = sum("mesh" in bar.advice for bar in bars)
     step = sum("step" in bar.advice for bar in bars)
     return "both" if mesh and step else "mesh" if mesh else "step"

@@ -12,7 +12,7 @@ docs/guide/accuracy.md#verify."""
 
 import functools
 from dataclasses import dataclass, replace
-from typing import Any, Callable, Optional, Sequence, Tuple
+from typing import Any, Callable, Sequence
 
 import numpy as np
 
@@ -35,7 +35,7 @@ class Part:
 
     state: str  # AS_EXPECTED, WIDENED, OUTSIDE or SILENT
     bar: float  # in the value's unit
-    order: Optional[float] = None  # observed; None: none was
+    order: float | None = None  # observed; None: none was
     used: float = 1.0  # order that the bar is expected to fall with, for predictions
     remaining: float = 0.0  # signed estimate of the finest member's error; 0 where nothing is extrapolated
     error: Any = 0.0  # signed estimate of the error at size 1; of a curve one at each level and point
@@ -50,24 +50,21 @@ NOTHING = Part(SILENT, 0.0)
 
 
 def part_of(
-    sizes: Sequence[float], values: Sequence[float], expected: float, noise: float, curve: Optional[Part] = None
+    sizes: Sequence[float], values: Sequence[float], expected: float, noise: float, curve: Part | None = None
 ) -> Part:
     """`sizes` relative to the user's own, which is 1 and among them; `expected`: the order of elements or scheme;
     `noise`: what differences may be by chance, of the solver or of a mesh's making. `curve`: the part of the curve that
     the values are norms of. A norm can fall faster than its curve converges, while the curve moves without growing: it
     is extrapolated by no larger order than the curve, and not at all where the curve's differences do not fall."""
-    order = np.argsort(-np.asarray(sizes, dtype=float))
-    x, y = np.asarray(sizes, dtype=float)[order], np.asarray(values, dtype=float)[order]
+    x, order = _falling(sizes)
+    y = np.asarray(values, dtype=float)[order]
     steps = y[:-1] - y[1:]
-    own = float(y[int(np.argmin(np.abs(x - 1.0)))])
-    known = abs(own - float(y[-1]))
+    known = abs(_own(x, y) - float(y[-1]))
     spread = float(np.max(y) - np.min(y)) if len(y) else 0.0
     if len(x) < 2 or np.any(x[:-1] <= x[1:]):
         return NOTHING
-    if spread <= 2 * noise:
-        return Part(SILENT, max(spread, noise), None, expected)
-    if len(x) < 3:
-        return Part(OUTSIDE, SWING * spread, lacking=True)
+    if spread <= 2 * noise or len(x) < 3:
+        return _silent_or_lacking(spread, noise, expected)
     if _swings(steps, noise):
         falls = abs(steps[-1]) <= 0.7 * float(np.max(np.abs(steps[:-1]))) or abs(steps[-1]) <= noise
         last = float(np.max(np.abs(steps[-2:])))
@@ -82,20 +79,17 @@ def part_of_curves(
 ) -> Part:
     """Like part_of() for whole curves, (levels * points,): the sum of the norms of the differences from each member to
     the finest one is a sequence that falls, and whose order is that of the curve."""
-    order = np.argsort(-np.asarray(sizes, dtype=float))
-    x, y = np.asarray(sizes, dtype=float)[order], [curves[i] for i in order]
+    x, order = _falling(sizes)
+    y = [curves[i] for i in order]
     if len(x) < 2 or np.any(x[:-1] <= x[1:]):
         return NOTHING
     steps = [one - other for one, other in zip(y, y[1:])]
     lengths = np.array([norm(step) for step in steps])
     own = y[int(np.argmin(np.abs(x - 1.0)))]
     known, spread = norm(own - y[-1]), float(np.max(lengths))
-    if spread <= 2 * noise:
-        return Part(SILENT, max(spread, noise), None, expected)
-    if len(x) < 3:
-        return Part(OUTSIDE, SWING * spread, lacking=True)
-    falling = np.append(np.cumsum(lengths[::-1])[::-1], 0.0)
-    part = _of_monotone(x, falling, expected, noise, known)
+    if spread <= 2 * noise or len(x) < 3:
+        return _silent_or_lacking(spread, noise, expected)
+    part = _of_monotone(x, np.append(np.cumsum(lengths[::-1])[::-1], 0.0), expected, noise, known)
     if part.state == OUTSIDE:
         return part
     if part.state == AS_EXPECTED and norm.cosine(steps[-2], steps[-1]) < SAME_SHAPE:
@@ -106,7 +100,7 @@ def part_of_curves(
 
 
 def by_elements(
-    own: Any, other: Any, finer: Optional[Any], own_is_linear: bool, noise: float, norm: Callable[[Any], float] = abs
+    own: Any, other: Any, finer: Any | None, own_is_linear: bool, noise: float, norm: Callable[[Any], float] = abs
 ) -> Part:
     """The part of a mesh with too few others, by both elements on it. The quadratic element's error is taken to be at
     most half of the linear one's (the saturation assumption of hierarchical estimates, [Bank1993]): of their difference
@@ -118,13 +112,27 @@ def by_elements(
     return Part(WIDENED, (2 if own_is_linear else 1) * apart + noise, error=own - other if own_is_linear else 0.0)
 
 
+def _falling(sizes: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
+    """The sizes from coarse to fine, and their places."""
+    x = np.asarray(sizes, dtype=float)
+    order = np.argsort(-x)
+    return x[order], order
+
+
+def _silent_or_lacking(spread: float, noise: float, expected: float) -> Part:
+    """The part of members that are too near to each other, else too few."""
+    if spread <= 2 * noise:
+        return Part(SILENT, max(spread, noise), None, expected)
+    return Part(OUTSIDE, SWING * spread, lacking=True)
+
+
 def _swings(steps: np.ndarray, noise: float) -> bool:
     seen = steps[np.abs(steps) > noise]
     return bool(np.any(seen > 0) and np.any(seen < 0))
 
 
 def _of_monotone(
-    x: np.ndarray, y: np.ndarray, expected: float, noise: float, known: float, curve: Optional[Part] = None
+    x: np.ndarray, y: np.ndarray, expected: float, noise: float, known: float, curve: Part | None = None
 ) -> Part:
     last = float(y[-2] - y[-1])
     promised = _promised(x, y, expected)
@@ -158,7 +166,7 @@ def _own(x: np.ndarray, y: np.ndarray) -> float:
     return float(y[int(np.argmin(np.abs(x - 1.0)))])
 
 
-def observed(x: np.ndarray, y: np.ndarray) -> Tuple[Optional[float], float]:
+def observed(x: np.ndarray, y: np.ndarray) -> tuple[float | None, float]:
     """Order by least squares, weighted by 1/h as [Eca2014] do, and the standard deviation that it leaves; of three
     members the order that meets them. None: the differences do not fall."""
     orders = np.linspace(0.05, LARGEST_ORDER, 160)
@@ -174,7 +182,7 @@ def observed(x: np.ndarray, y: np.ndarray) -> Tuple[Optional[float], float]:
     return float(order), fit(x, y, order)[1]
 
 
-def fit(x: np.ndarray, y: np.ndarray, order: float) -> Tuple[np.ndarray, float]:
+def fit(x: np.ndarray, y: np.ndarray, order: float) -> tuple[np.ndarray, float]:
     """(y0, a) of y0 + a x^order, and the weighted standard deviation of what is left."""
     weights, matrix, root, weighted = _equations(np.asarray(x, dtype=float).tobytes(), order)
     found = np.linalg.lstsq(weighted, y * root, rcond=None)[0]
@@ -184,7 +192,7 @@ def fit(x: np.ndarray, y: np.ndarray, order: float) -> Tuple[np.ndarray, float]:
 
 
 @functools.lru_cache(maxsize=4096)  # orders are tried for every quantity of a family, whose members are the same
-def _equations(x_bytes: bytes, order: float) -> Tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def _equations(x_bytes: bytes, order: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Arrays for fit(), not to be changed: weights, columns, roots of the weights, weighted columns."""
     x = np.frombuffer(x_bytes)
     weights = 1.0 / x

@@ -1,7 +1,7 @@
 """What forbids a bar however a sequence looks, because its members do not show all of the error."""
 
 from dataclasses import replace
-from typing import Dict, Mapping, Optional, Sequence
+from typing import Mapping, Sequence
 
 import numpy as np
 
@@ -29,7 +29,7 @@ def doubt(quantity: Quantity, curves: Sequence[Curve], facts: CaseFacts) -> str:
     return f"shorten the step until {PER_INTERVAL} are in an interval of the flow's table, {interval:g} ms"
 
 
-def step_within(facts: CaseFacts) -> Optional[float]:
+def step_within(facts: CaseFacts) -> float | None:
     """Steps, relative to the case's, that resolve the table of its flow; None: it has none, or no steps of its own."""
     if not facts.flow_interval or facts.adaptive or facts.static:
         return None
@@ -42,7 +42,7 @@ def is_another_line(curves: Sequence[Curve]) -> bool:
     return bool(lengths) and max(lengths) - min(lengths) > SAME_LENGTH * max(lengths)
 
 
-def on_common_points(curves: Mapping[Member, Mapping[str, Curve]]) -> Dict[Member, Dict[str, Curve]]:
+def on_common_points(curves: Mapping[Member, Mapping[str, Curve]]) -> dict[Member, dict[str, Curve]]:
     """Lines at the points that all members have: where one leaves the mesh, a curved edge decides which are within."""
     found = {member: dict(of) for member, of in curves.items()}
     for name in {name for of in curves.values() for name in of}:

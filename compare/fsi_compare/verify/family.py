@@ -4,14 +4,15 @@ import copy
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Dict, List, Mapping, Optional, Sequence
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 
 from ..base.case_names import with_present_names
 from ..base.errors import InputError
 from ..base.files import read_toml
-from ..study.study_file import Method, Request, Study, StudyMesh
+from ..base.numbers import is_number
+from ..study.study_file import Method, Request, Study, StudyMesh, method_of, study_of_case
 from .mesh_family import Recipe
 from .quantities import Asked
 from .tolerances import governing, names_scheme
@@ -38,8 +39,8 @@ class CaseFacts:
     step: float  # ms, or the tolerance of adaptive steps
     end: float  # ms
     scheme: str
-    period: Optional[float]  # ms
-    flow_interval: Optional[float] = None  # ms, between the points of the given flow's table
+    period: float | None  # ms
+    flow_interval: float | None = None  # ms, between the points of the given flow's table
 
     @property
     def time_order(self) -> float:
@@ -75,7 +76,7 @@ class Member:
         return ", ".join(parts + (["looser"] if self.looser else []) + (["other element"] if self.other else []))
 
 
-def with_settings(entries: Mapping[str, Any], settings: Mapping[str, Any]) -> Dict[str, Any]:
+def with_settings(entries: Mapping[str, Any], settings: Mapping[str, Any]) -> dict[str, Any]:
     """The entries of a case file with others over them, by their full keys."""
     found = copy.deepcopy(dict(entries))
     for key, value in settings.items():
@@ -97,17 +98,18 @@ def read_case(path: Path, settings: Mapping[str, Any] = MappingProxyType({})) ->
     time = entries.get("time", {})
     if not isinstance(time, dict) or not ("time" in entries or "static" in entries):
         raise InputError(path, "time", "is missing", "a case has a section [time] or [static]")
+    for name in ("end", "tolerance"):
+        if not is_number(time.get(name, 0.0)):
+            raise InputError(path, f"time.{name}", f"{time[name]} is no number", "give one")
     element = entries.get("element", "p2p1")
-    if element not in SPACE_ORDERS:
+    if not isinstance(element, str) or element not in SPACE_ORDERS:
         raise InputError(path, "element", f"'{element}' is unknown", f"choose {' or '.join(SPACE_ORDERS)}")
     step = time.get("step", 1.0)
     adaptive = step == "adaptive"
-    if not adaptive and (isinstance(step, bool) or not isinstance(step, (int, float)) or not step > 0):
+    if not adaptive and not (is_number(step) and step > 0):
         raise InputError(path, "time.step", f"{step} is no step", 'give a number of ms, or "adaptive"')
     openings = entries.get("opening", [])
-    periods = [
-        one["period"] for one in openings if isinstance(one, dict) and isinstance(one.get("period"), (int, float))
-    ]
+    periods = [one["period"] for one in openings if isinstance(one, dict) and is_number(one.get("period"))]
     return CaseFacts(
         path=path,
         entries=entries,
@@ -115,14 +117,14 @@ def read_case(path: Path, settings: Mapping[str, Any] = MappingProxyType({})) ->
         static="static" in entries,
         adaptive=adaptive,
         step=float(time.get("tolerance", 0.01)) if adaptive else float(step),
-        end=float(time.get("end", 0.0) or 0.0),
+        end=float(time.get("end", 0.0)),
         scheme=str(time.get("scheme", "midpoint")),
         period=float(max(periods)) if periods else None,
         flow_interval=_flow_interval(path, openings),
     )
 
 
-def _flow_interval(case: Path, openings: Any) -> Optional[float]:
+def _flow_interval(case: Path, openings: Any) -> float | None:
     """The smallest of all tables of flow rates, each by the median of its intervals; None: no table, or none that can
     be read here, which the driver then says."""
     found = []
@@ -146,11 +148,11 @@ def mesh_ratio(recipe: Recipe, levels: int, finer: bool) -> float:
     return recipe.ratio([-k for k in range(below, levels + below)])
 
 
-def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: bool) -> List[Member]:
+def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: bool) -> list[Member]:
     """Members from cheap to dear. `levels` meshes; `finer`: one is finer than the user's own. A mesh file has no
     coarser ones."""
     below = -1 if finer else 0
-    powers = [k for k in range(levels + below - 1, below - 1, -1)] if recipe.coarsens else list(range(0, -levels, -1))
+    powers = range(levels + below - 1, below - 1, -1) if recipe.coarsens else range(0, -levels, -1)
     meshes = [ratio**k if k else 1.0 for k in powers]
     beside = [] if recipe.coarsens or recipe.adapts else [Member(1.0, 1.0, False, True)]
     if facts.static:
@@ -158,18 +160,13 @@ def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: 
     steps = [STEP_RATIO, 1.0, 1 / STEP_RATIO] if finer else [STEP_RATIO**2, STEP_RATIO, 1.0]
     found = [Member(m, 1.0) for m in meshes] + [Member(1.0, s) for s in steps if s != 1]
     corner = (min(meshes), min(steps)) if finer else (meshes[-2], steps[1])
-    loose = Member(1.0, 1.0, True) if finer else Member(1.0, steps[0], True)
-    found += [loose, Member(*corner), *beside]
+    found += [Member(1.0, 1.0, True) if finer else Member(1.0, steps[0], True), Member(*corner), *beside]
     return sorted(dict.fromkeys(found), key=lambda member: (work(member, 2.0), member.looser))
 
 
 def work(member: Member, dimensions: float) -> float:
     """Work of a member relative to the user's own, about."""
     return float(member.mesh**-dimensions / member.step)
-
-
-def _method(driver: str) -> Method:
-    return Method(driver, driver, f"fsi-{driver}", {})
 
 
 class Requests:
@@ -188,22 +185,20 @@ class Requests:
         self.name = name or facts.path.stem
         self.settings = dict(settings)  # of all members, over the case file's
         self.facts, self.recipe, self.folder = facts, recipe, folder
-        self.methods = {name: _method(name) for name in drivers}
+        self.methods = {name: method_of(name) for name in drivers}
         self.time_limit = time_limit
-        self.scheme: Optional[str] = None  # which fsi-partitioned took where the case names none, once a run has told
+        self.scheme: str | None = None  # which fsi-partitioned took where the case names none, once a run has told
 
     def study(self, threads: int) -> Study:
         """The study of all runs, for the runner."""
         path = self.facts.path
-        return Study(
-            path, self.name, "verify", threads, 1, self.time_limit, {self.name: path}, self.methods, {}, (), {}, False
-        )
+        return study_of_case(path, "verify", self.name, path, self.methods, threads, self.time_limit)
 
-    def mesh(self, member: Member) -> Optional[StudyMesh]:
+    def mesh(self, member: Member) -> StudyMesh | None:
         return self.recipe.mesh(1 / member.mesh, self.folder, self.name)
 
     def of(self, member: Member, driver: str) -> Request:
-        method = self.methods.get(driver) or _method(driver)
+        method = self.methods.get(driver) or method_of(driver)
         settings = {**self.settings, **self._step(member)}
         if member.looser:
             settings.update(self.tolerances(method.program, LOOSER))
@@ -212,15 +207,12 @@ class Requests:
         if self.recipe.adapts and member.step == 1 and not (member.looser or member.other):
             settings[INDICATOR] = True  # a finer mesh may be made from it
         case = self.facts.path
-        values = {
-            "mesh": f"{member.mesh:.4g}",
-            "step": f"{member.step:.4g}",
-            **({"looser": "yes"} if member.looser else {}),
-            **({"element": OTHER_ELEMENT[self.facts.element]} if member.other else {}),
-        }
+        values = {"mesh": f"{member.mesh:.4g}", "step": f"{member.step:.4g}"}
+        values |= {"looser": "yes"} if member.looser else {}
+        values |= {"element": OTHER_ELEMENT[self.facts.element]} if member.other else {}
         return Request("family", self.name, method, values, case, self.mesh(member), settings, self.time_limit)
 
-    def _step(self, member: Member) -> Dict[str, Any]:
+    def _step(self, member: Member) -> dict[str, Any]:
         facts = self.facts
         if member.step == 1 or facts.static:
             return {}
@@ -228,7 +220,7 @@ class Requests:
             return {"time.tolerance": facts.step * member.step**facts.time_order}
         return {"time.step": facts.step * member.step}
 
-    def tolerances(self, program: str, factor: float) -> Dict[str, Any]:
+    def tolerances(self, program: str, factor: float) -> dict[str, Any]:
         """Tolerances that a driver stops by, changed by a factor. For a case that awaits_scheme() they are a guess."""
         return {key: factor * value for key, value in governing(program, self.facts.entries, self.scheme).items()}
 

@@ -8,7 +8,7 @@ twice as many cells of the same ratio would refine one end alone."""
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Sequence, Tuple
+from typing import Sequence
 
 from ..base.errors import InputError
 from ..base.files import read_text
@@ -34,11 +34,11 @@ class GeoSizes:
     """Constants of a script with their values."""
 
     script: Path
-    sizes: Dict[str, float]
-    counts: Dict[str, float]
+    sizes: dict[str, float]
+    counts: dict[str, float]
     graded: bool  # has ratios of neighbouring cells
 
-    def settings(self, factor: float, given: Dict[str, float]) -> Dict[str, float]:
+    def settings(self, factor: float, given: dict[str, float]) -> dict[str, float]:
         """Constants for a mesh finer by `factor`; `given`: values other than the script's."""
         found = dict(given)
         for name, value in self.sizes.items():
@@ -51,9 +51,7 @@ class GeoSizes:
 def read_sizes(script: Path) -> GeoSizes:
     """Reads a script. Raises InputError where it has no constant that says how fine it is."""
     text = without_comments(read_text(script, "give a gmsh script that is there", "give a gmsh script"))
-    constants: Dict[str, float] = {}
-    for block in CONSTANTS.findall(text):
-        constants.update((name, float(value)) for name, value in CONSTANT.findall(block))
+    constants = {n: float(value) for block in CONSTANTS.findall(text) for n, value in CONSTANT.findall(block)}
     sizes, counts = (_used(text, constants, patterns) for patterns in (SIZES, COUNTS))
     both = sorted(set(sizes) & set(counts))
     if both:
@@ -69,11 +67,9 @@ def read_sizes(script: Path) -> GeoSizes:
     return GeoSizes(script, sizes, counts, graded)
 
 
-def _used(text: str, constants: Dict[str, float], patterns: Sequence["re.Pattern[str]"]) -> Dict[str, float]:
-    words: List[str] = []
-    for pattern in patterns:
-        for expression in pattern.findall(text):
-            words += re.findall(r"[A-Za-z_]\w*", expression)
+def _used(text: str, constants: dict[str, float], patterns: Sequence["re.Pattern[str]"]) -> dict[str, float]:
+    expressions = " ".join(expression for pattern in patterns for expression in pattern.findall(text))
+    words = re.findall(r"[A-Za-z_]\w*", expressions)
     return {name: value for name, value in constants.items() if name in words}
 
 
@@ -81,7 +77,7 @@ def without_comments(text: str) -> str:
     return re.sub(r"/\*.*?\*/", " ", re.sub(r"//[^\n]*", "", text), flags=re.DOTALL)
 
 
-def graded_text(script: Path, factor: float) -> Tuple[str, bool]:
+def graded_text(script: Path, factor: float) -> tuple[str, bool]:
     """The script with its ratios of neighbouring cells for so many times the cells; whether it has any."""
     text = read_text(script, "give a gmsh script that is there", "give a gmsh script")
 

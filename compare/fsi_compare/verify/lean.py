@@ -4,13 +4,16 @@ the centre is told by the product of both (verdict.py). Where no mesh is coarser
 predecessor, the centre is run."""
 
 import math
-from typing import Callable, List, Optional, Sequence
+from typing import Callable, Sequence
 
 from .family import STEP_RATIO, Member
 from .mesh_family import Recipe
 
 
-def cross(meshes: Sequence[float], steps: Sequence[float]) -> List[Member]:
+Nodes = Callable[[float], int | None]  # of the mesh of a size
+
+
+def cross(meshes: Sequence[float], steps: Sequence[float]) -> list[Member]:
     """`meshes` and `steps` from coarse to fine, three or more of each, the last ones those of the centre."""
     column = [Member(mesh, steps[0]) for mesh in meshes]
     row = [Member(meshes[0], step) for step in steps[1:]]
@@ -18,13 +21,13 @@ def cross(meshes: Sequence[float], steps: Sequence[float]) -> List[Member]:
     return list(dict.fromkeys([*column, *row, near, Member(near.mesh, near.step, True)]))
 
 
-def between(coarse: float, fine: float, ratio: float) -> List[float]:
+def between(coarse: float, fine: float, ratio: float) -> list[float]:
     """Sizes from one to the other, each smaller by the ratio."""
     count = round(math.log(coarse / fine) / math.log(ratio))
     return [fine * ratio ** (count - k) for k in range(count)] + [fine]
 
 
-def lean(meshes: Sequence[float], static: bool) -> List[Member]:
+def lean(meshes: Sequence[float], static: bool) -> list[Member]:
     """`meshes` relative to the centre, from coarse to fine, with at least one coarser than it."""
     coarser = [mesh for mesh in meshes if mesh > 1]
     near = min(coarser)
@@ -37,12 +40,7 @@ def lean(meshes: Sequence[float], static: bool) -> List[Member]:
 
 
 def starting_member(
-    recipe: Recipe,
-    static: bool,
-    ratio: float,
-    levels: int,
-    nodes: Callable[[float], Optional[int]],
-    longest: Optional[float] = None,
+    recipe: Recipe, static: bool, ratio: float, levels: int, nodes: Nodes, longest: float | None = None
 ) -> Member:
     """Coarser than the case by a ratio, so that a demand that it exceeds by far costs little, but by steps no longer
     than `longest`, relative to the case's: longer ones give pressures no bar (doubt.py). Its mesh is the case's own

@@ -2,7 +2,7 @@
 
 import shlex
 from dataclasses import replace
-from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Iterable, Mapping, Sequence
 
 from ..base.errors import InputError, ProgramError, say_note, say_warning
 from ..base.files import absolute
@@ -21,18 +21,14 @@ class Maker:
     """Keeps the outcome of each member, by driver. `names`: quantities that decide whether adaptation has paid; empty:
     all."""
 
-    def __init__(
-        self, runner: Runner, requests: Requests, dimension: int, quiet: bool, names: Sequence[str] = ()
-    ) -> None:
+    def __init__(self, runner: Runner, requests: Requests, dimension: int, quiet: bool, names: Sequence[str] = ()):
         self.runner, self.requests, self.dimension, self.quiet = runner, requests, dimension, quiet
         self.names = names
-        self.last: Optional[
-            int
-        ] = None  # level of the adapted mesh that was none the better for it: there is no finer one
+        self.last: int | None = None  # level of the adapted mesh that was none the better for it: there is no finer one
         self.families = {driver: FamilyRuns(driver, {}) for driver in requests.methods}
-        self.others: Dict[str, StudyRun] = {}
-        self.notes: List[str] = []
-        self._meshes: Dict[float, str] = {}  # why one cannot be made, by size; empty: it can
+        self.others: dict[str, StudyRun] = {}
+        self.notes: list[str] = []
+        self._meshes: dict[float, str] = {}  # why one cannot be made, by size; empty: it can
 
     @property
     def seconds(self) -> float:
@@ -45,10 +41,9 @@ class Maker:
         if not isinstance(recipe, Adapted):
             self._together([pair for pair in self._wanted(members) if self._has_mesh(*pair)])
             return
-        moved: List[Member] = []
-        for mesh in sorted(
-            {member.mesh for member, _ in self._wanted(members)}, reverse=True
-        ):  # each from its predecessor
+        moved: list[Member] = []
+        wanted = {member.mesh for member, _ in self._wanted(members)}
+        for mesh in sorted(wanted, reverse=True):  # each from its predecessor
             level, here, plain = recipe.level(mesh), [m for m in members if m.mesh == mesh], Member(mesh, 1.0)
             for below in range(level):
                 self._climb(recipe, below)
@@ -68,7 +63,7 @@ class Maker:
         recipe = self.requests.recipe
         return not isinstance(recipe, Adapted) or self.last is None or recipe.level(member.mesh) <= self.last
 
-    def _wanted(self, members: Iterable[Member]) -> List[Tuple[Member, str]]:
+    def _wanted(self, members: Iterable[Member]) -> list[tuple[Member, str]]:
         """Requests that are not there yet, each once."""
         pairs = [(m, driver) for m in dict.fromkeys(members) for driver in self.families]
         return [(m, driver) for m, driver in pairs if m not in self.families[driver].runs]
@@ -98,13 +93,13 @@ class Maker:
             self.last = level
             self.note(about_unpaid(level, found))
 
-    def _together(self, wanted: Sequence[Tuple[Member, str]]) -> None:
+    def _together(self, wanted: Sequence[tuple[Member, str]]) -> None:
         """Runs with looser tolerances last, where another run has yet to tell which tolerances count."""
         late = [(member, driver) for member, driver in wanted if member.looser and self.requests.awaits_scheme(driver)]
         self._run([pair for pair in wanted if pair not in late])
         self._run(late)
 
-    def _run(self, wanted: Sequence[Tuple[Member, str]]) -> None:
+    def _run(self, wanted: Sequence[tuple[Member, str]]) -> None:
         runs = self.runner.run([self.requests.of(member, driver) for member, driver in wanted])
         for (member, driver), run in zip(wanted, runs):
             self.families[driver].runs[member] = run
@@ -121,8 +116,7 @@ class Maker:
     def single(self, member: Member, driver: str, settings: Mapping[str, Any]) -> StudyRun:
         """A run that is no member: with settings of its own."""
         request = self.requests.of(member, driver)
-        merged = {**request.settings, **settings}
-        run = self.runner.run([replace(request, settings=merged)])[0]
+        run = self.runner.run([replace(request, settings={**request.settings, **settings})])[0]
         self.others[shlex.join([driver, str(run.folder)])] = run
         self._learn_scheme(driver, run)
         return run
@@ -144,7 +138,7 @@ class Maker:
             self.families[driver].runs[member] = StudyRun(request, place, REFUSED, problem, 0.0, "")
         return not problem
 
-    def nodes(self, size: float) -> Optional[int]:
+    def nodes(self, size: float) -> int | None:
         """Number of nodes of the mesh of a size relative to the case's; None: there is none."""
         try:
             mesh = self.runner.mesh_file(self.requests.mesh(Member(round(size, 9), 1.0)))

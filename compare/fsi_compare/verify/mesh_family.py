@@ -12,15 +12,15 @@ import math
 import shlex
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
 from ..base.files import is_file, replacing
 from ..gallery.mesh_chain import MARK, READ, SCRIPT, commands_of, links, with_places
 from ..gallery.scene import Scene, read_scene
 from ..study.study_file import StudyMesh
-from .artery_sizes import artery_words, cells_of, waves_of, with_numbers
-from .chain_sizes import Command, apart, sized
+from .artery_sizes import artery_words, cells_of, require_numbers, waves_of, with_numbers
+from .chain_sizes import Command, apart, number_in, sized, without
 from .geo_sizes import GeoSizes, graded_text, read_sizes
 
 HALVES = 2.0  # all that fsi-mesh refine makes
@@ -33,11 +33,11 @@ class Recipe:
     """How a mesh is made, with the counts that must stay whole."""
 
     command: str
-    words: Tuple[str, ...]  # behind the command; a .geo by its full path
-    geo: Optional[GeoSizes] = None
+    words: tuple[str, ...]  # behind the command; a .geo by its full path
+    geo: GeoSizes | None = None
     given: Mapping[str, float] = None  # type: ignore[assignment]  # of --set
-    file: Optional[Path] = None  # of command "refine"
-    chain: Tuple[Command, ...] = ()  # of command "chain"
+    file: Path | None = None  # of command "refine"
+    chain: tuple[Command, ...] = ()  # of command "chain"
 
     @property
     def coarsens(self) -> bool:
@@ -53,37 +53,32 @@ class Recipe:
         return ratio_for(self.counts, levels) if self.coarsens else HALVES
 
     @property
-    def counts(self) -> List[float]:
+    def counts(self) -> list[float]:
         if self.geo is not None:
             return [self.given.get(name, value) for name, value in self.geo.counts.items()]
-        if self.chain:
-            return [count for command in self.chain for count in command.counts]
-        return cells_of(self.words)
+        return [count for command in self.chain for count in command.counts] if self.chain else cells_of(self.words)
 
-    def mesh(self, factor: float, folder: Path, case: str) -> Optional[StudyMesh]:
+    def mesh(self, factor: float, folder: Path, case: str) -> StudyMesh | None:
         """The mesh finer by `factor`; None: the case's own file as it stands."""
-        name = f"{case[:40]}-x{factor:.4g}"
         if self.chain:
-            words = chained([command.finer(factor, folder) for command in self.chain])
-            return StudyMesh(name, f"{factor:.3g} times as fine", tuple(words[1:]), words[0])
-        if self.command == "geo":
-            return StudyMesh(name, f"{factor:.3g} times as fine", tuple(self.geo_words(factor, folder)), "geo")
-        if self.command == "refine":
-            halves = (str(self.file), "--times", str(round(math.log2(factor))))
-            return None if factor == 1 else StudyMesh(name, f"{factor:.3g} times as fine", halves, "refine")
-        return StudyMesh(name, f"{factor:.3g} times as fine", tuple(artery_words(self.words, factor)), "artery")
+            command, *words = chained([command.finer(factor, folder) for command in self.chain])
+        elif self.command == "geo":
+            command, words = "geo", self.geo_words(factor, folder)
+        elif self.command == "refine" and factor == 1:
+            return None
+        elif self.command == "refine":
+            command, words = "refine", [str(self.file), "--times", str(round(math.log2(factor)))]
+        else:
+            command, words = "artery", artery_words(self.words, factor)
+        return StudyMesh(f"{case[:40]}-x{factor:.4g}", f"{factor:.3g} times as fine", tuple(words), command)
 
-    def unrefined(self, sizes: Sequence[float], folder: Path) -> Dict[str, int]:
+    def unrefined(self, sizes: Sequence[float], folder: Path) -> dict[str, int]:
         """Layers of a wall with as many elements in meshes of all these sizes, relative to the case's, by name."""
         layers = [sized(command.finer(1 / size, folder), "").elements for command in self.chain for size in sizes]
-        kept: Dict[str, int] = {}
-        for command in self.chain:
-            for name, number in command.elements.items():
-                if all(one.get(name, number) == number for one in layers):
-                    kept[name] = number
-        return kept
+        own = {name: number for command in self.chain for name, number in command.elements.items()}
+        return {name: n for name, n in own.items() if all(one.get(name, n) == n for one in layers)}
 
-    def geo_words(self, factor: float, folder: Path) -> List[str]:
+    def geo_words(self, factor: float, folder: Path) -> list[str]:
         assert self.geo is not None
         script = self.geo.script
         if self.geo.graded and factor != 1:
@@ -92,10 +87,9 @@ class Recipe:
             script.parent.mkdir(parents=True, exist_ok=True)
             with replacing(script) as temporary:
                 temporary.write_text(text, encoding="utf-8")
-        words = [str(script), *_without_set(self.words)]
-        for name, value in self.geo.settings(factor, dict(self.given)).items():
-            words += ["--set", f"{name}={value:.10g}"]
-        return words
+        settings = self.geo.settings(factor, dict(self.given)).items()
+        words = [word for name, value in settings for word in ("--set", f"{name}={value:.10g}")]
+        return [str(script), *without(self.words, ("--set",)), *words]
 
 
 @dataclass(frozen=True)
@@ -105,14 +99,14 @@ class Script(Command):
     recipe: Recipe
 
     @property
-    def counts(self) -> List[float]:
+    def counts(self) -> list[float]:
         return self.recipe.counts
 
-    def finer(self, factor: float, folder: Path) -> List[str]:
+    def finer(self, factor: float, folder: Path) -> list[str]:
         return ["geo", *self.recipe.geo_words(factor, folder)]
 
 
-def chained(commands: Sequence[Sequence[str]]) -> List[str]:
+def chained(commands: Sequence[Sequence[str]]) -> list[str]:
     """Their words, with marks between."""
     return [word for number, words in enumerate(commands) for word in ([MARK] if number else []) + list(words)]
 
@@ -128,10 +122,12 @@ def ratio_for(counts: Sequence[float], levels: Sequence[int]) -> float:
     return min(RATIOS, key=lambda ratio: (round(rounding(ratio), 2), RATIOS.index(ratio)))
 
 
-def find_recipe(case: Path, entries: Mapping[str, Any], named: Optional[str], mesh_maker: Path) -> Recipe:
+def find_recipe(case: Path, entries: Mapping[str, Any], named: str | None, mesh_maker: Path) -> Recipe:
     """The recipe by --mesh, the gallery's scene, the case's level or error, or its mesh file. Raises InputError."""
     element, geometry = str(entries.get("element", "p2p1")), str(entries.get("geometry", "3d"))
     section = entries.get("mesh", {})
+    if not isinstance(section, dict):
+        raise InputError(case, "mesh", "is no section", 'write [mesh] with file = "NAME.msh"')
     if named is not None:
         return _recipe(_split(named), Path("."), "--mesh", mesh_maker)
     if is_file(case.parent / "scene.py") and case.parent.name == case.stem:
@@ -146,16 +142,15 @@ def find_recipe(case: Path, entries: Mapping[str, Any], named: Optional[str], me
     file = case.parent / str(section.get("file", ""))
     script = file.with_suffix(".geo")
     if is_file(script):
-        return _recipe(
-            ["geo", script.name, *(["--order", "2"] if element == "p2p1" else [])], case.parent, "", mesh_maker
-        )
+        words = ["geo", script.name, *(["--order", "2"] if element == "p2p1" else [])]
+        return _recipe(words, case.parent, "", mesh_maker)
     if not is_file(file):
         remedy = 'make it, or say how it is made: --mesh "geo SCRIPT.geo", --mesh "lumen SURFACE.stl ... | thicken ..."'
         raise InputError(case, "mesh.file", f"there is no file {file}", remedy)
     return Recipe("refine", (), file=file)
 
 
-def _split(text: str) -> List[str]:
+def _split(text: str) -> list[str]:
     try:
         return shlex.split(text)
     except ValueError as error:
@@ -171,18 +166,18 @@ def _recipe(words: Sequence[str], folder: Path, source: str, mesh_maker: Path) -
     if MARK in words or (words and words[0] in ("lumen", "thicken")):
         return _chain(words, folder, source)
     if not words or words[0] not in ("geo", "artery"):
-        what = words[0] if words else ""
-        problem = f"'{what}' makes no family of meshes"
+        problem = f"'{words[0] if words else ''}' makes no family of meshes"
         raise InputError(source, "", problem, "give the words of fsi-mesh geo or fsi-mesh artery, without -o")
     if words[0] == "geo":
         return _geo(words, folder, source)
+    require_numbers(words, source)
     return Recipe("artery", tuple(with_numbers(list(words[1:]), mesh_maker)), given={})
 
 
 def _chain(words: Sequence[str], folder: Path, source: str) -> Recipe:
     links(words, Path("mesh.msh"), source)  # raises where the order is wrong
     named = [apart(command) for command in commands_of(words)]
-    found: List[Command] = []
+    found: list[Command] = []
     for number, command in enumerate(named):
         for word in command:
             if word in ("-o", "--output"):
@@ -195,13 +190,13 @@ def _chain(words: Sequence[str], folder: Path, source: str) -> Recipe:
         elif command[0] in MADE_OF if number else command[0] == "lumen" or command[0].endswith(SCRIPT):
             found.append(sized(full, source))
         else:
-            raise _without_sizes(command, number, folder, source)
+            raise _without_sizes(command, folder, source)
     if not any(command[0] in ("geo", "lumen") for command in named):
-        raise _without_sizes(named[-1], 1, folder, source)
+        raise _without_sizes(named[-1], folder, source)
     return Recipe("chain", tuple(words), given={}, chain=tuple(found))
 
 
-def _without_sizes(command: Sequence[str], number: int, folder: Path, source: str) -> InputError:
+def _without_sizes(command: Sequence[str], folder: Path, source: str) -> InputError:
     """A command that makes no meshes of several sizes where it stands."""
     remedy = 'write "geo SCRIPT.geo | thicken ..." or "lumen SURFACE.stl --edges-per-diameter N | thicken ..."'
     if command[0] != "thicken":
@@ -222,24 +217,15 @@ def _geo(words: Sequence[str], folder: Path, source: str) -> Recipe:
         raise InputError(source, "", "names no script .geo", 'write "geo SCRIPT.geo"')
     script = (folder / words[place]).resolve()
     others = [word for i, word in enumerate(words) if i not in (0, place)]
-    return Recipe("geo", tuple(others), read_sizes(script), _given(others))
+    return Recipe("geo", tuple(others), read_sizes(script), _given(others, source))
 
 
-def _given(words: Sequence[str]) -> Dict[str, float]:
+def _given(words: Sequence[str], source: str) -> dict[str, float]:
     """name=number of each --set."""
     found = {}
     for i, word in enumerate(words):
         text = word[len("--set=") :] if word.startswith("--set=") else words[i + 1] if word == "--set" else ""
         name, mark, value = text.partition("=")
         if mark:
-            found[name] = float(value)
+            found[name] = number_in(value, f"--set {name}", source)
     return found
-
-
-def _without_set(words: Sequence[str]) -> List[str]:
-    kept, skip = [], False
-    for word in words:
-        if not skip and word != "--set" and not word.startswith("--set="):
-            kept.append(word)
-        skip = word == "--set"
-    return kept

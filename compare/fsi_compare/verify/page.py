@@ -2,7 +2,7 @@
 
 import re
 from pathlib import Path
-from typing import List, Sequence
+from typing import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -36,8 +36,7 @@ def write_page(
     report.list(notes)
     report.section("Error bars")
     report.table(bars_table(judged))
-    outside = [one for one in judged if one.bar.verdict == NOT_IN_RANGE]
-    if outside:
+    if any(one.bar.verdict == NOT_IN_RANGE for one in judged):
         report.text(
             "No error can be given of quantities whose values do not come nearer to each other as mesh and step are refined, or "
             "which swing. What to refine stands beside them."
@@ -50,16 +49,15 @@ def write_page(
             caption = f"{names}. The band is what the curve may be off by at each place."
             report.figure(stem, lambda group=group: waves_figure(group), caption)  # type: ignore[misc]
     report.section("Where the error comes from")
-    report.figure(
-        "parts", lambda: parts_figure(judged), "The parts of the widest bars, relative to the largest of their curve."
-    )
+    caption = "The parts of the widest bars, relative to the largest of their curve."
+    report.figure("parts", lambda: parts_figure(judged), caption)
     report.section("The family")
     report.table(members_table(families))
     report.write()
     return report
 
 
-def _groups(waves: Sequence[Band]) -> List[List[Band]]:
+def _groups(waves: Sequence[Band]) -> list[list[Band]]:
     """Curves of one column share a picture."""
     groups: dict = {}
     for band in waves:
@@ -86,18 +84,12 @@ def parts_figure(judged: Sequence[Judged]) -> Figure:
     shown = sorted((one for one in judged if one.bar.given), key=lambda one: -one.bar.relative)[:15][::-1]
     figure = Figure(figsize=(7.0, 1.2 + 0.28 * max(len(shown), 1)), layout="constrained")
     axes = figure.add_subplot()
-    left = np.zeros(len(shown))
-    rows = np.arange(len(shown))
+    left, rows = np.zeros(len(shown)), np.arange(len(shown))
     for name, color in (("mesh", "tab:blue"), ("step", "tab:orange"), ("both", "tab:green"), ("solver", "tab:gray")):
-        widths = np.array([100 * _part(one, name) / one.bar.scale for one in shown])
+        widths = np.array([100 * one.bar.parts[name] / one.bar.scale for one in shown])
         axes.barh(rows, widths, left=left, color=color, label=name)
         left = left + widths
     axes.set_yticks(rows, [f"{one.quantity.name} ({one.driver})" for one in shown], fontsize="x-small")
     axes.set_xlabel("part of the bar in %")
     axes.legend(fontsize="small")
     return figure
-
-
-def _part(judged: Judged, name: str) -> float:
-    bar = judged.bar
-    return {"mesh": bar.mesh.bar, "step": bar.step.bar, "both": bar.together, "solver": bar.solver}[name]

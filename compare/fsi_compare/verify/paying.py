@@ -9,7 +9,7 @@ is what the n-th adaptation has changed. The n-th has not paid for a kind where 
 meshes still change can no longer be told from what they have changed."""
 
 from dataclasses import dataclass
-from typing import Dict, List, Mapping, Sequence
+from typing import Mapping, Sequence
 
 import numpy as np
 
@@ -42,9 +42,9 @@ def kind_of(curve: Curve) -> str:
 
 def changes(
     coarse: Mapping[str, Curve], fine: Mapping[str, Curve], facts: CaseFacts, names: Sequence[str]
-) -> Dict[str, float]:
+) -> dict[str, float]:
     """D_k between two meshes, by kind, of the curves that have a quantity whose name holds one of `names`."""
-    squares: Dict[str, List[float]] = {}
+    squares: dict[str, list[float]] = {}
     quantities = quantities_of(fine, facts.asked(()))
     asked = {quantity.curve for quantity in chosen(quantities, names)}
     for curve in (fine[name] for name in sorted(asked) if name in coarse):
@@ -56,7 +56,7 @@ def changes(
     return {kind: float(np.sqrt(np.mean(of))) for kind, of in squares.items()}
 
 
-def unpaid(levels: Sequence[Mapping[str, Curve]], facts: CaseFacts, names: Sequence[str]) -> List[Unpaid]:
+def unpaid(levels: Sequence[Mapping[str, Curve]], facts: CaseFacts, names: Sequence[str]) -> list[Unpaid]:
     """Kinds for which the last of three meshes, each adapted from its predecessor, has not paid. A kind that changes by
     less than a thousandth is as good as converged."""
     keyed = on_common_points({Member(float(-n), 1.0): dict(curves) for n, curves in enumerate(levels)})

@@ -2,7 +2,7 @@
 
 import argparse
 from pathlib import Path
-from typing import List, Sequence
+from typing import Sequence
 
 from ..base.errors import InputError
 from ..gallery.mesh_chain import READ
@@ -28,7 +28,7 @@ TRIED = 0.25  # of the budget, that a member may take before the family is known
 PRINTED = (SHAPE, ADAPTED, SURFACE)  # with the bars, not only in the report
 
 
-def plan(recipe: Recipe, facts: CaseFacts, options: argparse.Namespace) -> List[Member]:
+def plan(recipe: Recipe, facts: CaseFacts, options: argparse.Namespace) -> list[Member]:
     ratio = mesh_ratio(recipe, options.levels, not options.coarser)
     if recipe.adapts and options.coarser:
         raise InputError("", "--adapt", "makes finer meshes only", "leave --coarser out")
@@ -54,14 +54,15 @@ def sample(maker: Maker, start: Member = OWN) -> Member:
         return start
     points = standard_points(run.folder)
     if not points:
-        facts = maker.requests.facts
-        raise InputError(
-            facts.path, "output", "samples nothing", "ask for a point: [output.points] with NAME = [x, y, z]"
-        )
+        raise samples_nothing(maker.requests.facts)
     maker.begin_again(points)
     places = "; ".join(f"{key.rpartition('.')[2]} = {value}" for key, value in points.items())
     maker.note(f"the case samples nothing; points are taken where most happens at its end: {places}")
     return start
+
+
+def samples_nothing(facts: CaseFacts) -> InputError:
+    return InputError(facts.path, "output", "samples nothing", "ask for a point: [output.points] with NAME = [x, y, z]")
 
 
 def within_budget(options: argparse.Namespace, maker: Maker, family: Sequence[Member]) -> Sequence[Member]:
@@ -116,19 +117,14 @@ def tell_mesh(maker: Maker, recipe: Recipe) -> None:
         maker.notes += [] if recipe.remakes else [ADAPTED if recipe.base.chain else SHAPE]
         return
     if recipe.command == "refine":
-        maker.notes.append(
-            f"Meshes: {recipe.file} and what fsi-mesh refine makes of it; none is coarser than the case's own."
-        )
-        maker.notes.append(SHAPE)
-        return
-    if recipe.chain:
-        maker.notes.append(
-            f"Meshes: fsi-mesh {shown(recipe.words)}; of each command what it has of sizes, finer and coarser."
-        )
-        maker.notes += [] if recipe.words[0] == "geo" else [SURFACE]
-        return
-    words = [recipe.geo.script.name] if recipe.geo is not None else []
-    maker.notes.append(f"Meshes: fsi-mesh {' '.join([recipe.command, *words, *recipe.words])}, finer and coarser.")
+        made = f"{recipe.file} and what fsi-mesh refine makes of it; none is coarser than the case's own."
+        maker.notes += [f"Meshes: {made}", SHAPE]
+    elif recipe.chain:
+        made = f"fsi-mesh {shown(recipe.words)}; of each command what it has of sizes, finer and coarser."
+        maker.notes += [f"Meshes: {made}", *([] if recipe.words[0] == "geo" else [SURFACE])]
+    else:
+        words = [recipe.geo.script.name] if recipe.geo is not None else []
+        maker.notes.append(f"Meshes: fsi-mesh {' '.join([recipe.command, *words, *recipe.words])}, finer and coarser.")
 
 
 def shown(words: Sequence[str]) -> str:
@@ -141,9 +137,8 @@ def tell_unpaid(maker: Maker, judged: Sequence[Judged]) -> None:
     if not isinstance(maker.requests.recipe, Adapted):
         return
     curves = [one for one in judged if one.quantity.whole is not None and not one.quantity.whole.largest]
-    unpaid = sorted(
-        {one.quantity.curve for one in curves if one.bar.mesh.state == OUTSIDE and not one.bar.mesh.lacking}
-    )
+    apart = [one for one in curves if one.bar.mesh.state == OUTSIDE and not one.bar.mesh.lacking]
+    unpaid = sorted({one.quantity.curve for one in apart})
     if unpaid:
         maker.note(
             f"the last adaptation has not paid for {', '.join(unpaid)}: they changed by as much as by the one before. The coarser "

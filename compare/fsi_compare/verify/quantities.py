@@ -15,13 +15,14 @@ it is of, which its error is relative to.
 import functools
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
+from typing import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from ..base.files import is_file
 from ..results.fields import read_fields
 from ..results.units import split_unit
+from ..runs.levels import integral
 from ..runs.samples import LINES, PLANES, POINTS, Samples, read_samples
 from .curve_norms import CurveNorm, Stretch, norm_on, stretch_of
 
@@ -53,8 +54,10 @@ class Curve:
     @property
     def is_pressure(self) -> bool:
         """Whether it is a pressure or of its order: stresses, forces, gradients of what is solved for."""
-        words = self.name.rpartition(": ")[2]
-        return self.derived or any(word in words for word in ("pressure", "stress", "force"))
+        return self.derived or any(word in self.name.rpartition(": ")[2] for word in ("pressure", "stress", "force"))
+
+
+Reading = Callable[[Curve], float]
 
 
 @dataclass(frozen=True)
@@ -66,10 +69,10 @@ class Quantity:
     unit: str
     is_pressure: bool
     scale: float
-    of: Callable[[Curve], float]
+    of: Reading
     is_extreme: bool = False
-    whole: Optional[Stretch] = None  # the curve itself, whose error has a norm; `of` is then that of the curve
-    held_by: Optional[Stretch] = None  # the curve's error that this number's cannot exceed
+    whole: Stretch | None = None  # the curve itself, whose error has a norm; `of` is then that of the curve
+    held_by: Stretch | None = None  # the curve's error that this number's cannot exceed
     is_norm: bool = False
 
 
@@ -77,16 +80,15 @@ class Quantity:
 class Asked:
     """What is asked for in addition to the usual numbers."""
 
-    times: Tuple[float, ...] = ()  # ms
-    period: Optional[float] = None  # ms
+    times: tuple[float, ...] = ()  # ms
+    period: float | None = None  # ms
     static: bool = False  # no curve over time: the last level alone counts
 
 
-def curves_of(folder: Path) -> Dict[str, Curve]:
+def curves_of(folder: Path) -> dict[str, Curve]:
     """Curves of a finished run, by name. Raises InputError for tables that cannot be read."""
-    found: Dict[str, Curve] = {}
-    tables = list(TABLES) + ([] if is_file(folder / "openings.csv") else ["flow.csv"])
-    for table in tables:
+    found: dict[str, Curve] = {}
+    for table in list(TABLES) + ([] if is_file(folder / "openings.csv") else ["flow.csv"]):
         if is_file(folder / table):
             for sample, samples in read_samples(folder / table).items():
                 for curve in _curves(sample or WITHOUT_NAMES.get(table, table), samples):
@@ -120,18 +122,16 @@ def _derived(folder: Path) -> Iterator[Curve]:
                 values = np.asarray(fields.at(float(time), field), dtype=float)
                 flat = values if values.ndim == 1 else np.sqrt(np.sum(values.reshape(len(values), -1) ** 2, axis=1))
                 sizes.append(float(np.nanmax(np.abs(flat))) if np.isfinite(flat).any() else 0.0)
-            name = f"{medium}: largest {field.replace('_', ' ')}"
-            yield Curve(
-                name, fields.units.get(field, ""), np.asarray(times), np.asarray(sizes)[:, None], np.zeros(1), True
-            )
+            name, values = f"{medium}: largest {field.replace('_', ' ')}", np.asarray(sizes)[:, None]
+            yield Curve(name, fields.units.get(field, ""), np.asarray(times), values, np.zeros(1), True)
 
 
-def quantities_of(curves: Mapping[str, Curve], asked: Asked) -> List[Quantity]:
+def quantities_of(curves: Mapping[str, Curve], asked: Asked) -> list[Quantity]:
     """Quantities of the user's own run, which decides which extremes there are."""
-    sizes: Dict[str, float] = {}
+    sizes: dict[str, float] = {}
     for curve in curves.values():
         sizes[curve.unit] = max(sizes.get(curve.unit, 0.0), curve.largest)
-    found: List[Quantity] = []
+    found: list[Quantity] = []
     for curve in curves.values():
         if curve.largest > SEEN * sizes[curve.unit] and curve.largest > 0:
             found += _of_curve(curve, asked)
@@ -148,7 +148,7 @@ def on(grid: Curve, curve: Curve, stretch: Stretch) -> np.ndarray:
     return stretch_of(curve.times, curve.s, curve.values, (grid.times, grid.s), stretch)
 
 
-def _of_curve(curve: Curve, asked: Asked) -> List[Quantity]:
+def _of_curve(curve: Curve, asked: Asked) -> list[Quantity]:
     line = curve.values.shape[1] > 1
     end = float(curve.times[-1])
     if asked.static or len(curve.times) < 3:
@@ -171,12 +171,7 @@ def _of_curve(curve: Curve, asked: Asked) -> List[Quantity]:
 
 
 def _number(
-    curve: Curve,
-    what: str,
-    of: Callable[[Curve], float],
-    held_by: Stretch,
-    is_norm: bool = False,
-    extreme: bool = False,
+    curve: Curve, what: str, of: Reading, held_by: Stretch, is_norm: bool = False, extreme: bool = False
 ) -> Quantity:
     name = f"{curve.name}, {what}"
     return Quantity(name, curve.name, curve.unit, curve.is_pressure, curve.largest, of, extreme, None, held_by, is_norm)
@@ -187,28 +182,21 @@ def size_of(curve: Curve, stretch: Stretch) -> float:
     return max(norm_of(curve, stretch)(on(curve, curve, stretch)), AT_REST * curve.largest)
 
 
-def _whole(curve: Curve, time: Optional[float] = None, when: str = "") -> List[Quantity]:
+def _whole(curve: Curve, time: float | None = None, when: str = "") -> list[Quantity]:
     """The error of the curve itself: its norm, and the largest. A point has none at a single time."""
     line = curve.values.shape[1] > 1
     if time is not None and not line:
         return []
     names = (f"line{when or ' over time'}", f"anywhere{when}") if line else ("curve", "at any time")
-    found = []
-    for name, largest in zip(names, (False, True)):
-        stretch = Stretch(largest, time)
-        found.append(
-            Quantity(
-                f"{curve.name}, {name}",
-                curve.name,
-                curve.unit,
-                curve.is_pressure,
-                size_of(curve, stretch),
-                lambda c, stretch=stretch: norm_of(c, stretch)(on(c, c, stretch)),  # type: ignore[misc]
-                largest and time is None,
-                stretch,
-            )
-        )
-    return found
+    return [_error(curve, name, Stretch(largest, time)) for name, largest in zip(names, (False, True))]
+
+
+def _error(curve: Curve, what: str, stretch: Stretch) -> Quantity:
+    def size(c: Curve) -> float:
+        return norm_of(c, stretch)(on(c, c, stretch))
+
+    name, scale, extreme = f"{curve.name}, {what}", size_of(curve, stretch), stretch.largest and stretch.time is None
+    return Quantity(name, curve.name, curve.unit, curve.is_pressure, scale, size, extreme, stretch)
 
 
 def _extremes(curve: Curve) -> Iterator[Quantity]:
@@ -219,7 +207,7 @@ def _extremes(curve: Curve) -> Iterator[Quantity]:
         yield _number(curve, "smallest", lambda c: _extreme(c, -1.0), Stretch(True), extreme=True)
 
 
-def _at_end(curve: Curve) -> List[Quantity]:
+def _at_end(curve: Curve) -> list[Quantity]:
     end = float(curve.times[-1])
     if curve.values.shape[1] > 1:
         norm = _number(curve, "L2 norm at the end", lambda c: _at(c, end), Stretch(False, end), True)
@@ -269,9 +257,7 @@ def _largest_at_end(curve: Curve) -> float:
 def _norm(x: np.ndarray, y: np.ndarray) -> float:
     """(integral of y^2 over the length)^(1/2) by the trapezoidal rule, over the length's root: the unit stays."""
     length = float(x[-1] - x[0])
-    if length <= 0:
-        return float(np.sqrt(np.mean(y**2)))
-    return float(np.sqrt(np.sum(0.5 * (y[1:] ** 2 + y[:-1] ** 2) * np.diff(x)) / length))
+    return float(np.sqrt(integral(x, y**2) / length if length > 0 else np.mean(y**2)))
 
 
 def _l2(curve: Curve) -> float:
@@ -280,7 +266,7 @@ def _l2(curve: Curve) -> float:
     return _norm(curve.times, curve.values[:, 0])
 
 
-def _window(curve: Curve, begin: float) -> Tuple[np.ndarray, np.ndarray]:
+def _window(curve: Curve, begin: float) -> tuple[np.ndarray, np.ndarray]:
     """Times and values from `begin` on, which gets a level of its own."""
     after = curve.times > begin + 1e-9 * abs(curve.times[-1])
     start = np.interp(begin, curve.times, curve.values[:, 0])
@@ -289,7 +275,7 @@ def _window(curve: Curve, begin: float) -> Tuple[np.ndarray, np.ndarray]:
 
 def _mean(curve: Curve, begin: float) -> float:
     t, y = _window(curve, begin)
-    return float(np.sum(0.5 * (y[1:] + y[:-1]) * np.diff(t)) / (t[-1] - t[0]))
+    return integral(t, y) / float(t[-1] - t[0])
 
 
 def _swing(curve: Curve, begin: float) -> float:
@@ -298,6 +284,6 @@ def _swing(curve: Curve, begin: float) -> float:
     return 0.5 * (peak(t, y) + peak(t, -y))
 
 
-def chosen(quantities: Sequence[Quantity], names: Sequence[str]) -> List[Quantity]:
+def chosen(quantities: Sequence[Quantity], names: Sequence[str]) -> list[Quantity]:
     """Quantities whose name holds one of `names`; all where none is given."""
     return [q for q in quantities if not names or any(name.lower() in q.name.lower() for name in names)]

@@ -1,7 +1,7 @@
 """What the runs of a family say: bars of all quantities by driver, and bands of curves."""
 
-from dataclasses import dataclass, replace
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
+from dataclasses import dataclass, field, replace
+from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -14,6 +14,10 @@ from .quantities import Curve, Quantity, chosen, curves_of, norm_of, on, quantit
 from .verdict import NOT_IN_RANGE, Bar, Value, bar_of, inherited
 
 
+Curves = Mapping[Member, Mapping[str, Curve]]  # of each member, by name
+Size = Callable[[Member], float]
+
+
 @dataclass(frozen=True)
 class Judged:
     """A quantity of a driver with its bar."""
@@ -21,8 +25,8 @@ class Judged:
     driver: str
     quantity: Quantity
     bar: Bar
-    values: Tuple[Value, ...]  # of all members; of a curve how far each is from the user's own
-    own: Optional[Curve] = None  # that the value is of; of the coarsest mesh where the user's own is missing
+    values: tuple[Value, ...]  # of all members; of a curve how far each is from the user's own
+    own: Curve | None = None  # that the value is of; of the coarsest mesh where the user's own is missing
 
     def apart(self, other: Curve) -> float:
         """Difference of another run's value."""
@@ -50,22 +54,22 @@ class FamilyRuns:
     """One driver's finished members, and why others are missing."""
 
     driver: str
-    runs: Dict[Member, StudyRun]
+    runs: dict[Member, StudyRun]
 
     @property
-    def done(self) -> Dict[Member, StudyRun]:
+    def done(self) -> dict[Member, StudyRun]:
         return {member: run for member, run in self.runs.items() if run.done}
 
     @property
-    def failures(self) -> Dict[Member, StudyRun]:
+    def failures(self) -> dict[Member, StudyRun]:
         return {member: run for member, run in self.runs.items() if not run.done}
 
     @property
-    def own(self) -> Optional[StudyRun]:
+    def own(self) -> StudyRun | None:
         """The run that the bars are of; None: it is missing."""
         return next((run for member, run in self.done.items() if member.is_own), None)
 
-    def read(self) -> Dict[Member, Dict[str, Curve]]:
+    def read(self) -> dict[Member, dict[str, Curve]]:
         return {member: curves_of(run.folder) for member, run in self.done.items()}
 
 
@@ -85,18 +89,20 @@ def about(family: FamilyRuns, centre: Member) -> FamilyRuns:
 
 def relative(member: Member, centre: Member) -> Member:
     """The member with sizes relative to another's."""
-    return Member(_same(member.mesh / centre.mesh), _same(member.step / centre.step), member.looser, member.other)
+    sizes_of = same_size(member.mesh / centre.mesh, 1e-6), same_size(member.step / centre.step, 1e-6)
+    return Member(*sizes_of, member.looser, member.other)
 
 
-def _same(size: float) -> float:
-    return 1.0 if abs(size - 1) < 1e-6 else round(size, 9)
+def same_size(size: float, near: float = 1e-9) -> float:
+    """The size without round-off, so that equal ones are the same."""
+    return 1.0 if abs(size - 1) < near else round(size, 9)
 
 
-def sizes(runs: Mapping[Member, StudyRun]) -> Dict[float, float]:
+def sizes(runs: Mapping[Member, StudyRun]) -> dict[float, float]:
     """Real sizes of elements relative to the user's own by their planned ones, from the numbers of cells: counts are
     whole, and a mesh generator makes of a size what it can. Cells go with size^-d; d, the number of directions that are
     refined, is that of all meshes together."""
-    counts: Dict[float, float] = {}
+    counts: dict[float, float] = {}
     for member, run in runs.items():
         mesh = run.summary.get("mesh", {})
         cells = mesh.get("tetrahedra", mesh.get("triangles", mesh.get("nodes")))
@@ -131,12 +137,12 @@ def missed_sizes(runs: Mapping[Member, StudyRun]) -> str:
 
 def judge(
     family: FamilyRuns,
-    curves: Mapping[Member, Mapping[str, Curve]],
+    curves: Curves,
     facts: CaseFacts,
     times: Sequence[float],
     names: Sequence[str],
     additive: bool = False,
-) -> List[Judged]:
+) -> list[Judged]:
     """Bars of all quantities of the user's own run. `additive`: it may be missing where column and row tell it
     (verdict.py); the quantities are then those of the coarsest mesh by the own step."""
     own = next((member for member in curves if member.is_own), None)
@@ -146,66 +152,49 @@ def judge(
     if own is None:
         return []
     curves = on_common_points(curves)
-    judging = _Judging(family.driver, curves, curves[own], sizes(family.done), facts, additive)
-    judging.missed = missed_sizes(family.done)
+    real, missed = sizes(family.done), missed_sizes(family.done)
+    judging = _Judging(family.driver, curves, curves[own], real, facts, additive, missed)
     found = (judging.judged(quantity) for quantity in chosen(quantities_of(curves[own], facts.asked(times)), names))
     return [one for one in found if one is not None]
 
 
+@dataclass
 class _Judging:
     """Judges the quantities of one driver's family."""
 
-    def __init__(
-        self,
-        driver: str,
-        curves: Mapping[Member, Mapping[str, Curve]],
-        own: Mapping[str, Curve],
-        real: Mapping[float, float],
-        facts: CaseFacts,
-        additive: bool,
-    ) -> None:
-        self.driver, self.curves, self.own, self.real, self.facts, self.additive = (
-            driver,
-            curves,
-            own,
-            real,
-            facts,
-            additive,
-        )
-        self.missed = ""  # what forbids all bars
-        self._whole: Dict[Tuple[str, Stretch], Optional[Bar]] = {}
+    driver: str
+    curves: Curves
+    own: Mapping[str, Curve]
+    real: Mapping[float, float]
+    facts: CaseFacts
+    additive: bool
+    missed: str  # what forbids all bars
+    _whole: dict[tuple[str, Stretch], Bar | None] = field(default_factory=dict)
 
-    def judged(self, quantity: Quantity) -> Optional[Judged]:
+    def judged(self, quantity: Quantity) -> Judged | None:
         """The quantity's bar; None where nothing can be said of the user's own run."""
         if quantity.whole is not None:
             bar = self._of_curve(quantity, quantity.whole)
             return None if bar is None else self._doubted(quantity, bar, self._distances(quantity))
         values = self._values(quantity.curve, quantity.of)
         whole = None if quantity.held_by is None else self._of_curve(quantity, quantity.held_by)
-        orders = self._orders(quantity)
-        bar = bar_of(
-            values,
-            quantity.scale,
-            *orders,
-            self.facts.element,
-            self.additive,
-            curve=whole if quantity.is_norm else None,
-        )
+        orders, held = self._orders(quantity), whole if quantity.is_norm else None
+        bar = bar_of(values, quantity.scale, *orders, self.facts.element, self.additive, curve=held)
         if bar is not None and whole is not None and not bar.given and whole.given:
             bar = inherited(bar, whole)
         return None if bar is None else self._doubted(quantity, bar, values)
 
-    def _orders(self, quantity: Quantity) -> Tuple[float, float]:
+    def _orders(self, quantity: Quantity) -> tuple[float, float]:
         return self.facts.space_order(quantity.is_pressure), self.facts.time_order
 
-    def _values(self, name: str, of: Callable[[Curve], Any]) -> Tuple[Value, ...]:
+    def _values(self, name: str, of: Callable[[Curve], Any]) -> tuple[Value, ...]:
         return tuple(
             Value(self.real.get(m.mesh, m.mesh), m.step, of(found[name]), m.looser, m.other)
             for m, found in self.curves.items()
             if name in found
         )
 
-    def _of_curve(self, quantity: Quantity, stretch: Stretch) -> Optional[Bar]:
+    def _of_curve(self, quantity: Quantity, stretch: Stretch) -> Bar | None:
         """The bar of the curve's error itself."""
         key = quantity.curve, stretch
         if key not in self._whole:
@@ -216,14 +205,14 @@ class _Judging:
             self._whole[key] = bar_of(values, size_of(grid, stretch), *orders, self.facts.element, self.additive, norm)
         return self._whole[key]
 
-    def _distances(self, quantity: Quantity) -> Tuple[Value, ...]:
+    def _distances(self, quantity: Quantity) -> tuple[Value, ...]:
         """Distances of all members' curves from the user's own, or from what stands for it."""
         assert quantity.whole is not None
         grid, stretch = self.own[quantity.curve], quantity.whole
         norm, own = norm_of(grid, stretch), on(grid, grid, stretch)
         return self._values(quantity.curve, lambda curve: norm(on(grid, curve, stretch) - own))
 
-    def _doubted(self, quantity: Quantity, bar: Bar, values: Tuple[Value, ...]) -> Judged:
+    def _doubted(self, quantity: Quantity, bar: Bar, values: tuple[Value, ...]) -> Judged:
         curves = [of[quantity.curve] for of in self.curves.values() if quantity.curve in of]
         advice = self.missed or doubt(quantity, curves, self.facts)
         if advice:
@@ -231,13 +220,13 @@ class _Judging:
         return Judged(self.driver, quantity, bar, values, self.own[quantity.curve])
 
 
-def bands(family: FamilyRuns, curves: Mapping[Member, Mapping[str, Curve]], judged: Sequence[Judged]) -> List[Band]:
+def bands(family: FamilyRuns, curves: Curves, judged: Sequence[Judged]) -> list[Band]:
     """Bands of curves whose error has a bar: of points over time, of lines along them at the end and at the times asked
     for. At each place the own curve's distance from the finest in each direction, and what that direction's order says
     is left beyond it; the largest of the neighbourhood, since a wave that comes at another moment crosses the own curve
     where the distance is zero."""
     own = next((member for member in curves if member.is_own), None)
-    found: List[Band] = []
+    found: list[Band] = []
     if own is None:
         return found
     curves = on_common_points(curves)
@@ -251,19 +240,13 @@ def bands(family: FamilyRuns, curves: Mapping[Member, Mapping[str, Curve]], judg
         width = np.full(len(rows[own]), one.bar.solver + one.bar.together)
         width = width + _width(rows, own, one.bar.mesh, lambda m: m.mesh, lambda m: m.step)
         width = width + _width(rows, own, one.bar.step, lambda m: m.step, lambda m: m.mesh)
-        x = grid.times if stretch.time is None else grid.s
-        name = grid.name if stretch.time is None else one.quantity.name
-        found.append(Band(family.driver, name, grid.unit, x, rows[own], _widest(width), stretch.time is not None))
+        along = stretch.time is not None
+        name, x = (one.quantity.name, grid.s) if along else (grid.name, grid.times)
+        found.append(Band(family.driver, name, grid.unit, x, rows[own], _widest(width), along))
     return found
 
 
-def _width(
-    rows: Mapping[Member, np.ndarray],
-    own: Member,
-    part: Part,
-    size: Callable[[Member], float],
-    other: Callable[[Member], float],
-) -> np.ndarray:
+def _width(rows: Mapping[Member, np.ndarray], own: Member, part: Part, size: Size, other: Size) -> np.ndarray:
     """Part of a band by one direction, on either side of the curve; the factors are those of the bar."""
     line = sorted((m for m in rows if not (m.looser or m.other) and other(m) == 1), key=size)
     if len(line) < 2:

@@ -5,7 +5,7 @@ import shlex
 import shutil
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Sequence
+from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError, printable
 from ..gallery.mesh_chain import MARK, as_typed
@@ -13,7 +13,7 @@ from ..study.study_file import StudyMesh
 from ..study.study_run import StudyRun
 from ..starting.duration import duration
 from .adapting import Adapted
-from .cost import learn
+from .cost import Costs, learn
 from .demand import Settings, cheapest, direction_of, outside, reached, refinable, shown_by, tolerance_factor, widest
 from .doubt import step_within
 from .family import INDICATOR, STEP_RATIO, Member, members, with_settings
@@ -21,7 +21,7 @@ from .found_case import write_case
 from .lean import between, cross, lean
 from .making import Maker
 from .quantities import Curve, curves_of
-from .results import BarsOfRun, FamilyRuns, Judged, about, judge, relative
+from .results import BarsOfRun, FamilyRuns, Judged, about, judge, relative, same_size
 
 FOUND, MESH = "found.toml", "found.msh"
 MOST_MOVES = 6  # of the family's centre
@@ -31,17 +31,17 @@ FURTHEST = 2  # powers of a ratio, of settings beyond the family's centre
 
 @dataclass
 class Outcome:
-    judged: List[Judged]  # of the last run
+    judged: list[Judged]  # of the last run
     reached: bool
-    lines: List[str] = field(default_factory=list)  # what to say, in sentences
-    final: Optional[Member] = None
+    lines: list[str] = field(default_factory=list)  # what to say, in sentences
+    final: Member | None = None
     settings: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Demand:
     error: float  # relative to the largest of each curve
-    budget: Optional[float]  # s
+    budget: float | None  # s
     names: Sequence[str]
     times: Sequence[float]
 
@@ -54,13 +54,13 @@ class Search:
         self.driver = next(iter(maker.families))
         self.centre = start
         self.corner = self._corner(start)  # where the cross has its coarsest mesh and longest step
-        self.curves: Dict[Member, Dict[str, Curve]] = {}  # of the family
-        self.sets: Dict[Path, BarsOfRun] = {}  # of each run that bars were made for, by its folder
+        self.curves: dict[Member, dict[str, Curve]] = {}  # of the family
+        self.sets: dict[Path, BarsOfRun] = {}  # of each run that bars were made for, by its folder
 
     def go(self) -> Outcome:
         """Searches. Raises InputError where the user's own run fails or nothing is sampled."""
         judged = self._family()
-        lines: List[str] = []
+        lines: list[str] = []
         for move in range(MOST_MOVES + 1):
             asked = [one for one in judged if one.bar.given]
             lacking = refinable(judged) and (move < MOVES_FOR_BARS or not asked)
@@ -97,14 +97,14 @@ class Search:
         return recipe.coarsens and not isinstance(recipe, Adapted) and not facts.static
 
     def _corner(self, centre: Member) -> Member:
-        return Member(self._size(centre.mesh * self.ratio ** (self.levels - 1)), _round(centre.step * STEP_RATIO**2))
+        return self._member(centre.mesh * self.ratio ** (self.levels - 1), centre.step * STEP_RATIO**2)
 
-    def _members(self) -> List[Member]:
+    def _members(self) -> list[Member]:
         recipe, facts, centre = self.maker.requests.recipe, self.maker.requests.facts, self.centre
         if self.crosses:
             meshes = between(self.corner.mesh, centre.mesh, self.ratio)
             steps = between(self.corner.step, centre.step, STEP_RATIO)
-            found = cross([self._size(mesh) for mesh in meshes], [_round(step) for step in steps])
+            found = cross([self._size(mesh) for mesh in meshes], [same_size(step) for step in steps])
             return [*found, centre] if centre in self.maker.families[self.driver].runs else found
         coarser = self.levels - 1 if recipe.coarsens else 0
         if isinstance(recipe, Adapted):
@@ -114,21 +114,17 @@ class Search:
             relative = lean(meshes, facts.static)
         else:
             relative = members(recipe, facts, self.ratio, self.levels, True)
-        return [replace(m, mesh=self._size(m.mesh * centre.mesh), step=_round(m.step * centre.step)) for m in relative]
+        return [self._member(m.mesh * centre.mesh, m.step * centre.step, m.looser, m.other) for m in relative]
 
-    def _family(self) -> List[Judged]:
+    def _family(self) -> list[Judged]:
         """Its bars, after its members have run."""
         self.maker.run(self._members())
         self.curves = self._kept().read()
         found = self._judged(self.centre, self.crosses)
         if not found:
             names = " ".join(self.demand.names)
-            raise InputError(
-                self.maker.requests.facts.path,
-                f"--of {names}".strip(),
-                "no quantity to judge",
-                "see bars.csv of a call without --error",
-            )
+            where = self.maker.requests.facts.path, f"--of {names}".strip()
+            raise InputError(*where, "no quantity to judge", "see bars.csv of a call without --error")
         return found
 
     def _kept(self) -> FamilyRuns:
@@ -136,7 +132,7 @@ class Search:
         runs = self.maker.families[self.driver].runs
         return FamilyRuns(self.driver, {m: runs[m] for m in self._members()} if self.crosses else runs)
 
-    def _judged(self, centre: Member, additive: bool = False) -> List[Judged]:
+    def _judged(self, centre: Member, additive: bool = False) -> list[Judged]:
         """Bars of any member, from all of the family."""
         family = about(self._kept(), centre)
         curves = {relative(member, centre): of for member, of in self.curves.items()}
@@ -144,7 +140,7 @@ class Search:
         self._keep(family.own, found)
         return found
 
-    def _proved(self, judged: List[Judged]) -> List[Judged]:
+    def _proved(self, judged: list[Judged]) -> list[Judged]:
         """Bars by a run of the centre itself, unless a cheaper one that has run is good enough."""
         if all(not one.bar.given for one in judged) or self.centre in self.curves:
             return judged
@@ -153,18 +149,20 @@ class Search:
         self.maker.run([self.centre])
         return self._family()
 
-    def _keep(self, run: Optional[StudyRun], judged: Sequence[Judged]) -> None:
+    def _keep(self, run: StudyRun | None, judged: Sequence[Judged]) -> None:
         """The last family to have a run tells most of it."""
         if run is not None:
             self.sets[run.folder] = BarsOfRun(self.driver, run, judged)
 
-    def _best(self, judged: Sequence[Judged], demand: float) -> Optional[Settings]:
-        family = about(self.maker.families[self.driver], self.centre)
-        costs = learn(family.runs, self.maker.dimension, self.maker.requests.facts.element)
-        requests = self.maker.requests
+    def _best(self, judged: Sequence[Judged], demand: float) -> Settings | None:
+        costs, requests = self._costs(self.centre), self.maker.requests
         if costs is None:
             return None
         return cheapest(judged, costs, demand, self.ratio, requests.facts.static, requests.recipe.coarsens)
+
+    def _costs(self, centre: Member) -> Costs | None:
+        family = about(self.maker.families[self.driver], centre)
+        return learn(family.runs, self.maker.dimension, self.maker.requests.facts.element)
 
     def _for_bars(self, judged: Sequence[Judged]) -> Member:
         """The centre refined by a ratio; where only its step is, at once to what the table of a flow needs."""
@@ -173,20 +171,23 @@ class Search:
         if target.mesh != self.centre.mesh or needed is None:
             return target
         while target.step > needed * (1 + 1e-9):
-            target = Member(target.mesh, _round(target.step / STEP_RATIO))
+            target = Member(target.mesh, same_size(target.step / STEP_RATIO))
         return target
 
     def _finer(self, what: str) -> Member:
         """The centre moved by one ratio."""
         mesh = self.centre.mesh / self.ratio if what != "step" else self.centre.mesh
         step = self.centre.step / STEP_RATIO if what != "mesh" else self.centre.step
-        return Member(self._size(mesh), _round(step))
+        return self._member(mesh, step)
+
+    def _member(self, mesh: float, step: float, *others: bool) -> Member:
+        return Member(self._size(mesh), same_size(step), *others)
 
     def _size(self, mesh: float) -> float:
         """The power of the ratio that it is but for round-off, so that a mesh has one size whatever way leads to it."""
-        return _round(self.ratio ** round(math.log(mesh) / math.log(self.ratio)))
+        return same_size(self.ratio ** round(math.log(mesh) / math.log(self.ratio)))
 
-    def _towards(self, asked: Sequence[Judged]) -> Optional[Member]:
+    def _towards(self, asked: Sequence[Judged]) -> Member | None:
         """The cheapest settings that are predicted to reach the demand, but no further from the centre than FURTHEST
         ratios: the family's orders tell little beyond."""
         best = self._best(asked, self.demand.error)
@@ -197,32 +198,28 @@ class Search:
         if mesh >= 1 and step >= 1:
             return None
         self.maker.tell(f"predicted for {self._words(best.mesh, best.step)}: {100 * best.error:.2g} %")
-        return Member(self._size(self.centre.mesh * min(mesh, 1.0)), _round(self.centre.step * min(step, 1.0)))
+        return self._member(self.centre.mesh * min(mesh, 1.0), self.centre.step * min(step, 1.0))
 
     def _words(self, mesh: float, step: float) -> str:
         return f"elements of {mesh * self.centre.mesh:.3g} and steps of {step * self.centre.step:.3g} of the case's"
 
-    def _move(self, target: Member, lines: List[str]) -> bool:
+    def _move(self, target: Member, lines: list[str]) -> bool:
         """Moves the family's centre; False where adaptation has stopped before it, or where that does not fit the
         budget."""
         if not self.maker.reaches(target):
             lines.append("Adaptation has stopped: a finer mesh was none the better for what it is adapted to.")
             return False
-        costs = learn(
-            about(self.maker.families[self.driver], Member(1.0, 1.0)).runs,
-            self.maker.dimension,
-            self.maker.requests.facts.element,
-        )
+        costs = self._costs(Member(1.0, 1.0))
         before, self.centre = (self.centre, self.corner), target
         self._follow()
         seconds = self.maker.predicted(dict.fromkeys([*self._members(), target]))
         memory = f", {costs.memory(target.mesh):.0f} MiB" if costs is not None else ""
         words = f"{self._words(1, 1)}: about {duration(seconds)}{memory} for the family"
-        if self._fits(seconds):
+        left = math.inf if self.demand.budget is None else self.demand.budget - self.maker.seconds
+        if seconds <= left:
             self.maker.tell(f"next, {words}")
             return True
-        left = max(0.0, (self.demand.budget or 0.0) - self.maker.seconds)
-        lines.append(f"Out of reach: {words}, and {duration(left)} of the budget are left.")
+        lines.append(f"Out of reach: {words}, and {duration(max(0.0, left))} of the budget are left.")
         self.centre, self.corner = before
         return False
 
@@ -235,10 +232,6 @@ class Search:
         step = step if step <= corner.step * STEP_RATIO * (1 + 1e-6) else corner.step
         self.corner = Member(mesh, step)
 
-    def _fits(self, seconds: float) -> bool:
-        budget = self.demand.budget
-        return budget is None or self.maker.seconds + seconds <= budget
-
     def _finish(self, asked: Sequence[Judged], lacking: bool) -> Outcome:
         """The cheapest run so far that is good enough, with tolerances that suit the demand. `lacking`: quantities
         without a bar remain; then the centre, which shows most of them."""
@@ -250,10 +243,9 @@ class Search:
                 break
         return outcome
 
-    def _good_enough(self) -> List[Member]:
+    def _good_enough(self) -> list[Member]:
         """The cheapest member whose own bars are within the demand; empty: none."""
-        done = self._kept().done
-        for member, _ in sorted(done.items(), key=lambda pair: pair[1].seconds):
+        for member, _ in sorted(self._kept().done.items(), key=lambda pair: pair[1].seconds):
             if not (member.looser or member.other):
                 judged = self._judged(member)
                 if judged and reached(judged, self.demand.error):
@@ -272,23 +264,19 @@ class Search:
         return Outcome(judged, reached(judged, self.demand.error), [line], final, settings)
 
 
-def _shown(asked: Sequence[Judged], run: StudyRun) -> List[Judged]:
+def _shown(asked: Sequence[Judged], run: StudyRun) -> list[Judged]:
     """Bars of a run by those of another."""
     curves = curves_of(run.folder)
     return [shown_by(one, curves[one.quantity.curve]) for one in asked if one.quantity.curve in curves]
 
 
-def _round(size: float) -> float:
-    return 1.0 if abs(size - 1) < 1e-9 else round(size, 9)
-
-
-def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[str, StudyRun]) -> List[Path]:
+def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[str, StudyRun]) -> list[Path]:
     """`found.toml` with its mesh beside it; none where nothing was found."""
     if outcome.final is None:
         return []
     requests = maker.requests
     facts = requests.facts
-    settings: Dict[str, Any] = dict(requests.of(outcome.final, next(iter(maker.families))).settings)
+    settings: dict[str, Any] = dict(requests.of(outcome.final, next(iter(maker.families))).settings)
     settings.pop(INDICATOR, None)  # of a family of adapted meshes; the case's own entry stays
     settings.update(outcome.settings)
     made = requests.mesh(outcome.final)
@@ -309,7 +297,7 @@ def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[s
     return written
 
 
-def _as_made(mesh: StudyMesh) -> List[str]:
+def _as_made(mesh: StudyMesh) -> list[str]:
     """The commands of a mesh, as comments."""
     words = [mesh.command, *mesh.options]
     if MARK not in words:
@@ -317,7 +305,7 @@ def _as_made(mesh: StudyMesh) -> List[str]:
     return [f"{MESH}:", *(f"  {line}" for line in as_typed(words, Path(MESH), MESH))]
 
 
-def by_each_driver(maker: Maker, outcome: Outcome, drivers: Sequence[str]) -> Dict[str, StudyRun]:
+def by_each_driver(maker: Maker, outcome: Outcome, drivers: Sequence[str]) -> dict[str, StudyRun]:
     """The settings found, as `found.toml` has them, run by each. Where another driver stops by tolerances that are not
     among them a line says so."""
     if outcome.final is None:

@@ -1,7 +1,7 @@
 """Samples for a case that asks for none: a point for each medium, where most happens at the end of the run."""
 
 from pathlib import Path
-from typing import Any, Dict
+from typing import Any
 
 import numpy as np
 
@@ -11,10 +11,10 @@ FIELDS = {"wall": "displacement", "fluid": "velocity"}
 DIGITS = 9  # significant, of a coordinate: as a case file has them
 
 
-def standard_points(folder: Path) -> Dict[str, Any]:
+def standard_points(folder: Path) -> dict[str, Any]:
     """Entries of a case by their full keys, from the fields of its own run; empty where it has written none. A point
     lies in the middle of the element whose nodes move most together, so that finer meshes have it inside, too."""
-    found: Dict[str, Any] = {}
+    found: dict[str, Any] = {}
     for medium, fields in read_fields(folder).items():
         field = FIELDS.get(medium, "")
         if field not in fields.names:

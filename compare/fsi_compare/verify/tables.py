@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Sequence
 
 from ..base.files import replacing
 from ..reporting.column import Column
@@ -15,19 +15,7 @@ from .results import BarsOfRun, FamilyRuns, Judged
 from .verdict import BAR_WIDENED, CONVERGES, NOT_IN_RANGE
 
 
-def _number(value: float) -> str:
-    return f"{value:.6g}"
-
-
-def _bar(judged: Judged) -> Optional[float]:
-    return judged.bar.total if judged.bar.given else None
-
-
-def _percent(judged: Judged) -> Optional[float]:
-    return 100 * judged.bar.relative if judged.bar.given else None
-
-
-def _part(judged: Judged, part: Part) -> Optional[float]:
+def _part(judged: Judged, part: Part) -> float | None:
     return part.bar if judged.bar.given else None
 
 
@@ -39,9 +27,9 @@ BARS: Sequence[Column[Judged]] = (
     Column("driver", "driver", lambda j: j.driver, left=True),
     Column("quantity", "quantity", lambda j: j.quantity.name, left=True),
     Column("unit", "unit", lambda j: j.quantity.unit, left=True),
-    Column("value", "value", lambda j: j.bar.value, _number),
-    Column("±", "error", _bar, ".2g"),
-    Column("± [%]", "error_percent", _percent, ".2g"),
+    Column("value", "value", lambda j: j.bar.value, ".6g"),
+    Column("±", "error", lambda j: j.bar.total if j.bar.given else None, ".2g"),
+    Column("± [%]", "error_percent", lambda j: 100 * j.bar.relative if j.bar.given else None, ".2g"),
     Column("mesh", "error_mesh", lambda j: _part(j, j.bar.mesh), ".1e", group="of this"),
     Column("step", "error_step", lambda j: _part(j, j.bar.step), ".1e", group="of this"),
     Column("both", "error_both", lambda j: j.bar.together if j.bar.given else None, ".1e", group="of this"),
@@ -55,7 +43,7 @@ BARS: Sequence[Column[Judged]] = (
     Column(csv="estimated_error", value=lambda j: j.bar.off if j.bar.given else None),
 )
 
-Row = Tuple[str, Member, Any]
+Row = tuple[str, Member, Any]
 MEMBERS: Sequence[Column[Row]] = (
     Column("driver", "driver", lambda r: r[0], left=True),
     Column("member", "member", lambda r: r[1].name, left=True),
@@ -65,13 +53,9 @@ MEMBERS: Sequence[Column[Row]] = (
     Column("steps", "steps", lambda r: r[2].steps or None),
     Column("seconds", "wall", lambda r: r[2].seconds, ".1f", "s"),
     Column("memory [MiB]", "memory_MiB", lambda r: r[2].summary.get("peak_memory_MiB"), ".0f"),
-    Column("end", "status", lambda r: r[2].status, text=lambda r: _end(r[2]), left=True),
+    Column("end", "status", lambda r: r[2].status, text=lambda r: r[2].end_words, left=True),
     Column(csv="folder", value=lambda r: r[2].folder.name),
 )
-
-
-def _end(run: Any) -> str:
-    return str(run.status) if run.done else f"{run.status}: {run.message}"
 
 
 def bars_table(judged: Sequence[Judged]) -> Table:
@@ -91,17 +75,13 @@ def members_table(families: Sequence[FamilyRuns]) -> Table:
     return Table("members", "The family", MEMBERS, rows, notes=notes)
 
 
-def counts(judged: Sequence[Judged]) -> List[str]:
+def counts(judged: Sequence[Judged]) -> list[str]:
     """How many have which verdict, in sentences."""
-    found = []
-    for verdict in (CONVERGES, BAR_WIDENED, NOT_IN_RANGE):
-        number = sum(one.bar.verdict == verdict for one in judged)
-        if number:
-            found.append(f"{number} of {len(judged)}: {verdict}.")
-    return found
+    numbers = {of: sum(one.bar.verdict == of for one in judged) for of in (CONVERGES, BAR_WIDENED, NOT_IN_RANGE)}
+    return [f"{number} of {len(judged)}: {verdict}." for verdict, number in numbers.items() if number]
 
 
-def in_short(judged: Sequence[Judged], families: Sequence[FamilyRuns]) -> List[str]:
+def in_short(judged: Sequence[Judged], families: Sequence[FamilyRuns]) -> list[str]:
     """The answer."""
     lines = counts(judged)
     given = [one for one in judged if one.bar.given]
@@ -109,40 +89,30 @@ def in_short(judged: Sequence[Judged], families: Sequence[FamilyRuns]) -> List[s
         worst = max(given, key=lambda one: one.bar.relative)
         lines.append(f"The widest bar is {100 * worst.bar.relative:.2g} %, of {worst.quantity.name} ({worst.driver}).")
     for family in families:
+        driver, own = family.driver, family.own
         for member, run in family.failures.items():
-            lines.append(
-                f"The member '{member.name}' of the {family.driver} driver is missing: {run.status}, {run.message}."
-            )
-        own = family.own
+            why = f"{run.status}, {run.message}"
+            lines.append(f"The member '{member.name}' of the {driver} driver is missing: {why}.")
         if own is not None:
-            whole = sum(run.seconds for run in family.runs.values())
-            lines.append(
-                f"The {family.driver} run by itself takes {duration(own.seconds)}, its family {duration(whole)}."
-            )
+            whole = duration(sum(run.seconds for run in family.runs.values()))
+            lines.append(f"The {driver} run by itself takes {duration(own.seconds)}, its family {whole}.")
     return lines
 
 
-def write_json(folder: Path, about: Dict[str, Any], sets: Sequence[BarsOfRun], families: Sequence[FamilyRuns]) -> Path:
+def write_json(folder: Path, about: dict[str, Any], sets: Sequence[BarsOfRun], families: Sequence[FamilyRuns]) -> Path:
     """`verification.json`: about the case, all bars with what tells the run that they are of, all members."""
-    data = {
-        **about,
-        "sets": [_set(one) for one in sets],
-        "members": [dict(_fields(MEMBERS, row)) for row in members_table(families).records],
-    }
+    members = [dict(_fields(MEMBERS, row)) for row in members_table(families).records]
+    data = {**about, "sets": [_set(one) for one in sets], "members": members}
     with replacing(folder / FILE) as temporary:
         temporary.write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     return folder / FILE
 
 
-def _set(bars: BarsOfRun) -> Dict[str, Any]:
+def _set(bars: BarsOfRun) -> dict[str, Any]:
     quantities = [{**dict(_fields(BARS, one)), "values": [vars(value) for value in one.values]} for one in bars.judged]
-    return {
-        "driver": bars.driver,
-        "folder": bars.run.folder.name,
-        "run": identity(bars.run.folder, bars.run.summary),
-        "quantities": quantities,
-    }
+    run = identity(bars.run.folder, bars.run.summary)
+    return {"driver": bars.driver, "folder": bars.run.folder.name, "run": run, "quantities": quantities}
 
 
-def _fields(columns: Sequence[Column[Any]], record: Any) -> List[Tuple[str, Any]]:
+def _fields(columns: Sequence[Column[Any]], record: Any) -> list[tuple[str, Any]]:
     return [(column.name, column.value(record)) for column in columns if column.csv]

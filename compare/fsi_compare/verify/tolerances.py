@@ -10,7 +10,7 @@
 Where the case names no scheme, the driver chooses one by the scene (partitioned/scheme_choice.cpp), which a case file
 alone does not tell: a run's `summary.json` does (runs/coupling.py)."""
 
-from typing import Any, Dict, Mapping, Optional
+from typing import Any, Mapping
 
 ERROR_TOLERANCE = 3e-3  # unless a case names one: as common/case/case.hpp has it
 WALL_ERROR_TOLERANCE = 3e-4  # likewise, without fluid
@@ -25,7 +25,7 @@ def names_scheme(entries: Mapping[str, Any]) -> bool:
     return "scheme" in _section(entries, "partitioned")
 
 
-def governing(program: str, entries: Mapping[str, Any], chosen: Optional[str] = None) -> Dict[str, float]:
+def governing(program: str, entries: Mapping[str, Any], chosen: str | None = None) -> dict[str, float]:
     """Tolerances of `fsi-monolithic` or `fsi-partitioned` by their full keys. `entries`: of a case that the driver has
     run, for numbers are not checked here. `chosen`: the scheme that the driver took where the case names none; None: no
     run has told yet, and the one around vessels is assumed."""
@@ -48,7 +48,7 @@ def governing(program: str, entries: Mapping[str, Any], chosen: Optional[str] = 
     return {**found, **_beside(program, scheme, coupling, newton)}
 
 
-def _beside(program: str, scheme: str, coupling: Mapping[str, Any], newton: Mapping[str, Any]) -> Dict[str, float]:
+def _beside(program: str, scheme: str, coupling: Mapping[str, Any], newton: Mapping[str, Any]) -> dict[str, float]:
     """Tolerances demanded besides: an interface iteration has no residual of both media."""
     if program == "fsi-partitioned" and scheme == DEFAULT_SCHEME:
         return _demanded("partitioned", coupling, "force_tolerance")
@@ -64,7 +64,7 @@ def _section(entries: Mapping[str, Any], name: str) -> Mapping[str, Any]:
     return section if isinstance(section, Mapping) else {}
 
 
-def _demanded(name: str, section: Mapping[str, Any], key: str) -> Dict[str, float]:
+def _demanded(name: str, section: Mapping[str, Any], key: str) -> dict[str, float]:
     """The tolerance by its full key; empty where it is 0, which demands nothing."""
     value = float(section.get(key, 0.0))
     return {f"{name}.{key}": value} if value > 0 else {}

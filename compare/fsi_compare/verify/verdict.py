@@ -10,22 +10,23 @@ difference of meshes changes when the step does. The parts are added up, not the
 independent."""
 
 from dataclasses import dataclass, replace
-from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Iterable, Mapping, Sequence
 
 from .curve_norms import CurveNorm
 from .direction import NOTHING, OUTSIDE, SILENT, WIDENED, Part, by_elements, part_of, part_of_curves
 
-CONVERGES, BAR_WIDENED, NOT_IN_RANGE = (
-    "converges as its elements do",
-    "converges, bar widened",
-    "not in the range where an error can be given",
-)
+CONVERGES, BAR_WIDENED = "converges as its elements do", "converges, bar widened"
+NOT_IN_RANGE = "not in the range where an error can be given"
 TOGETHER_FACTOR = 2.0  # on the product's part
 SOLVER_FACTOR = 3.0  # on what a tolerance leaves, whose order in the tolerance is not observed
 LOOSER = 10.0  # by which the tolerances of a member are looser
 SMALL = 0.1  # share of the bar below which a part does not decide the verdict
 NEGLIGIBLE = 1e-3  # of the largest of the curve: so small a part without order widens the bar, and does not forbid it
 DETECTED = 1e-7  # relative to the curve's largest: differences below are round-off
+
+
+Table = Mapping[tuple[float, float], Any]  # values by mesh and step
+Measure = Callable[[Any], float]  # norm of a value
 
 
 @dataclass(frozen=True)
@@ -53,8 +54,12 @@ class Bar:
     off: float = 0.0  # what the value and that estimate are apart; of a curve in its norm
 
     @property
+    def parts(self) -> dict[str, float]:
+        return {"mesh": self.mesh.bar, "step": self.step.bar, "both": self.together, "solver": self.solver}
+
+    @property
     def total(self) -> float:
-        return self.mesh.bar + self.step.bar + self.together + self.solver
+        return sum(self.parts.values())
 
     @property
     def given(self) -> bool:
@@ -78,16 +83,16 @@ def bar_of(
     time_order: float,
     element: str = "p2p1",
     additive: bool = False,
-    norm: Optional[CurveNorm] = None,
-    curve: Optional[Bar] = None,
-) -> Optional[Bar]:
+    norm: CurveNorm | None = None,
+    curve: Bar | None = None,
+) -> Bar | None:
     """The bar; None where the user's own member is missing. `scale`: the largest of the curve that the value is of.
     `additive`: that member may be missing; the value is then made of column and row, y(1, column) + y(row, 1) - y(row,
     column), which leaves out c (1 - row^p) (1 - column^q). `norm`: of values that are curves. `curve`: the bar of the
     curve that the values are norms of."""
     measured = norm or _size
     table = {(v.mesh, v.step): v.value for v in values if not (v.looser or v.other)}
-    column, row = _step_of_meshes(table), _mesh_of_steps(table)
+    column, row = _most_varied((step, mesh) for mesh, step in table), _most_varied(table)
     own = table.get((1.0, 1.0))
     if own is None and additive and all(key in table for key in ((1.0, column), (row, 1.0), (row, column))):
         own = table[1.0, column] + table[row, 1.0] - table[row, column]
@@ -118,7 +123,7 @@ def _size(number: Any) -> float:
 
 
 def _along(
-    points: Sequence[Tuple[float, Any]], expected: float, noise: float, norm: Optional[CurveNorm], curve: Optional[Part]
+    points: Sequence[tuple[float, Any]], expected: float, noise: float, norm: CurveNorm | None, curve: Part | None
 ) -> Part:
     if len(points) < 2:
         return NOTHING
@@ -128,38 +133,21 @@ def _along(
     return part_of(sizes, values, expected, noise, curve)
 
 
-def _mesh_of_steps(table: Mapping[Tuple[float, float], Any]) -> float:
-    """Mesh of the row, whose members tell the error of the step: the user's own, or that with the most steps."""
-    numbers = {m: sum(1 for other, _ in table if other == m) for m, s in table if s == 1.0}
-    return _most(numbers)
-
-
-def _step_of_meshes(table: Mapping[Tuple[float, float], Any]) -> float:
-    """Step of the column, whose members tell the error of the mesh: the user's own, or that with the most meshes."""
-    numbers = {s: sum(1 for _, other in table if other == s) for m, s in table if m == 1.0}
-    return _most(numbers)
-
-
-def _most(numbers: Mapping[float, int]) -> float:
+def _most_varied(table: Iterable[tuple[float, float]]) -> float:
+    """The first of two sizes, of which members with all values of the second tell the error: the user's own, or that
+    with the most."""
+    pairs = list(table)
+    numbers = {x: sum(1 for other, _ in pairs if other == x) for x, y in pairs if y == 1.0}
     return max(numbers, key=lambda x: (numbers[x] >= 3 and x == 1.0, numbers[x], -abs(x - 1.0)), default=1.0)
 
 
 def _together(
-    table: Mapping[Tuple[float, float], Any],
-    row: float,
-    column: float,
-    mesh: Part,
-    step: Part,
-    noise: float,
-    measured: Callable[[Any], float],
+    table: Table, row: float, column: float, mesh: Part, step: Part, noise: float, measured: Measure
 ) -> float:
     """Error by mesh and step together, from the finest of the members refined in both. Where row and column are not the
     user's own mesh and step, the sum of both parts is off by c (row^p + column^q - 1)."""
-    corners = [
-        (m, s)
-        for m, s in table
-        if m != row and s != column and (m, column) in table and (row, s) in table and (row, column) in table
-    ]
+    known = table.keys()
+    corners = [(m, s) for m, s in known if m != row and s != column and {(m, column), (row, s), (row, column)} <= known]
     if not corners:
         return 0.0
     m, s = min(corners, key=lambda corner: corner[0] * corner[1])
@@ -170,30 +158,24 @@ def _together(
     return TOGETHER_FACTOR * mixed * max(1.0, row**mesh.used + column**step.used - 1) / max(share, 0.25)
 
 
-def _judged(mesh: Part, step: Part, together: float, solver: float, negligible: float) -> Tuple[str, str]:
+def _judged(mesh: Part, step: Part, together: float, solver: float, negligible: float) -> tuple[str, str]:
     total = mesh.bar + step.bar + together + solver
-    named = (("mesh", mesh), ("step", step))
-    counting = [(name, part) for name, part in named if part.bar > SMALL * total]
+    counting = [(name, part) for name, part in (("mesh", mesh), ("step", step)) if part.bar > SMALL * total]
     outside = [name for name, part in counting if part.state == OUTSIDE and part.bar > negligible]
     if outside:
         return NOT_IN_RANGE, _advice(outside, [name for name, part in counting if part.lacking])
     if together > mesh.bar + step.bar + solver and together > negligible:
         return NOT_IN_RANGE, _advice(["mesh", "step"])
     widened = any(part.state in (WIDENED, OUTSIDE) for _, part in counting) or together > 0.5 * (mesh.bar + step.bar)
-    drowned = (mesh.state, step.state) == (
-        SILENT,
-        SILENT,
-    ) and solver > negligible  # no order is seen for the solver's error
-    widened = widened or drowned
-    return (BAR_WIDENED if widened else CONVERGES), ""
+    # No order is seen for the solver's error.
+    drowned = (mesh.state, step.state) == (SILENT, SILENT) and solver > negligible
+    return (BAR_WIDENED if widened or drowned else CONVERGES), ""
 
 
 def _advice(what: Sequence[str], lacking: Sequence[str] = ()) -> str:
     if lacking:
-        return " and ".join(
-            {"mesh": "a third mesh is missing", "step": "a third step is missing"}[name] for name in lacking
-        )
-    words: List[str] = [{"mesh": "refine the mesh", "step": "shorten the step"}[name] for name in what]
+        return " and ".join(f"a third {name} is missing" for name in lacking)
+    words: list[str] = [{"mesh": "refine the mesh", "step": "shorten the step"}[name] for name in what]
     return " and ".join(words) + (", both together" if len(words) > 1 else "")
 
 

@@ -16,4 +16,4 @@ KINDS = {
     "references": "fsi_research.references.study",
     "scenes": "fsi_research.scenes.study",
 }
-CATALOGUE = OWN.and_also(Catalogue(KINDS, (FOLDER,)))
+CATALOGUE = Catalogue({**OWN.modules, **KINDS}, (*OWN.folders, FOLDER))

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-COMPARE = Path(__file__).resolve().parents[3] / "compare"
-sys.path[:0] = [str(COMPARE), str(COMPARE / "research")]
+TOP = Path(__file__).resolve().parents[3]
+COMPARE = TOP / "compare"
+sys.path[:0] = [str(TOP / folder) for folder in ("compare", "compare/research", "gallery")]
 
 TIMES = 0.125 * np.arange(1, 97)  # the paper's 96 steps
 Z = np.arange(181) / 10

@@ -18,7 +18,7 @@ from fsi_compare.base.errors import InputError
 from fsi_research.accuracy.frontier import cheapest, frontier
 from fsi_research.accuracy.observed_order import self_convergence, slope
 from fsi_research.accuracy.trend import trend
-from fsi_compare.runs.waves import QUANTITIES, WINDOW, Waves, averaged, extrapolated, read_waves, relative_difference
+from fsi_compare.runs.waves import QUANTITIES, WINDOW, Waves, averaged, read_waves, relative_difference
 
 TIMES = np.array([1.5, 2.0, 2.5, 3.0])
 
@@ -90,11 +90,6 @@ class Errors(unittest.TestCase):
         self.assertAlmostEqual(relative_difference(self.waves(1.1), self.waves(1), TIMES), 0.1)
         self.assertAlmostEqual(relative_difference(self.waves(0), self.waves(1), TIMES[1:]), 1)
         self.assertTrue(math.isnan(relative_difference(self.waves(1), self.waves(0), TIMES)))
-
-    def test_extrapolation_removes_the_leading_error(self):
-        exact, step = self.waves(1), 0.2
-        fine, coarse = self.waves(1 + step), self.waves(1 + 2 * step)
-        self.assertLess(relative_difference(extrapolated(fine, coarse, 1), exact, TIMES), 1e-12)
 
     def test_levels_and_points_between(self):
         waves = Waves(np.array([1.0, 2.0]), np.array([0.0, 1.0]), np.array([[0.0, 2.0], [4.0, 6.0]]))

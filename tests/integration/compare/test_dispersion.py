@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import synthetic  # noqa: F401: the package's folder onto the path
 
-from fsi_compare.gallery.dispersion import (
+from known_solutions.dispersion import (
     Swing,
     compressible_waves,
     incompressible_waves,

@@ -12,7 +12,7 @@ from folder_case import FolderCase
 from synthetic import parabola, write_run
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.starting.folder_lock import NAME, locked
+from fsi_compare.base.folder_lock import NAME, locked
 
 HOST = os.uname().nodename
 DRIVER = Path(os.environ.get("FSI_COMPARE", "")).parent / "fsi-monolithic"

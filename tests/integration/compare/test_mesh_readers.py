@@ -584,6 +584,34 @@ ends
             read_mesh(folder)
         self.assertIn(f"{words}mesh-complete.msh", str(refused.exception))
 
+    def vtu(self, appended):
+        array = '<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>'
+        parts = [CURVED[:4].astype("<f8"), np.arange(4, dtype="<i8"), np.array([4], "<i8"), np.array([10], "<u1")]
+        offsets = np.cumsum([0, *(4 + part.nbytes for part in parts)])
+        arrays = zip(
+            ("Float64", "Int64", "Int64", "UInt8"),
+            ("Points", "connectivity", "offsets", "types"),
+            (3, 1, 1, 1),
+            offsets,
+        )
+        points, *cells = (array.format(*entry) for entry in arrays)
+        piece = f'<Points>{points}</Points><Cells>{"".join(cells)}</Cells>'
+        head = '<VTKFile type="UnstructuredGrid" byte_order="LittleEndian"><UnstructuredGrid><Piece NumberOfPoints="4" '
+        raw = b"".join(np.uint32(part.nbytes).tobytes() + part.tobytes() for part in parts)
+        data = appended[0].encode() + raw + appended[1].encode() if appended else b""
+        text = f'{head}NumberOfCells="1">{piece}</Piece></UnstructuredGrid>'.encode() + data + b"</VTKFile>"
+        (self.base / "a.vtu").write_bytes(text)
+        return read_mesh(self.base / "a.vtu")
+
+    def test_raw_data_in_either_quotation_marks(self):
+        for mark in ("'", '"'):
+            mesh = self.vtu((f"<AppendedData encoding={mark}raw{mark}>_", "</AppendedData>"))
+            np.testing.assert_array_equal(mesh.points, CURVED[:4])
+
+    def test_appended_data_that_are_not_there(self):
+        with self.assertRaisesRegex(InputError, "Points: is appended to a file without AppendedData"):
+            self.vtu(None)
+
     def test_lagrange_cells_of_vtk_are_quadratic_cells(self):
         array = '<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="ascii">{}</DataArray>'
         points = array.format("Float64", "Points", 3, " ".join(map(str, CURVED.ravel())))

@@ -2,6 +2,7 @@
 
 import math
 import tempfile
+import tomllib
 import unittest
 from pathlib import Path
 
@@ -9,8 +10,10 @@ import numpy as np
 import synthetic  # noqa: F401: the package's folder onto the path
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.peer_cases.case_file import value_of
+from fsi_compare.base.toml import toml_lines, toml_value
+from fsi_compare.peer_cases.case_file import case_text
 from fsi_compare.peer_cases.geometry import plain_names
+from fsi_compare.peer_cases.model import PeerCase
 from fsi_compare.peer_cases.svmultiphysics_laws import layer_of, viscosity_of
 from fsi_compare.peer_cases.units import CGS, SYSTEMS
 from fsi_compare.peer_cases.waveforms import read_coefficients, read_series
@@ -291,8 +294,14 @@ class Values(Files):
         )
 
     def test_values_as_toml(self):
-        self.assertEqual(value_of({"a": [1.0, True, 'x"y']}), '{ a = [1.0, true, "x\\"y"] }')
-        self.assertEqual(value_of(0.1 + 0.2), "0.3")
+        self.assertEqual(toml_value({"a": [1.0, True, 'x"y']}), '{ a = [1.0, true, "x\\"y"] }')
+        texts = {"a": "tab\there", "b c": 'say "C:\\x"', "d": ["\x1b", "\U000f0000"]}
+        self.assertEqual(tomllib.loads("\n".join(toml_lines(texts))), texts)
+        self.assertEqual(toml_value("cut \udc80"), '"cut \ufffd"')  # a byte of a file's name that is no UTF-8
+
+    def test_case_file(self):
+        case = PeerCase("other", Path("two\nlines.xml"), {"title": "a\nb", "mesh": {"file": "m.msh", "x": 0.1 + 0.2}})
+        self.assertEqual(tomllib.loads(case_text(case)), {"title": "a\nb", "mesh": {"file": "m.msh", "x": 0.3}})
 
 
 class Xml(Files):

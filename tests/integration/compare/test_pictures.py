@@ -13,7 +13,8 @@ from matplotlib.text import Text
 from synthetic import TIMES, Z, gaussian
 
 from fsi_compare.drawing.colours import round_ticks
-from fsi_compare.reporting.coinciding import coinciding, labels_that_say_so, note_coinciding, sentence_of_coinciding
+from fsi_compare.reporting.coinciding import coinciding, labels_that_say_so, sentence_of_coinciding
+from fsi_research.drawing.coinciding import note_coinciding
 from fsi_research.drawing.log_axes import log_axes, plain_number
 from fsi_research.drawing.point_names import name_points
 from fsi_compare.reporting.pictures import LINES, pressure_figure, time_text, write_pressure_waves

@@ -13,7 +13,9 @@ from synthetic import write_run
 from test_report import outside_references
 
 from fsi_compare.start import main
-from fsi_compare.reporting.player import NONE, MovingLine, Panel, Player, Series, axis, packed, thinned
+from fsi_compare.reporting.player import MovingLine, Panel, Player, Series, axis, packed
+from fsi_compare.reporting.scene_packing import NONE
+from fsi_compare.runs.levels import thinned
 from fsi_compare.reporting.templating import render
 
 TIMES = 0.25 * np.arange(1, 21)  # ms
@@ -302,7 +304,7 @@ class Command(FolderCase):
         folder = write_run(self.base / "run", lambda t, z: pressure(0, t, z), TIMES, Z)
         for arguments, problem in (
             ([self.base / "none"], "no such folder"),
-            ([folder, "--times", "1,9"], "9 ms is outside the run; give a time between 0.25 and 5 ms"),
+            ([folder, "--times", "1,9"], "9 ms is outside the run; give times between 0.25 and 5 ms"),
             ([folder] * 25, "25 runs do not fit a report; give at most 24"),
             ([folder, "--threads", "0"], "--threads: 0 is not positive"),
             ([folder, "--labels", "a,b"], "--labels: 2 labels for 1 runs"),

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 import synthetic  # noqa: F401  (finds the package)
-from fsi_compare.runs.waves import PRESSURE, Waves
+from fsi_compare.runs.waves import PRESSURE, Waves, relative_difference
 
 SCRIPT = Path(__file__).resolve().parents[3] / "scripts/evidence/reference_waves.py"
 specification = importlib.util.spec_from_file_location("reference_waves", SCRIPT)
@@ -34,6 +34,11 @@ def off(waves):
 
 
 class Extrapolation(unittest.TestCase):
+    def test_extrapolation_removes_the_leading_error(self):
+        exact, fine, coarse = (Waves(TIMES, Z, factor * EXACT) for factor in (1, 1.2, 1.4))
+        found = reference_waves.extrapolated(fine, coarse, 1)
+        self.assertLess(relative_difference(found, exact, TIMES), 1e-12)
+
     def test_what_is_of_one_order_vanishes_whatever_the_order(self):
         for time_order, space_order in ((2.0, 2.0), (1.4, 3.0)):
             runs = solutions(lambda step: 2 * step**time_order, space_order)

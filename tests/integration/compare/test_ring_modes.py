@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import synthetic  # noqa: F401: the package's folder onto the path
 
-from fsi_compare.gallery.ring_modes import Ring, bessel, bessel_integrals, bessel_series
-from fsi_compare.gallery.swings import free_swing
+from known_solutions.ring_modes import Ring, bessel, bessel_integrals, bessel_series
+from known_solutions.swings import free_swing
 
 # kPa, m, s: the ring of solids4foam's study ringAddedMass.
 DRY = Ring(0.95, 1.05, 1.5, young=1e6, poisson=0.3, density=1000.0, liquid=0.0, viscosity=0.0)

@@ -1,5 +1,6 @@
 """Tables of samples, and runs of vessels without a centre line."""
 
+import dataclasses
 import json
 import unittest
 from pathlib import Path
@@ -10,8 +11,9 @@ import synthetic
 from folder_case import FolderCase
 
 from fsi_compare.base.errors import InputError
+from fsi_compare.reporting.pressure import check_comparable
 from fsi_compare.results.line import lines_of
-from fsi_compare.runs.run_folder import read_run
+from fsi_compare.runs.run_folder import has_pressure, read_run
 from fsi_compare.runs.samples import differences_of_tables, read_samples
 from fsi_compare.study.study_run import StudyRun
 
@@ -91,22 +93,32 @@ class Samples(FolderCase):
         np.testing.assert_array_equal(run.pressure.z, [0, 1])
         np.testing.assert_array_equal(run.pressure.pressure, [[1, 3], [5, 7]])
 
+    def test_messages_name_the_table_that_the_line_is_from(self):
+        run = read_run(self.finished("bent", lines=LINE))
+        with self.assertRaisesRegex(InputError, r"lines\.csv: --times: 99 ms is outside the run"):
+            check_comparable([run], [99.0])
+        longer = dataclasses.replace(run, pressure=dataclasses.replace(run.pressure, z=10 * run.pressure.z))
+        with self.assertRaisesRegex(
+            InputError, r"lines\.csv: s_mm: runs from 0 to 1 mm, the first run's from 0 to 10 mm"
+        ):
+            check_comparable([longer, run], [])
+
     def test_studies_take_the_line_that_the_case_asks_for(self):
         asked = LINE.replace("centerline", "b")
         for lines, pressure in ((asked, [[10, 20], [30, 40]]), (LINE, [[1, 3], [5, 7]])):
             name = f"line{len(pressure)}{pressure[0][0]}"
             run = StudyRun(NO_REQUEST, self.finished(name, lines=lines), "done", "", 1.0, "")
-            self.assertTrue(run.has_pressure)
+            self.assertTrue(has_pressure(run.folder))
             np.testing.assert_array_equal(run.pressure.pressure, pressure)
         along = StudyRun(
             NO_REQUEST, synthetic.write_run(self.base / "along", synthetic.parabola(0.8)), "done", "", 1, ""
         )
-        self.assertTrue(along.has_pressure)
+        self.assertTrue(has_pressure(along.folder))
         np.testing.assert_array_equal(along.pressure.pressure, read_run(along.folder).pressure.pressure)
         # A line that leaves the fluid has no pressure all along it.
         for lines in ("", asked.replace(",10,", ",,").replace(",1,2\n", ",,2\n")):
             without = self.finished(f"without{len(lines)}", **({"lines": lines} if lines else {"flow": FLOW}))
-            self.assertFalse(StudyRun(NO_REQUEST, without, "done", "", 1.0, "").has_pressure)
+            self.assertFalse(has_pressure(without))
 
     def test_one_reader_serves_the_library_too(self):
         samples, lines = read_samples(self.table()), lines_of(self.table())

@@ -13,7 +13,7 @@ from synthetic import parabola, write_run
 
 from fsi_compare.base.errors import InputError
 from fsi_compare.gallery.scene import READY, SceneRun, SceneRuns
-from fsi_compare.gallery.turek_hron import Benchmark, Known
+from known_solutions.turek_hron import Benchmark, Known
 from fsi_compare.reporting.report import Report
 from fsi_research.scenes import study as scenes
 from fsi_compare.study.context import Context

@@ -85,6 +85,8 @@ class TuneInput(FolderCase):
             (["--beats", "0"], "--beats: 0 beats will not do; give 1 to 10"),
             (["--proximal", "150%"], "--proximal: 150% is no part of a value"),
             (["--tolerance", "small"], "--tolerance: small is no part of a value"),
+            (["--time-limit", "nan"], "--time-limit: nan s is no time; give a positive number of seconds"),
+            (["--time-limit", "-3"], "--time-limit: -3 s is no time"),
         ):
             with self.subTest(words):
                 self.refused(["--pressure", PRESSURE, *words], message)
@@ -107,10 +109,12 @@ class TuneInput(FolderCase):
             ("[time]\nstep = 10\nend = 800", "[static]", "time: is missing, and a beat takes some"),
             ("distal = 1 }", 'distal = "1" }', "opening.left.windkessel.distal: is no number from 0 on"),
             ("windkessel", "resistance = 1.0 #", "none has a Windkessel"),
+            ("distal_pressure = 2.0", 'distal_pressure = "2"', "right.windkessel.distal_pressure: is no number; give"),
+            ("windkessel", 'resistance = "1" #', "opening.left.resistance: is no number; give one"),
         ):
             with self.subTest(new):
                 self.assertIn(old, CASE)
-                self.refused(["--pressure", PRESSURE], message, CASE.replace(old, new))
+                self.refused(["--pressure", PRESSURE], message, CASE.replace(old, new, 1 if "left" in message else -1))
         self.refused(["--pressure", PRESSURE], "not a network", CASE + "[network]\n")
         missing = ["--pressure", PRESSURE, "--monolithic", Path("nowhere", "fsi-monolithic")]
         path = self.base / "fork.toml"

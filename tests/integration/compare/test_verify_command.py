@@ -476,8 +476,22 @@ class Trouble(VerifyCase):
             (("--levels", "2"), "--levels"),
             (("--budget", "-1"), "--budget"),
             (("--error", "200%"), "--error"),
+            (("--time-limit", "nan"), "--time-limit: nan s is no time"),
+            (("--time-limit", "-1"), "--time-limit: -1 s is no time"),
+            (("--mesh", f"geo {self.geo} --set size=small"), "--set size: 'small' is no number"),
+            (("--mesh", "artery --lumen-cells few"), "artery --lumen-cells: 'few' is no number"),
         ):
             code, _, err = self.verify(*words)
+            self.one_line(code, err, said)
+        for entries, said in (
+            ('mesh = "text"\n[time]\nstep = 1\n', "mesh: is no section"),
+            ('[time]\nend = "late"\n', "time.end: late is no number"),
+            ('[time]\nstep = "adaptive"\ntolerance = "small"\n', "time.tolerance: small is no number"),
+            ("element = [1]\n[time]\nstep = 1\n", "element: '[1]' is unknown"),
+            ('[mesh]\nlevel = "finest"\n[time]\nstep = 1\n', "artery --level: 'finest' is no level"),
+        ):
+            self.case.write_text(entries)
+            code, _, err = self.verify(mesh=False)
             self.one_line(code, err, said)
         self.case.write_text('title = "no time"\n')
         code, _, err = self.verify()

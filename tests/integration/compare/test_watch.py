@@ -1,6 +1,8 @@
 """`fsi-compare watch`: what it shows of a run that goes on, and of one that has ended."""
 
+import fcntl
 import json
+import socket
 import threading
 import time
 import unittest
@@ -84,6 +86,20 @@ class Watching(FolderCase):
         self.assertNotIn("refresh", page.read_text())
         self.assertIn("The run has ended.", page.read_text())
         self.assertEqual(sorted(p.name for p in page.parent.iterdir()), ["watch.html"])
+
+    def test_run_that_was_killed_is_over(self):
+        self.rows(3, "running")
+        lock = self.folder / "run.lock"
+        lock.write_text(f"fsi-monolithic, process 1 on host {socket.gethostname()}\n")
+        with open(lock) as held:
+            fcntl.flock(held, fcntl.LOCK_EX)
+            self.assertFalse(state_of(self.folder).over)
+        self.assertEqual((state_of(self.folder).status, state_of(self.folder).over), ("killed", True))
+        code, out, err = self.call("watch", self.folder)
+        self.assertEqual((code, err), (0, ""))
+        self.assertIn("fsi-monolithic, killed: step 3 of 8", out)
+        lock.write_text("fsi-monolithic, process 1 on host elsewhere\n")  # from here it cannot be seen
+        self.assertFalse(state_of(self.folder).over)
 
     def test_wrong_use(self):
         for arguments, problem in (

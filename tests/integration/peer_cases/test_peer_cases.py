@@ -311,12 +311,12 @@ class PeerCases(FolderTest):
             ("", "is no XML"),
             ("<a/>", "a: is no case that ours reads"),
             ('<!DOCTYPE a [<!ENTITY b "c">]><svMultiPhysicsFile>&b;</svMultiPhysicsFile>', "has a document type (a)"),
-            (good.replace('type="FSI"', 'type="FSJ"'), "'FSJ' is no equation", "did you mean FSI"),
+            (good.replace('type="FSI"', 'type="FSJ"'), "'FSJ' is no equation", "did you mean 'FSI'"),
             (good.replace('type="FSI"', 'type="CMM"'), "wall without thickness", "fsi-mesh thicken"),
             (
                 good.replace('Add_BC name="lumen_outlet"', 'Add_BC name="lumen_outlte"'),
                 "no face 'lumen_outlte'",
-                "lumen_outlet?",
+                "'lumen_outlet'?",
             ),
             (peer.rigid(inlet), "lumen_wall: has no Add_BC, and is not flat"),
             (good.replace("mesh/wall/mesh-complete.mesh.vtu", "mesh/wall/none.vtu"), "there is no file", "none.vtu"),
@@ -344,7 +344,7 @@ class PeerCases(FolderTest):
         ):
             with self.subTest(words[0]):
                 self.refused(text, *words)
-        self.refused(good, "'cgz' is no system of units", "did you mean cgs", options=("--units", "cgz"))
+        self.refused(good, "'cgz' is no system of units", "did you mean 'cgs'", options=("--units", "cgz"))
         self.refused(good, "--group", "is not for cases", options=("--group", "a=b"))
         (self.base / "bad.flow").write_text("3 2\n0 1\n1 nan\n2 3\n")
         unsteady = "<Type> Neu </Type> <Time_dependence> Unsteady </Time_dependence> "

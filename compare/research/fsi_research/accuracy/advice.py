@@ -3,10 +3,10 @@
 from typing import List, Optional, Sequence, Tuple
 
 from fsi_compare.starting.duration import duration
-from fsi_compare.runs.waves import JUDGED, PRESSURE, QUANTITIES, Quantity
+from fsi_compare.runs.waves import PRESSURE, QUANTITIES, Quantity
 from .convergence import SPACE, TIME, Series
 from .frontier import cheapest
-from .measured import GAIN, Measured
+from .measured import GAIN, JUDGED, Measured
 from .plan import Plan
 from .trend import trend
 

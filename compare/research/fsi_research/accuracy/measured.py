@@ -5,10 +5,12 @@ from typing import Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 from fsi_compare.base.case_names import short_name
 from fsi_compare.runs.coupling import coupling_kind
-from fsi_compare.runs.waves import JUDGED, QUANTITIES, Waves, read_run, relative_difference
+from fsi_compare.runs.waves import AVERAGED, DISPLACEMENT, QUANTITIES, Waves, read_run, relative_difference
 from fsi_compare.study.study_file import Request, show
 from fsi_compare.study.study_run import StudyRun
 from .plan import Plan
+
+JUDGED = (AVERAGED, DISPLACEMENT)  # by which settings are chosen; the raw pressure is stated beside them
 
 SOLVERS = ("newton.", "linear.", "monolithic.", "partitioned.")
 SOLVING = (*SOLVERS, "output.")  # settings that leave the discrete equations as they are

@@ -9,7 +9,8 @@ from fsi_compare.base.suggestions import nearest
 from fsi_compare.runs.reference import WaveReference, read_reference
 from fsi_compare.runs.waves import WINDOW
 from fsi_compare.study.section import is_positive
-from fsi_compare.study.study_file import Study, report_of
+from fsi_compare.study.study_file import Study
+from ..catalogue.report_section import report_of
 
 Wrong = Callable[[str, str, str], InputError]  # of key, problem and remedy
 

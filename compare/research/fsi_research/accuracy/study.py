@@ -8,16 +8,16 @@ from typing import Dict, List, Sequence
 from ..catalogue.names import MATERIALS
 from fsi_compare.reporting.report import Report
 from fsi_compare.study.runs_table import runs_table
-from fsi_compare.runs.waves import JUDGED, QUANTITIES, Quantity
+from fsi_compare.runs.waves import QUANTITIES, Quantity
 from fsi_compare.study.context import Context
-from fsi_compare.study.repeats import timing_words
 from fsi_compare.study.study_file import Study
 from . import pictures
 from .advice import algebraic_advice, enough, estimate, percent, small_steps, total_advice
 from .convergence import SPACE, TIME, Series, series
-from .measured import GAIN, Measured, measure
+from .measured import GAIN, JUDGED, Measured, measure
 from .plan import Plan, read_plan
 from .tables import algebraic_table, frontier_table, orders_table, settings_table
+from .timing import timing_words
 
 
 def check(study: Study) -> None:

@@ -12,7 +12,8 @@ from fsi_compare.reporting.layout import Table
 from ..drawing.log_axes import log_axes
 from fsi_compare.study.context import Context
 from fsi_compare.study.section import Section
-from fsi_compare.study.study_file import Study, report_of
+from fsi_compare.study.study_file import Study
+from ..catalogue.report_section import report_of
 from fsi_compare.study.study_run import StudyRun
 from fsi_compare.verify.family import STEP_RATIO, CaseFacts, Member, members
 from fsi_compare.verify.mesh_family import Recipe, ratio_for

@@ -11,7 +11,8 @@ from fsi_compare.reporting.column import Column, Facts
 from fsi_compare.reporting.layout import Table
 from ..evidence.cross_check import AGREES, BOUND, DEVIATES, FAR, FAULTS, UNCHECKED, WRONG, Cell, cells
 from ..evidence.commands import with_name
-from fsi_compare.study.study_file import Study, report_of
+from fsi_compare.study.study_file import Study
+from ..catalogue.report_section import report_of
 from fsi_compare.study.study_run import StudyRun
 from . import added_mass_runs
 from .pictures import Series

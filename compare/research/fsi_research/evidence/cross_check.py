@@ -8,6 +8,7 @@ import numpy as np
 from fsi_compare.base.errors import InputError
 from fsi_compare.runs.differences import largest_difference
 from fsi_compare.runs.pressure_waves import PressureWaves
+from fsi_compare.runs.run_folder import has_pressure
 from fsi_compare.study.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
 from fsi_compare.study.study_run import WRONG as NOT_FINITE
 
@@ -71,7 +72,7 @@ def waves_of(run: StudyRun) -> Optional[PressureWaves]:
     """Pressure along the centre line, or the line that the case asks for, in Pa; of a wall without fluid its
     displacements (see below). None: no finished time level."""
     try:
-        if run.has_pressure:
+        if has_pressure(run.folder):
             return run.pressure
     except (InputError, KeyError, IndexError, ValueError):
         return None

@@ -11,7 +11,7 @@ from typing import Dict, List, Optional, Sequence, Set, Tuple
 from fsi_compare.base.errors import InputError, printable
 from fsi_compare.base.files import folder, is_file, is_folder, make_folder, output_folder, replacing, together
 from fsi_compare.base.options import Commands, add_command, add_output
-from fsi_compare.starting.folder_lock import locked
+from fsi_compare.base.folder_lock import locked
 from ..catalogue.names import MATERIALS, METHODS, pick
 from fsi_compare.study.mesh_levels import MESHES
 from fsi_compare.reporting.layout import show_tables, write_tables

@@ -8,7 +8,7 @@ from matplotlib.lines import Line2D
 
 from ..catalogue import paper
 from ..catalogue.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MULTILEVEL
-from fsi_compare.reporting.coinciding import note_coinciding
+from ..drawing.coinciding import note_coinciding
 from ..drawing.log_axes import log_axes, plain_log_axis
 from fsi_compare.reporting.pictures import finish, write_figure
 from .results import System

@@ -10,6 +10,8 @@ from fsi_compare.verify.results import sizes
 from fsi_compare.verify.verdict import Bar, Value, bar_of
 
 # Units of what is made of gradients and pressures, whose order in space is one less.
+# Sources of references that are no more than what the other driver gives.
+OTHER_DRIVER = ("the other driver", "the monolithic driver", "the partitioned driver")
 OF_GRADIENTS = ("Pa", "kPa", "mmHg", "N", "N/m", "mN")
 
 Runs = Mapping[str, Mapping[Member, StudyRun]]  # by program, those that are done
@@ -69,7 +71,7 @@ def records(scene: Scene, facts: CaseFacts, runs: Runs) -> List[Record]:
     found: List[Record] = []
     for (_, program), of in numbers_of(scene, runs).items():
         own = next((number for member, number in of.items() if member.is_own), None)
-        if own is None or own.of_other_driver:
+        if own is None or own.source in OTHER_DRIVER:
             continue
         real = sizes(runs[program])
         values = [Value(real.get(m.mesh, m.mesh), m.step, n.value, m.looser, m.other) for m, n in of.items()]

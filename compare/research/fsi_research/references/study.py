@@ -12,7 +12,8 @@ from fsi_compare.reporting.layout import Table
 from ..drawing.log_axes import plain_log_axis
 from fsi_compare.study.context import Context
 from fsi_compare.study.section import Section
-from fsi_compare.study.study_file import Study, report_of
+from fsi_compare.study.study_file import Study
+from ..catalogue.report_section import report_of
 from fsi_compare.study.study_run import StudyRun
 from fsi_compare.verify.family import Member, members, mesh_ratio
 from ..evidence.scene_family import require_scenes, scene_family

@@ -7,11 +7,24 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, NullFormatter, NullLocator
 
-from fsi_compare.reporting.coinciding import note_coinciding
-from fsi_compare.reporting.pictures import MARKED_LINES, finish
+from fsi_compare.reporting.pictures import finish
+from ..drawing.coinciding import note_coinciding
 from .measured import Measured
 from .model import Step
 from .tables import alone, weak_efficiency
+
+# Points joined by lines, told apart without colour by marker, dash pattern and lightness.
+MARKED_LINES = (
+    {"linestyle": "-", "marker": "o", "color": "#000000"},
+    {"linestyle": "--", "marker": "s", "color": "#e8871e"},
+    {"linestyle": "-.", "marker": "^", "color": "#2c6fbb"},
+    {"linestyle": ":", "marker": "D", "color": "#b02a5b"},
+    {"linestyle": (0, (7, 2)), "marker": "v", "color": "#3d8338"},
+    {"linestyle": (0, (4, 1, 1, 1, 1, 1)), "marker": "P", "color": "#6a4c93"},
+    {"linestyle": (0, (1, 3)), "marker": "X", "color": "#555555"},
+    {"linestyle": (0, (9, 1, 1, 1)), "marker": "<", "color": "#00798c"},
+    {"linestyle": (0, (3, 3)), "marker": ">", "color": "#8a6d00"},
+)
 
 IDEAL = {"linestyle": "-", "color": "#aaaaaa", "linewidth": 2.5, "zorder": 1}
 PARTS = {  # of a modelled step, told apart in grey by lightness and hatch

@@ -13,7 +13,8 @@ from fsi_compare.starting.launch import usable_cores
 from fsi_compare.study.runs_table import runs_table
 from fsi_compare.study.context import Context
 from fsi_compare.study.section import Section
-from fsi_compare.study.study_file import Study, report_of
+from fsi_compare.study.study_file import Study
+from ..catalogue.report_section import report_of
 from fsi_compare.study.study_run import StudyRun
 from .measured import Measured, measure
 from .model import Counted, Machine, Step, assumptions, counted, step

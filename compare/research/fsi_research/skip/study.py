@@ -14,7 +14,8 @@ from fsi_compare.runs.differences import largest_difference
 from ..evidence.cross_check import waves_of
 from fsi_compare.study.context import Context
 from fsi_compare.study.section import Section
-from fsi_compare.study.study_file import Request, Study, show, report_of
+from fsi_compare.study.study_file import Request, Study, show
+from ..catalogue.report_section import report_of
 from fsi_compare.study.study_run import StudyRun
 
 REPORT_KEYS = ("repeat", "economies")

@@ -7,7 +7,8 @@ from fsi_compare.base.errors import InputError
 from fsi_compare.base.suggestions import nearest
 from ..evidence.cross_check import BOUND
 from fsi_compare.study.section import Section
-from fsi_compare.study.study_file import Study, report_of
+from fsi_compare.study.study_file import Study
+from ..catalogue.report_section import report_of
 from fsi_compare.study.study_run import StudyRun
 from .limit_load import TUBE_KEYS, Wall, read_wall
 

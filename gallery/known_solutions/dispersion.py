@@ -4,17 +4,17 @@ Small waves e^(i (w t - k z)) in a liquid and a thick wall around it are sums of
 section 13.4). Lengths, times and stiffnesses in any units that go together."""
 
 from dataclasses import dataclass
-from typing import Callable, Iterable, List, Sequence, Tuple
+from typing import Callable, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from .scene import Number, SceneRun
+from fsi_compare.gallery.scene import Number, SceneRun
 
 SERIES = 80  # terms: enough for arguments of moderate size
 
 
-def modified_bessel(z: complex) -> Tuple[complex, complex, complex, complex]:
+def modified_bessel(z: complex) -> tuple[complex, complex, complex, complex]:
     """I_0, I_1, K_0 and K_1 of a complex number of moderate size, by their series."""
     quarter, logarithm, harmonic = z * z / 4, np.log(z / 2) + np.euler_gamma, 0.0
     term = 1.0 + 0j  # of I_0; that of I_1 is term z / (2 (k + 1))
@@ -134,8 +134,8 @@ def wave_number(swing: Swing, apart: float, others: Sequence[complex] = ()) -> c
 
 
 def speed_and_attenuation(
-    run: SceneRun, k: complex, exact: complex, omega: float, tolerances: Tuple[float, float]
-) -> List[Number]:
+    run: SceneRun, k: complex, exact: complex, omega: float, tolerances: tuple[float, float]
+) -> list[Number]:
     """Speed and attenuation of a wave e^(i (w t - k z)) beside the exact ones; k in 1/mm, `omega` in 1/ms.
     `tolerances`: of the two, relative."""
     source = "dispersion relation"

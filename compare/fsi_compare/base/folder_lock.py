@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Iterator
 
-from ..base.errors import PROGRAM, InputError, say_note
+from .errors import PROGRAM, InputError, say_note
 
 NAME = "run.lock"
 # A file without text is about to get it, or to be removed. One that is locked may be so for a moment, by a look at it.
@@ -33,6 +33,26 @@ def locked(folder: Path) -> Iterator[None]:
         if _is_at(handle, path):
             os.unlink(path)  # before the kernel's lock is given up: waiting processes look again
         os.close(handle)
+
+
+def is_left(folder: Path) -> bool:
+    """Whether a process of this host has left its lock behind, which ended without a word. Changes nothing."""
+    try:
+        handle = os.open(folder / NAME, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    except OSError:
+        return False
+    try:
+        holder = os.pread(handle, 4096, 0).decode("utf-8", "replace").partition("\n")[0]
+        fcntl.flock(handle, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        return _is_of_this_host(holder) and _is_at(handle, folder / NAME)
+    except OSError:
+        return False
+    finally:
+        os.close(handle)
+
+
+def _is_of_this_host(holder: str) -> bool:
+    return holder.endswith(f" on host {socket.gethostname()}")
 
 
 def _taken(folder: Path, path: Path) -> int:
@@ -69,9 +89,8 @@ def _take(handle: int, folder: Path, path: Path, tries: int) -> bool:
     if not (", process " in holder and " on host " in holder):
         raise _nameless(folder, path)
     if blocked:
-        wait = f"wait for its end, or {ELSEWHERE}"
-        raise InputError(folder, "", f"a run works in it ({holder})", wait)
-    if not holder.endswith(f" on host {socket.gethostname()}"):
+        raise InputError(folder, "", f"a run works in it ({holder})", f"wait for its end, or {ELSEWHERE}")
+    if not _is_of_this_host(holder):
         problem = f"is locked by {holder}; from here it cannot be seen whether that still runs"
         raise InputError(folder, "", problem, f"if it does not, remove {path}")
     say_note(f"{folder}: took over the lock of {holder}, which has ended")
@@ -103,9 +122,8 @@ def _not_written(folder: Path, error: OSError) -> InputError:
 
 
 def _nameless(folder: Path, path: Path) -> InputError:
-    return InputError(
-        folder, "", f"is locked, and {path} does not say by whom", "if no run works in the folder, remove that file"
-    )
+    problem = f"is locked, and {path} does not say by whom"
+    return InputError(folder, "", problem, "if no run works in the folder, remove that file")
 
 
 def _is_at(handle: int, path: Path) -> bool:

@@ -6,12 +6,12 @@ the distance of the extremes of the last periods, as in the publication.
 """
 
 from dataclasses import dataclass, replace
-from typing import Any, List, Tuple
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from .scene import Number, SceneRun, SceneRuns
+from fsi_compare.gallery.scene import Number, SceneRun, SceneRuns
 from .swings import Swings, last_swings
 
 SOURCE = "Turek and Hron"
@@ -64,7 +64,7 @@ class Benchmark:
         self.known, self.frequency, self.of, self.window, self.quick = known, frequency, of, window, quick
         self.frequency_tolerance, self.static = frequency_tolerance, static
 
-    def values(self, run: SceneRun, name: str) -> Tuple[np.ndarray, np.ndarray]:
+    def values(self, run: SceneRun, name: str) -> tuple[np.ndarray, np.ndarray]:
         """Times in ms, and the quantity."""
         file, column, _ = COLUMNS[name]
         table = run.table(file)
@@ -73,12 +73,12 @@ class Benchmark:
     def swings(self, run: SceneRun, name: str) -> Swings:
         return last_swings(*self.values(run, name), 1000 / self.frequency, self.window)
 
-    def numbers(self, runs: SceneRuns) -> List[Number]:
+    def numbers(self, runs: SceneRuns) -> list[Number]:
         if runs.quick and not self.quick:
             return self._agreement(runs)
         return [number for run in runs for known in self.known for number in self._of(run, known, runs.quick)]
 
-    def _of(self, run: SceneRun, known: Known, quick: bool) -> List[Number]:
+    def _of(self, run: SceneRun, known: Known, quick: bool) -> list[Number]:
         def number(what: str, value: float, published: float, tolerance: float, **more: Any) -> Number:
             tolerance = max(self.quick, tolerance) if quick else tolerance
             unit = COLUMNS[known.name][2]
@@ -102,7 +102,7 @@ class Benchmark:
             numbers.append(replace(rate, unit="1/s"))
         return numbers
 
-    def _agreement(self, runs: SceneRuns) -> List[Number]:
+    def _agreement(self, runs: SceneRuns) -> list[Number]:
         first = float(self.values(runs.first, self.of)[1][-1])
         return [
             Number(

@@ -1,11 +1,11 @@
 """A tube of incompressible neo-Hookean layers that widens alike everywhere: its inner radius is the one unknown. What
 scenes share whose exact solutions follow from that (docs/theory.md, section 13)."""
 
-from typing import Callable, Sequence, Tuple
+from typing import Callable, Sequence
 
 import numpy as np
 
-Layer = Tuple[float, float, float]  # inner and outer radius at rest in mm, shear modulus in kPa
+Layer = tuple[float, float, float]  # inner and outer radius at rest in mm, shear modulus in kPa
 Acceleration = Callable[[float, float, float], float]  # of the inner radius, by radius, rate and load
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(20)
@@ -31,7 +31,7 @@ def place(at_rest, inner: float, radius):  # type: ignore[no-untyped-def]  # num
 
 def swing(
     acceleration: Acceleration, inner: float, load: float, until: float, end: float, steps_per_ms: int
-) -> Tuple[np.ndarray, np.ndarray]:
+) -> tuple[np.ndarray, np.ndarray]:
     """Times in ms and inner radii in mm, from rest, under a load that acts until a time, by the classical Runge-Kutta
     method."""
     step = 1 / steps_per_ms

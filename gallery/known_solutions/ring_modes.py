@@ -4,7 +4,6 @@ what goes with cos(n theta) e^(s t). The waves of liquid and ring are sums of po
 
 from dataclasses import dataclass
 from math import factorial
-from typing import Tuple
 
 import numpy as np
 
@@ -14,7 +13,7 @@ SMALL = 4.0  # arguments below are taken by series, others by integrals
 TERMS = 40  # of the series
 
 
-def bessel_series(n: int, z: complex) -> Tuple[complex, complex]:
+def bessel_series(n: int, z: complex) -> tuple[complex, complex]:
     """I_n and K_n of a small argument."""
     half = z / 2
 
@@ -29,7 +28,7 @@ def bessel_series(n: int, z: complex) -> Tuple[complex, complex]:
     return first, complex(finite + (-1) ** n * rest)
 
 
-def bessel_integrals(n: int, z: complex) -> Tuple[complex, complex]:
+def bessel_integrals(n: int, z: complex) -> tuple[complex, complex]:
     """e^-z I_n and e^z K_n where the real part of z is positive, by the trapezoidal rule, which converges exponentially
     here: I_n = 1/pi int e^(z cos t) cos(n t) over 0 to pi, K_n = int e^(-z cosh t) cosh(n t) over 0 to infinity."""
     t = np.linspace(0, np.pi, 200 + 4 * int(abs(z)))
@@ -40,7 +39,7 @@ def bessel_integrals(n: int, z: complex) -> Tuple[complex, complex]:
     return complex(first), complex(t[1] * (values.sum() - values[0] / 2))
 
 
-def bessel(n: int, z: complex, growth: complex = 0.0, fall: complex = 0.0) -> Tuple[complex, complex, complex, complex]:
+def bessel(n: int, z: complex, growth: complex = 0.0, fall: complex = 0.0) -> tuple[complex, complex, complex, complex]:
     """I_n(z) and its derivative, times e^-growth; K_n(z) and its derivative, times e^fall."""
     if abs(z) < SMALL:
         (i, k), (i1, k1) = bessel_series(n, z), bessel_series(n + 1, z)
@@ -132,7 +131,7 @@ class Ring:
         return np.array(columns).T
 
 
-Wave = Tuple[complex, complex, complex, complex]
+Wave = tuple[complex, complex, complex, complex]
 
 
 def potential_wave(
