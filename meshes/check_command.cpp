@@ -129,8 +129,10 @@ class MeshDoctor {
 
   void examine(const std::vector<MeshFault>& of_reader) {
     for (const auto& fault : of_reader) findings_.stop_by(drivers, fault.text, remedy_of(fault.kind, findings_));
-    for (const auto& fault : scene_mesh_faults(mesh_, needs_, findings_.file()))
+    const auto of_scene = scene_mesh_faults(mesh_, needs_, findings_.file());
+    for (const auto& fault : of_scene)
       if (!is_known(fault, of_reader)) findings_.stop_by(drivers, fault.text, remedy_of(fault.kind, findings_));
+    if (Dim == 2 && of_reader.empty() && of_scene.empty()) at_rest();
     corners();
     overlapping();
     openings();
@@ -257,6 +259,14 @@ class MeshDoctor {
       findings_.stop(drivers, text, remedy);
     else
       findings_.note(text + "; where they are openings, " + remedy);
+  }
+
+  /// What static runs and prestress alone refuse.
+  void at_rest() {
+    SceneMeshNeeds needs = needs_;
+    needs.at_rest = true;
+    for (const auto& fault : scene_mesh_faults(mesh_, needs, findings_.file()))
+      findings_.note("static runs and prestress refuse it: " + fault.text);
   }
 
   void walls() {

@@ -23,6 +23,7 @@
 #include "mesh_io/temporary_mesh.hpp"
 #include "mesher/name_wall_faces.hpp"
 #include "meshes/converted.hpp"
+#include "meshes/mesh_input.hpp"
 #include "meshes/mesh_report.hpp"
 #include "meshes/options.hpp"
 
@@ -78,6 +79,7 @@ AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file
   }
   std::visit(
       [&](auto& read) {
+        warn_of_astray(named(request), read);
         if constexpr (std::decay_t<decltype(read)>::dim == 3) {
           name_flat_parts(read, openings);
           if (request.flat_ends) said += name_flat_ends(read);

@@ -76,17 +76,15 @@ ReadMesh read_mesh_file(const std::string& file) {
   return result;
 }
 
+void warn_of_astray(const std::string& file, const std::string& surface, const std::string& astray) {
+  if (!astray.empty()) warn(mesh_program, fmt::format("{}: {}: {} and left out", printable(file), surface, astray));
+}
+
 void warn_of_left_out(const std::string& file, const ReadMesh& mesh) {
   if (mesh.left_out > 0)
     warn(mesh_program,
          fmt::format("{}: {} cells in no physical group with a name are left out", printable(file), mesh.left_out));
-  std::visit(
-      [&](const auto& read) {
-        for (const auto& group : read.facet_groups)
-          if (!group.astray.empty())
-            warn(mesh_program, fmt::format("{}: {}: {} and left out", printable(file), group.name, group.astray));
-      },
-      mesh.mesh);
+  std::visit([&](const auto& read) { warn_of_astray(file, read); }, mesh.mesh);
 }
 
 }  // namespace fsi

@@ -35,7 +35,13 @@ MeshLayout mesh_layout(const std::string& file);
 /// \throws InputError for a script, and for what read_gmsh() refuses
 ReadMesh read_mesh_file(const std::string& file);
 
-/// Warns of cells and elements of surfaces that the mesh leaves out.
+/// Warns of elements of surfaces that are no facet of a cell, in the words of FacetGroup::astray.
+void warn_of_astray(const std::string& file, const std::string& surface, const std::string& astray);
+template <int Dim, int Order>
+void warn_of_astray(const std::string& file, const SimplexMesh<Dim, Order>& mesh) {
+  for (const auto& group : mesh.facet_groups) warn_of_astray(file, group.name, group.astray);
+}
+/// The same, and of cells that the mesh leaves out.
 void warn_of_left_out(const std::string& file, const ReadMesh& mesh);
 
 }  // namespace fsi

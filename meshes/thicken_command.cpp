@@ -22,6 +22,7 @@
 #include "mesher/surface/remeshing.hpp"
 #include "mesher/wall_growth.hpp"
 #include "meshes/curved_lumen.hpp"
+#include "meshes/mesh_input.hpp"
 #include "meshes/mesh_report.hpp"
 #include "meshes/options.hpp"
 #include "meshes/thickness_options.hpp"
@@ -79,9 +80,11 @@ Lumen lumen_of(const ThickenRequest& request) {
   if (file.extension() == ".msh" && gmsh_dimension(file) == 3) {
     if (gmsh_order(parse_gmsh(file), 3) == 2) {
       const auto mesh = read_gmsh<3, 2>(file, {group::fluid});
+      warn_of_astray(file, mesh);
       lumen = {without_mid_edge_nodes(mesh), curves_of(mesh)};
     } else {
       lumen.mesh = read_gmsh<3, 1>(file, {group::fluid});
+      warn_of_astray(file, lumen.mesh);
     }
     name_flat_parts(lumen.mesh, openings);
     return lumen;

@@ -163,7 +163,7 @@ template <int n>
 void CouplingStepper<n>::correct(const Pass& pass, std::vector<double>& x, PassAccuracy& accuracy) {
   {
     const Stopwatch watch(coupling_.algebra_seconds);
-    accelerator_->aim(agreement_.demand(coupling_) * space_.norm(pass.displacement));
+    accelerator_->aim(agreement_.demand(coupling_) * space_.norm(pass.displacement) / std::abs(pass.gap_part));
     accelerator_->correct(x, pass.residual);
   }
   next_accuracy(accuracy);

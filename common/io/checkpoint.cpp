@@ -287,7 +287,7 @@ void require_same_run(const fs::path& file, const Checkpoint& checkpoint, const 
                          (difference.empty() ? "hash " + checkpoint.case_hash + ", not " + case_hash : difference) +
                          ")",
                      "restart with the case file of that run; only names, files, steps, the end, solvers and output "
-                     "may differ (docs/guide/running.md, Restart)");
+                     "may differ (docs/guide/running.md, Continuing a run)");
   if (checkpoint.mesh_hash != mesh_hash)
     throw InputError(file.string(), "mesh",
                      "belongs to another mesh (hash " + checkpoint.mesh_hash + ", not " + mesh_hash + ")",

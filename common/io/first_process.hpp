@@ -8,8 +8,8 @@
 namespace fsi {
 
 /// Makes all processes fail if one does: if one passes an exception, all throw one of the same kind (InputError,
-/// WriteError, ConvergenceError, OutOfMemory, any other as std::runtime_error) with the message of the first process that failed, so
-/// that all end alike. For all processes together; a single process rethrows its exception.
+/// WriteError, ConvergenceError, OutOfMemory, any other as std::runtime_error) with the message of the first process that
+/// failed, so that all end alike. For all processes together; a single process rethrows its exception.
 /// \param mine  null: this process has not failed
 void agree_on_failure(const Communicator& processes, const std::exception_ptr& mine);
 

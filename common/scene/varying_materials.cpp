@@ -283,9 +283,11 @@ void vary_materials(const Case& setup, WallProblem<Element>& wall, Scene<Element
   std::size_t number = 0;
   for (const auto& [name, data] : structure.layers) {
     const std::size_t layer = number++;
+    ParameterValues own = data.values;
+    own.merge(parameter_values(materials().at(data.material).make(data.values)));
+    own[viscosity_name] = data.viscosity;
     for (auto& [key, of_cells] : scene.wall_constants) {
-      const auto own = data.values.find(key);
-      const double value = key == viscosity_name ? data.viscosity : own != data.values.end() ? own->second : 0;
+      const double value = own.count(key) > 0 ? own.at(key) : 0;  // 0: the law has no such constant
       for (const int c : wall.cells_of_layer(layer)) of_cells[static_cast<std::size_t>(c)] = value;
     }
     if (!data.varies()) continue;

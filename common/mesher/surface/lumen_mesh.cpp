@@ -108,6 +108,9 @@ std::string remesh(TriangleSurface& surface, const LumenRequest& request) {
     std::string said;
     if (request.edges_per_diameter > 0) {
       edges = local_radius(surface, 10);
+      if (!std::isfinite(edges.front()))
+        throw InputError(program, "--edges-per-diameter", "the surface is flat: nothing of it faces it across a lumen",
+                         "give --edge in mm");
       for (double& edge : edges) edge *= 2 / request.edges_per_diameter;
       said = fmt::format("{:.3g} edges per diameter, ", request.edges_per_diameter);
     }
@@ -165,9 +168,13 @@ void fill(const TriangleSurface& wall, std::vector<LumenOpening>& openings, cons
 
 LumenMesh mesh_lumen(OpenedLumen lumen, const LumenRequest& request) {
   LumenMesh made;
+  const auto require_lumen = [&] {
+    if (const auto fault = not_a_lumen(lumen)) throw InputError(request.file, "surface", fault.problem, fault.remedy);
+  };
+  if (lumen.openings.empty()) require_lumen();
   name_openings(lumen.openings, request.openings);
   close_holes(lumen, request, made.done);
-  if (const auto fault = not_a_lumen(lumen)) throw InputError(request.file, "surface", fault.problem, fault.remedy);
+  require_lumen();
   require_names(lumen.openings);
   auto& surface = lumen.surface;
   if (request.smoothing > 0) smooth(surface, request, made.done);

@@ -37,8 +37,8 @@ struct LumenMesh {
 };
 
 /// From an open surface to tetrahedra: names, holes closed, smoothed, cut, made longer, remeshed, capped flat, filled.
-/// \throws InputError for what is no lumen once holes are closed (not_a_lumen()), openings without a name, names twice, options that name no opening, smoothing that changes
-///         the volume by more than 1 %, and what the steps refuse
+/// \throws InputError for what is no lumen once holes are closed (not_a_lumen()), openings without a name, names twice,
+///         options that name no opening, smoothing that changes the volume by more than 1 %, and what the steps refuse
 LumenMesh mesh_lumen(OpenedLumen lumen, const LumenRequest& request);
 
 }  // namespace fsi

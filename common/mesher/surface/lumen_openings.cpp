@@ -27,19 +27,24 @@ constexpr const char* inner_face =
     "give the inner face alone, its ends open or cut flat; fsi-mesh import takes meshes of volumes";
 
 /// A rim that encloses far less area than its length could, as points that are there twice leave; empty without one.
-LumenFault slit_of(const TriangleSurface& surface) {
+LumenFault slit_of(const OpenedLumen& lumen) {
   // Length squared over 4 pi times the area: 1 of a circle, 50 of a rectangle 157 times as long as wide.
   constexpr double longest = 50;
+  const TriangleSurface& surface = lumen.surface;
   for (const auto& rim : rims_of(surface)) {
     double length = 0;
     for (std::size_t i = 0; i < rim.size(); ++i)
       length += distance(surface.nodes[rim[i]], surface.nodes[rim[(i + 1) % rim.size()]]);
     const LoopPlane plane = plane_of(surface.nodes, rim);
     if (length * length <= longest * 4 * pi * plane.area) continue;
+    const auto nearest =
+        std::min_element(lumen.openings.begin(), lumen.openings.end(), [&](const auto& a, const auto& b) {
+          return distance(a.centre, plane.centre) < distance(b.centre, plane.centre);
+        });
     return {
         fmt::format("has a slit near {}, as points that are there twice leave", place_of(surface.nodes[rim.front()])),
-        fmt::format("join them, or give --closed {:.6g},{:.6g},{:.6g}", plane.centre[0], plane.centre[1],
-                    plane.centre[2])};
+        fmt::format("join them, or give --closed {}, its number in --list-openings",
+                    nearest - lumen.openings.begin() + 1)};
   }
   return {};
 }
@@ -91,7 +96,7 @@ std::string to_text(const std::vector<LumenOpening>& openings) {
 
 LumenFault not_a_lumen(const OpenedLumen& lumen) {
   const auto& openings = lumen.openings;
-  if (auto slit = slit_of(lumen.surface)) return slit;
+  if (auto slit = slit_of(lumen)) return slit;
   for (std::size_t i = 0; i < openings.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const double width = std::min(openings[i].diameter(), openings[j].diameter());

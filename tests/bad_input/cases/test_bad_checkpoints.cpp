@@ -121,7 +121,7 @@ TEST_F(BadCheckpoint, OfAnotherCase) {
   expect_refusal([&] { require_same_run(file_, example(), "fsi-monolithic", "00000000000000ab", "00000000000000bb"); },
                  "case: belongs to another case (hash 00000000000000aa, not 00000000000000ab); restart with the case "
                  "file of that run; only names, files, steps, the end, solvers and output may differ "
-                 "(docs/guide/running.md, Restart)");
+                 "(docs/guide/running.md, Continuing a run)");
 }
 
 TEST_F(BadCheckpoint, OfAnotherCaseWhoseDifferenceIsKnown) {
@@ -131,7 +131,7 @@ TEST_F(BadCheckpoint, OfAnotherCaseWhoseDifferenceIsKnown) {
                          "fluid.density was 1 and is 2");
       },
       "case: belongs to another case (fluid.density was 1 and is 2); restart with the case file of that run; only "
-      "names, files, steps, the end, solvers and output may differ (docs/guide/running.md, Restart)");
+      "names, files, steps, the end, solvers and output may differ (docs/guide/running.md, Continuing a run)");
 }
 
 TEST_F(BadCheckpoint, OfAnotherVersion) {

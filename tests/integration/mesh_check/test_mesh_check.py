@@ -401,7 +401,10 @@ class NoLumen(Surfaces):
         rows = np.where(beside[:, None], new[triangles], triangles)
         both = np.vstack([points, points[doubled] - [0, 0.01, 0]])
         self.write_stl("slit.stl", both, rows)
-        said = r"surface: has a slit near \(.*\) mm, as points that are there twice leave; join them, or give --closed (\S+)"
+        said = (
+            r"surface: has a slit near \(.*\) mm, as points that are there twice leave; "
+            r"join them, or give --closed (\d+), its number in --list-openings"
+        )
         process = self.listed("slit.stl")
         self.assertEqual((process.returncode, len(process.stdout.splitlines())), (1, 4), process.stderr)
         self.assertRegex(process.stderr, rf"\Afsi-mesh: error: slit\.stl: {said}\n\Z")
