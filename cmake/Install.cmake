@@ -44,7 +44,7 @@ install(DIRECTORY compare/fsi_compare compare/studies DESTINATION ${_data}/compa
   PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY meshes/artery DESTINATION ${_data}/meshes COMPONENT programs FILES_MATCHING PATTERN "*.toml")
 install(DIRECTORY gallery DESTINATION ${_data} COMPONENT programs
-  FILES_MATCHING PATTERN "*.toml" PATTERN "*.py" PATTERN "*.geo" PATTERN "*.csv")
+  FILES_MATCHING PATTERN "*.toml" PATTERN "*.py" PATTERN "*.geo" PATTERN "*.csv" PATTERN __pycache__ EXCLUDE)
 install(FILES scripts/slurm/fsi-duo.sbatch DESTINATION ${_data}/slurm COMPONENT programs)
 install(DIRECTORY docs DESTINATION ${_documents} COMPONENT programs PATTERN "*.in" EXCLUDE)
 install(FILES README.md DESTINATION ${_documents} COMPONENT programs)

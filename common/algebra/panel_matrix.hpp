@@ -60,8 +60,8 @@ class PanelMatrix {
   int size_ = 0;  ///< rows
   std::vector<Panel> panels_;
   std::vector<int> rows_;
-  std::vector<float> triangles_;  ///< between a panel's own columns, each of `width` numbers
-  std::vector<float> blocks_;     ///< below them, each column of `rows` numbers
+  std::vector<float> triangles_;         ///< between a panel's own columns, each of `width` numbers
+  std::vector<float> blocks_;            ///< below them, each column of `rows` numbers
   mutable std::vector<float> gathered_;  ///< work space of solves: entries of a vector below a panel
 };
 

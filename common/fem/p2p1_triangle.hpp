@@ -41,9 +41,9 @@ struct P2P1Triangle {
 
   struct Geometry {
     static constexpr Unstabilised metric{}, size_squared{};
-    Vec3<Pack> x[nodes];  ///< reference coordinates of the nodes, mm
-    bool straight;        ///< all elements of the pack are: then what follows holds at all points
-    Pack two_areas;       ///< mm^2
+    Vec3<Pack> x[nodes];              ///< reference coordinates of the nodes, mm
+    bool straight;                    ///< all elements of the pack are: then what follows holds at all points
+    Pack two_areas;                   ///< mm^2
     Vec3<Pack> grad_l[scalar_nodes];  ///< of barycentric coordinates, 1/mm
   };
   static Geometry geometry(const Vec3<Pack> x[nodes]) {

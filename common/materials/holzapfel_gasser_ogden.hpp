@@ -23,8 +23,8 @@ struct HolzapfelGasserOgdenOf {
   Constant k2 = 0;          ///< -
   Constant k1_second = -1;  ///< of the second, along -alpha; negative: as the first, see settle()
   Constant k2_second = 0;   ///< -
-  Constant kappa = 0;  ///< 0 all fibres of a family parallel, 1/3 evenly in all directions
-  Constant alpha = 0;  ///< degrees between fibres and circumference; enters by the fibres' directions alone
+  Constant kappa = 0;       ///< 0 all fibres of a family parallel, 1/3 evenly in all directions
+  Constant alpha = 0;       ///< degrees between fibres and circumference; enters by the fibres' directions alone
 
   template <class Other>
   using with = HolzapfelGasserOgdenOf<Other>;

@@ -27,7 +27,7 @@ struct SampledPoint {
   std::string name;  ///< of the point or its line
   double s = 0;      ///< mm, along the line from its beginning
   Point at;          ///< reference coordinates, mm
-  bool in_fluid;  ///< else in the wall
+  bool in_fluid;     ///< else in the wall
   NodalSample vectors, scalars;
 };
 

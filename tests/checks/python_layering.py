@@ -13,7 +13,11 @@ from pathlib import Path
 
 from circles import circles
 
-PACKAGES = {"fsi_compare": "compare/fsi_compare", "fsi_research": "compare/research/fsi_research"}  # folder of each
+PACKAGES = {  # folder of each
+    "fsi_compare": "compare/fsi_compare",
+    "known_solutions": "gallery/known_solutions",
+    "fsi_research": "compare/research/fsi_research",
+}
 # Lowest first. Packages of one line share a floor; "fsi_compare" is what lies beside them, with its command line.
 FLOORS = (
     ("fsi_compare.base",),
@@ -22,6 +26,7 @@ FLOORS = (
     ("fsi_compare.reporting",),
     ("fsi_compare.starting",),
     ("fsi_compare.gallery",),
+    ("known_solutions",),
     ("fsi_compare.study",),
     ("fsi_compare.verify",),
     ("fsi_compare.tune",),

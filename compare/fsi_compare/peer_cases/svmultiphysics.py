@@ -298,7 +298,7 @@ class _Reader:
         to_mm = scale * self.units.length
         mesh, self.case.faces = read_case_mesh(str(self.root.file), files, rows, to_mm, self.tolerance)
         if "fluid" in files and len(files) > 1 and not any(face.on_interface for face in self.case.faces):
-            at = self.root.find("Add_projection") or self.root
+            at = next(iter(self.root.all("Add_projection")), self.root)
             raise at.refuse("fluid and wall share no face: their nodes differ", "mesh both together, or give --join MM")
         return mesh
 

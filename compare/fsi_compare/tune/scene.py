@@ -77,7 +77,7 @@ def _require_numbers(path: Path, name: str, values: Any) -> None:
 
 
 def _require_number(path: Path, key: str, value: Any, least: float = -math.inf) -> None:
-    if not is_number(value) or value < least:
+    if not is_number(value) or not math.isfinite(value) or value < least:
         problem = f"is no number{' from 0 on' if least == 0 else ''}"
         raise InputError(path, key, problem, "give one: the first beat begins from it")
 
@@ -85,7 +85,7 @@ def _require_number(path: Path, key: str, value: Any, least: float = -math.inf) 
 def _period(path: Path, entries: Mapping[str, Any], openings: Mapping[str, Mapping[str, Any]]) -> float:
     own = entries["time"].get("period")
     given = [own, *(one.get("period") for one in openings.values())]
-    found = {float(period) for period in given if is_number(period) and period > 0}
+    found = {float(period) for period in given if is_number(period) and 0 < period < math.inf}
     if not found:
         raise InputError(path, "opening", "nothing repeats itself, so that there is no beat", GIVE_PERIOD)
     longest = max(found)

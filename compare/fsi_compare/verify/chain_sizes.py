@@ -151,11 +151,14 @@ def _is_positive(text: str, whole: bool) -> bool:
 
 
 def number_in(text: str, key: str, source: str) -> float:
-    """Reads a number of a mesh's commands. Raises InputError."""
+    """Reads a number above 0 of a mesh's commands. Raises InputError."""
     try:
-        return float(text)
+        number = float(text)
     except ValueError:
         raise InputError(source, key, f"'{text}' is no number", "give one") from None
+    if not 0 < number < float("inf"):
+        raise InputError(source, key, f"'{text}' is no size", "give a number above 0")
+    return number
 
 
 def options_of(words: Sequence[str]) -> dict[str, str]:

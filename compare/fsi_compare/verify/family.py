@@ -1,6 +1,7 @@
 """The members of a family: which runs are made around the user's own, and what the case says that decides it."""
 
 import copy
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
@@ -12,7 +13,7 @@ from ..base.case_names import with_present_names
 from ..base.errors import InputError
 from ..base.files import read_toml
 from ..base.numbers import is_number
-from ..study.study_file import Method, Request, Study, StudyMesh, method_of, study_of_case
+from ..study.study_file import Request, Study, StudyMesh, method_of, study_of_case
 from .mesh_family import Recipe
 from .quantities import Asked
 from .tolerances import governing, names_scheme
@@ -99,7 +100,7 @@ def read_case(path: Path, settings: Mapping[str, Any] = MappingProxyType({})) ->
     if not isinstance(time, dict) or not ("time" in entries or "static" in entries):
         raise InputError(path, "time", "is missing", "a case has a section [time] or [static]")
     for name in ("end", "tolerance"):
-        if not is_number(time.get(name, 0.0)):
+        if not is_number(time.get(name, 0.0)) or not math.isfinite(time.get(name, 0.0)):
             raise InputError(path, f"time.{name}", f"{time[name]} is no number", "give one")
     element = entries.get("element", "p2p1")
     if not isinstance(element, str) or element not in SPACE_ORDERS:

@@ -99,6 +99,7 @@ class Packages(unittest.TestCase):
                 "/usr/share/fsi-duo/compare/fsi_compare/cli.py",
                 "/usr/share/fsi-duo/compare/fsi_compare/reporting/templates/report.html.j2",
                 "/usr/share/fsi-duo/compare/studies/refinement.toml",
+                "/usr/share/fsi-duo/gallery/known_solutions/turek_hron.py",
                 "/usr/share/fsi-duo/slurm/fsi-duo.sbatch",
                 "/usr/share/fsi-duo/meshes/artery/neo-hookean.toml",
                 "/usr/share/doc/fsi-duo/copyright",

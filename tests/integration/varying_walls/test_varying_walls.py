@@ -160,7 +160,7 @@ class LawsWithoutLoopsOfTheirOwn(VaryingTest):
                     for name, values in arrays(same[1] / "fields.h5").items()
                     if {"k1_second", "wall"} <= set(name.split("/"))
                 ]
-                values = shown[0]
+                values = shown[0][shown[0] > 0]  # the other layers have another law
                 self.assertAlmostEqual(values.min(), 2.0, delta=1e-6 if first == "2.0" else 0.5)
                 self.assertEqual(len(np.unique(np.round(values, 9))) > 5, first != "2.0")
 

@@ -250,15 +250,13 @@ TEST(CompressibleLaws, TakeExactlyOneSetOfConstants) {
             "parameters of linear-elastic: young alone is no set of its constants; " + sets);
   EXPECT_EQ(
       complaint("saint-venant-kirchhoff", {{"young", 3}, {"poisson", 0.3}, {"lame_mu", 3}}),
-      "parameters of saint-venant-kirchhoff: young, poisson and lame_mu together are no set of its constants; " +
-          sets);
+      "parameters of saint-venant-kirchhoff: young, poisson and lame_mu together are no set of its constants; " + sets);
   EXPECT_EQ(complaint("compressible-neo-hookean", {{"c10", 3}, {"lame_mu", 3}}),
-            "parameters of compressible-neo-hookean: lame_mu and c10 together are no set of its constants; " +
-                sets + ", or c10 and bulk_modulus");
-  EXPECT_EQ(
-      complaint("neo-hookean", {{"c10", 3}, {"young", 3}}),
-      "parameters of neo-hookean: c10 and young together are no set of its constants; give c10, or young and "
-      "poisson");
+            "parameters of compressible-neo-hookean: lame_mu and c10 together are no set of its constants; " + sets +
+                ", or c10 and bulk_modulus");
+  EXPECT_EQ(complaint("neo-hookean", {{"c10", 3}, {"young", 3}}),
+            "parameters of neo-hookean: c10 and young together are no set of its constants; give c10, or young and "
+            "poisson");
   EXPECT_EQ(complaint("linear-elastic", {{"lame_lambda", -2}, {"lame_mu", 3}}),
             "parameters of linear-elastic: lame_lambda + 2/3 lame_mu, the bulk modulus, is not positive; give a "
             "lame_lambda of more than -2/3 lame_mu");
