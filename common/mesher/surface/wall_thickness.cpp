@@ -50,7 +50,7 @@ std::vector<double> reach_of(const TriangleSurface& surface, const ThicknessTabl
     to_another.push_back(std::sqrt(nearest(table.places[i], table.places, 2).back().first));
   }
   const double edge = mean_edge(surface);
-  const std::vector<double> between_points(surface.nodes.size(), std::max(3 * median(to_another), 2 * edge));
+  std::vector<double> between_points(surface.nodes.size(), std::max(3 * median(to_another), 2 * edge));
   if (median(to_surface) < edge) return between_points;
   auto reach = local_radius(surface, 5);
   for (double& r : reach) r *= 1.5;
