@@ -216,8 +216,9 @@ class RobinRobin : private RobinSides, public CouplingPass<n> {
     Base::move_mesh(d);
     answer_of_fluid(velocity_of_wall(d), load_, accuracy);
     Pass pass = finished_pass(d);
-    scale(-2, pass.residual);
-    pass.gap_part = -0.5;
+    constexpr double residual_of_gap = -2;
+    scale(residual_of_gap, pass.residual);
+    pass.gap_part = 1 / residual_of_gap;
     return pass;
   }
 

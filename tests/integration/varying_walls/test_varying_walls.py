@@ -155,14 +155,18 @@ class LawsWithoutLoopsOfTheirOwn(VaryingTest):
             with self.subTest(first=first, region=region):
                 if first == "2.0":
                     self.assertAgree(*same, 1e-10)
-                shown = [
-                    values
-                    for name, values in arrays(same[1] / "fields.h5").items()
-                    if {"k1_second", "wall"} <= set(name.split("/"))
-                ]
-                values = shown[0][shown[0] > 0]  # the other layers have another law
-                self.assertAlmostEqual(values.min(), 2.0, delta=1e-6 if first == "2.0" else 0.5)
-                self.assertEqual(len(np.unique(np.round(values, 9))) > 5, first != "2.0")
+                fields = arrays(same[1] / "fields.h5")
+
+                def shown(constant):
+                    found = [v for name, v in fields.items() if {constant, "wall"} <= set(name.split("/"))]
+                    return found[0][found[0] > 0]  # the other layers have another law
+
+                values = shown("k1_second")
+                if first == "2.0":
+                    self.assertLess(np.abs(values - 2.0).max(), 1e-6)
+                else:
+                    self.assertAlmostEqual(values.max(), shown("k1").max(), places=6)
+                    self.assertLess(values.min(), shown("k1").min(), "the region has its own")
 
     def test_a_prestressed_wall_is_in_balance(self):
         for wall in (self.YEOH, self.FIBRES):

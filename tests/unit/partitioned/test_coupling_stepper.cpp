@@ -452,7 +452,7 @@ TEST(RobinRobin, BothMediaHaveTheirRobinConditions) {
       const StepRates& rates = balance.data.rates;
       const InterfaceData now = interface_data(*scene, balance),
                           now_predicted = interface_data(*other, predicting.advance(predicted).balances.front());
-      double of_fluid = 0, of_wall = 0, size = 0, change = 0;
+      double of_fluid = 0, of_wall = 0, size = 0, change = 0, squared_gap = 0;
       for (std::size_t i = 0; i < scene->interface.size(); ++i) {
         const auto& node = scene->interface[i];
         if (node.clamped) continue;
@@ -464,6 +464,7 @@ TEST(RobinRobin, BothMediaHaveTheirRobinConditions) {
           const double lambda = last.rows[j] + dl, u = last.velocity[j] + du;
           const double v = rates.interface.velocity(balance.at.wall[w], rates.wall_reference[w]);
           const double load = balance.data.interface_load[w];
+          squared_gap += std::pow(rates.interface.period * (v - now.velocity[j]), 2);
           of_fluid = std::max(of_fluid, std::abs(iterated ? c * (now.velocity[j] - v)
                                                           : now.rows[j] - lambda + c * (now.velocity[j] - v)));
           of_wall = std::max(of_wall, std::abs(iterated ? now.rows[j] - load : load - lambda - c * (v - u)));
@@ -473,6 +474,8 @@ TEST(RobinRobin, BothMediaHaveTheirRobinConditions) {
       }
       EXPECT_LT(of_fluid, 1e-7 * size) << scheme << ", " << step;
       EXPECT_LT(of_wall, 1e-7 * size) << scheme << ", " << step;
+      EXPECT_NEAR(report.coupling->displacement_gap, std::sqrt(squared_gap), 1e-3 * std::sqrt(squared_gap))
+          << scheme << ", " << step;
       if (corrected) {
         EXPECT_GT(change, 1e-3 * size) << "else nothing was corrected";
       }
