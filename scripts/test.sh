@@ -2,11 +2,13 @@
 # Builds and tests; installs what is missing first. May be run again: only what changed is built anew.
 #   scripts/test.sh         the quick tests of the release build
 #   scripts/test.sh --all   everything, with warnings as errors: unit tests under the address and undefined-behaviour
-#                           sanitizers in a build by clang, without MPI, for x86-64-v2; three sources that depend on the
-#                           width of vectors for another processor level; then the release build by gcc, for this machine,
-#                           with every other test and the unit tests that use MPI or vectors. A test program is then one
-#                           test of ctest, which spares its start for each case; cmake -DFSI_TEST_CASES=ON
-#                           makes each case one
+#                           sanitizers in a build by clang, without MPI, for x86-64-v2, those whose code has changed since
+#                           they last passed; three sources that depend on the width of vectors for another processor
+#                           level; then the release build by gcc, for this machine, with every other test and the unit
+#                           tests that use MPI or vectors. A test program is then one test of ctest, which spares its
+#                           start for each case; cmake -DFSI_TEST_CASES=ON makes each case one
+#   scripts/test.sh --sanitized  all unit tests under the sanitizers; where they pass and all changes are in a commit, that
+#                           commit goes into tests/checks/sanitized_clean.txt, from which --all counts
 #   scripts/test.sh --long  what --all leaves out of the tests: all combinations of elements, materials, schemes, solvers and
 #                           drivers where --all takes them by turns, and the drivers with sanitizers
 #   scripts/test.sh --levels  all that depends on the width of vectors for the levels x86-64-v2, -v3 and -v4, with
@@ -22,12 +24,13 @@ fail() {
   exit 1
 }
 
+sanitized_clean=tests/checks/sanitized_clean.txt
 what=quick mpi=()
 for argument in "$@"; do
   case "$argument" in
-    --all | --long | --levels) what=${argument#--} ;;
+    --all | --sanitized | --long | --levels) what=${argument#--} ;;
     --serial) mpi=(-DFSI_MPI=OFF) ;;
-    *) fail "unknown option '$argument'; those there are: --all, --long, --levels, --serial" ;;
+    *) fail "unknown option '$argument'; those there are: --all, --sanitized, --long, --levels, --serial" ;;
   esac
 done
 [ "$what" = quick ] || [ ${#mpi[@]} -eq 0 ] || fail "--serial beside --$what: it is for the quick tests"
@@ -40,6 +43,18 @@ build_level() {
   echo "== $1"
   cmake --preset level -B "build/level/$1" -DFSI_ARCH="$1" -DFSI_WARNINGS_AS_ERRORS=ON
   cmake --build "build/level/$1" --target "$2"
+}
+
+# sanitized_tests [--since FILE]: unit tests under the sanitizers; with FILE those that a change since its commit can change.
+# By another compiler than the release build's: each warns of what the other does not.
+sanitized_tests() {
+  cmake --preset sanitize -DCMAKE_CXX_COMPILER=clang++ -DFSI_TESTS=ON -DFSI_WARNINGS_AS_ERRORS=ON
+  local programs
+  programs=$("${PYTHON:-python3}" -B tests/checks/sanitized_tests.py . build/sanitize "$@")
+  [ -n "$programs" ] || { echo "No unit test's code has changed since they passed under the sanitizers: none is run"; return 0; }
+  # shellcheck disable=SC2086  # words
+  cmake --build --preset sanitize --target $programs
+  run_tests build/sanitize -L '^unit$' -R ": (${programs//$'\n'/|})\$"
 }
 
 # Files that the sources' folder holds beside what git keeps. Building and testing leave it as it was.
@@ -55,11 +70,8 @@ before=$(strangers)
 
 case "$what" in
 all)
-  # Another compiler than the release build's: each warns of what the other does not.
-  echo "== unit tests with sanitizers, by clang, and without MPI"
-  cmake --preset sanitize -DCMAKE_CXX_COMPILER=clang++ -DFSI_TESTS=ON -DFSI_WARNINGS_AS_ERRORS=ON
-  cmake --build --preset sanitize --target unit_tests
-  run_tests build/sanitize -L '^unit$'
+  echo "== unit tests with sanitizers, by clang, and without MPI, of what has changed"
+  sanitized_tests --since "$sanitized_clean"
 
   # The release build below is for this machine's level; here the other one that counts. x86-64-v2 has had its turn.
   if has_level x86-64-v4; then build_level x86-64-v3 level_sources; elif has_level x86-64-v2; then build_level x86-64-v4 level_sources; fi
@@ -68,6 +80,15 @@ all)
   cmake --preset release -DFSI_TESTS=ON -DFSI_TEST_CASES=OFF -DFSI_UNIT_TESTS=OFF -DFSI_WARNINGS_AS_ERRORS=ON
   cmake --build --preset release
   run_tests build/release
+  ;;
+sanitized)
+  echo "== unit tests with sanitizers, by clang, and without MPI"
+  sanitized_tests
+  if changes=$(git status --porcelain --untracked-files=no 2>/dev/null) && [ -z "$changes" ]; then
+    { git rev-parse --short=8 HEAD; tail -n +2 "$sanitized_clean"; } >"$sanitized_clean.new"
+    mv "$sanitized_clean.new" "$sanitized_clean"
+    echo "$sanitized_clean names this commit now; commit the file"
+  fi
   ;;
 long)
   echo "== drivers with sanitizers, by clang, and without MPI"

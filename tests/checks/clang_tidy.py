@@ -25,19 +25,14 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-FOLDERS = ("common", "monolithic", "partitioned", "meshes")
+from changed_code import FOLDERS, INCLUDE, Includes, changed_since
+
 # Characters. The headers of a text take as long as 150,000 of the sources, so that few texts are cheap; the many short jobs
 # behind them keep all cores busy to the end.
 LARGEST_TEXT = 600_000
 # The analyser follows this many steps through a function; with its own 225000 the whole takes three times as long.
 STEPS = 20_000
-INCLUDE = re.compile(r"\s*#\s*include\s*(\S+)")
 UNNAMED = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.MULTILINE | re.DOTALL)
-# A comment, the group; or what may look like one inside: strings and characters.
-COMMENT = re.compile(
-    r"""(//[^\n]*|/\*.*?\*/)|R"(?P<mark>[^(]*)\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"|(?<!\w)'(?:\\.|[^'\\\n])+'""",
-    re.DOTALL,
-)
 # What a line without indent defines: a class, a type, what stands before a value, or before parameters, which are a part of
 # a function's name.
 DEFINED = re.compile(
@@ -98,65 +93,16 @@ def sources_of(root: Path, flags: dict[str, list[str]]) -> list[Path]:
     return sorted(path for path in found if str(path) in flags)
 
 
-def code_of(text: str) -> list[str]:
-    """What a source says to the compiler and to clang-tidy: without comments, but for those that silence a finding."""
-    kept = COMMENT.sub(lambda found: " " if found[1] and "NOLINT" not in found[1] else found[0], text)
-    return kept.split()
-
-
-def changed_since(root: Path, record: Path) -> set[Path] | None:
-    """Files whose code is not as it was at the commit that the record names; None: that cannot be told."""
-    commit = record.read_text().split()[0]
-    git = ["git", "-C", str(root)]
-    done = subprocess.run(
-        [*git, "diff", "--name-only", commit], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
-    new = subprocess.run([*git, "ls-files", "--others", "--exclude-standard"], stdout=subprocess.PIPE, text=True)
-    if done.returncode != 0 or new.returncode != 0:
-        return None
-
-    def differs(name: str) -> bool:
-        path = root / name
-        if path.suffix not in (".cpp", ".hpp") or not path.exists():
-            return True
-        old = subprocess.run(
-            [*git, "show", f"{commit}:{name}"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-        )
-        return old.returncode != 0 or code_of(old.stdout) != code_of(path.read_text())
-
-    changed = {root / name for name in (*filter(differs, done.stdout.splitlines()), *new.stdout.splitlines())}
-    return None if root / ".clang-tidy" in changed else changed
-
-
 def touched(root: Path, sources: list[Path], changed: set[Path]) -> list[Path]:
     """The sources that have changed, or that include a header that has; of a header that other headers alone include, one
-    source that it reaches: it is looked at there as well as in all of them. Headers are named from the folders that hold
-    the rooms, as "fem/elements.hpp"."""
-    headers = {path for folder in FOLDERS for path in (root / folder).rglob("*.hpp")}
-    names = {str(path.relative_to(root)): path for path in headers}
-    names |= {name.split("/", 1)[1]: path for name, path in names.items()}
-    included: dict[Path, set[Path]] = {}
-
-    def includes(file: Path) -> set[Path]:
-        if file not in included:
-            lines = (line for line in map(INCLUDE.match, file.read_text().split("\n")) if line)
-            included[file] = {names[name] for line in lines if (name := line[1].strip('"<>')) in names}
-        return included[file]
-
-    def reached(source: Path) -> set[Path]:
-        found: set[Path] = set()
-        last = {source}
-        while last:
-            last = {header for file in last for header in includes(file)} - found
-            found |= last
-        return found
-
-    left = changed & headers
-    found = {source for source in sources if source in changed or includes(source) & left}
+    source that it reaches: it is looked at there as well as in all of them."""
+    includes = Includes(root)
+    left = changed & includes.headers
+    found = {source for source in sources if source in changed or includes.of(source) & left}
     for source in found:
-        left = left - reached(source)
+        left = left - includes.reached([source])
     for source in sources if left else ():
-        if fresh := left & reached(source):
+        if fresh := left & includes.reached([source]):
             found.add(source)
             left = left - fresh
     return sorted(found)
@@ -334,6 +280,8 @@ def run(clang_tidy: str, root: Path, build: Path, compiler: str, record: Path | 
     if not everything:
         raise SystemExit(f"clang_tidy.py: error: no source files in {root}")
     changed = changed_since(root, record) if record else None
+    if changed is not None and root / ".clang-tidy" in changed:
+        changed = None
     sources = everything if changed is None else touched(root, everything, changed)
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
         found = [result for result in pool.map(lambda job: job(), jobs(clang_tidy, root, flags, sources)) if result]

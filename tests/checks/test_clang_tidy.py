@@ -8,9 +8,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from changed_code import changed_since, code_of
 from clang_tidy import (
-    changed_since,
-    code_of,
     compiler_flags,
     groups,
     jobs,

@@ -53,7 +53,7 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> list[
     runs = outcome.finished(quick)
     if outcome.failures:
         return []
-    add_still(report, f"{stem}_vessel", runs.first.results, getattr(scene.module, "STILL", {}))
+    add_still(report, f"{stem}_vessel", runs.first.results, getattr(scene.module, "STILL", {}), scene.at_rest)
     report.figure(stem, lambda: scene.module.draw(runs), scene.title + ".")
     numbers = scene.numbers(runs)
     report.table(Table(f"{stem}_numbers", "What is known", NUMBERS, numbers))
@@ -73,16 +73,18 @@ def _mesh_commands(scene: Scene, place: str, quick: bool) -> list[str]:
     return as_typed(named, Path(f"{scene.name}.msh"), place)
 
 
-def add_still(report: Report, stem: str, run: RunResults, asked: Mapping[str, Any]) -> None:
+def add_still(report: Report, stem: str, run: RunResults, asked: Mapping[str, Any], at_rest: bool = False) -> None:
     """Adds the geometry with a result on it: what the scene asks for in STILL (keywords of RunResults.picture), else
-    its first quantity when it is largest, with a visible displacement. Adds nothing for a run without fields."""
+    its first quantity when it is largest, with a visible displacement. Adds nothing for a run without fields. `at_rest`: the
+    times are shares of a load."""
     if not run.fields:
         return
     key = asked.get("field", run.scene.first)
     run.scene.check(key)
     words: dict[str, Any] = {"time": run.scene.peak(key), "factor": run.scene.visible_factor(), **asked}
     caption = run.scene.quantity(key).words
-    report.still(stem, lambda: run.picture(**words), f"{caption[0].upper()}{caption[1:]} at {words['time']:g} ms.")
+    when = f"{100 * words['time']:g} % of the load" if at_rest else f"{words['time']:g} ms"
+    report.still(stem, lambda: run.picture(**words), f"{caption[0].upper()}{caption[1:]} at {when}.")
 
 
 def driver(program: str) -> str:

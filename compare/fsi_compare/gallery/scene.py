@@ -24,7 +24,7 @@ from types import ModuleType
 from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
-from ..base.files import exists, is_file, is_folder, listed, read_text
+from ..base.files import exists, is_file, is_folder, listed, read_text, read_toml
 from ..base.suggestions import nearest
 from ..results.run import RunResults, open_run
 from ..results.table import Table
@@ -116,6 +116,11 @@ class Scene:
     @property
     def case(self) -> Path:
         return self.folder / f"{self.name}.toml"
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether its steps are those of a load that is raised, and its times shares of that load."""
+        return "static" in read_toml(self.case, "name the case after the folder", "mend the case")
 
     @property
     def place(self) -> str:

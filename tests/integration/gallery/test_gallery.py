@@ -39,6 +39,7 @@ class Gallery(FolderTest):
             "fsi-mesh geo gallery/static-tube/tube.geo --order 2",
             "integral over the wall",
             "static_tube.png",
+            "at 100 % of the load.",
             "with one thread, one program at a time",
         ):
             self.assertIn(part, text)
