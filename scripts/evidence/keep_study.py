@@ -56,7 +56,7 @@ def main(words) -> int:
 
 def fail(text: str) -> NoReturn:
     line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
-    print(f"keep_study: error: {line[:1000]}", file=sys.stderr)
+    print(f"{Path(sys.argv[0]).stem}: error: {line[:1000]}", file=sys.stderr)
     sys.exit(1)
 
 

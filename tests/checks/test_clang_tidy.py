@@ -9,17 +9,7 @@ import unittest
 from pathlib import Path
 
 from changed_code import changed_since, code_of
-from clang_tidy import (
-    compiler_flags,
-    groups,
-    jobs,
-    own_names,
-    parted,
-    sources_of,
-    text_flags,
-    text_of,
-    touched,
-)
+from clang_tidy import compiler_flags, groups, jobs, own_names, parted, sources_of, text_flags, text_of, touched
 
 HERE = Path(__file__).resolve().parent
 GOOD = '#include "mesh/header.hpp"\nint one(int x) { return twice(x); }\n'
