@@ -39,7 +39,7 @@ class Item(NamedTuple):
     makes: Tuple[str, ...]  # patterns below the top
     idle: bool
     long: bool
-    unknown: bool  # what it made is older than this script; the mark leaves with the item's next run
+    due: bool  # what it made is of an earlier version, or nobody knows of which; the mark leaves with the item's next run
 
     def files(self) -> List[str]:
         """What there is of it, below the top."""
@@ -74,10 +74,17 @@ def read_items(path: Path = ITEMS) -> List[Item]:
             tuple(entry["makes"]),
             bool(entry.get("idle", False)),
             bool(entry.get("long", False)),
-            bool(entry.get("unknown", False)),
+            bool(entry.get("due", False)),
         )
         for entry in entries
     ]
+
+
+def without_due(text: str, name: str) -> str:
+    """The list of items, one of which is no longer due."""
+    head, *parts = text.split("[[item]]\n")
+    made = [part.replace("due = true\n", "") if part.startswith(f'name = "{name}"') else part for part in parts]
+    return "[[item]]\n".join((head, *made))
 
 
 def read_ages() -> Dict[str, Tuple[str, Age]]:
@@ -128,23 +135,24 @@ def show(items: List[Item], ages: Dict[str, Tuple[str, Age]]) -> None:
     for item in items:
         age = oldest(item, ages)
         told = f"{age.version}, commit {age.commit}, {age.date}, {age.processor}" if age else "unknown programs"
-        notes = [note for note, holds in (("idle machine", item.idle), ("by name only", item.long)) if holds]
+        marks = (("due", item.due), ("idle machine", item.idle), ("by name only", item.long))
+        notes = [note for note, holds in marks if holds]
         print(f"{item.name:16} {item.minutes:7g}  {told}{'; ' if notes else ''}{', '.join(notes)}")
     print(f"{'in all':16} {sum(item.minutes for item in items if not item.long):7g}  without those by name only")
 
 
 def stale(items: List[Item], ages: Dict[str, Tuple[str, Age]], version: str, results: str) -> List[str]:
-    """What is of another minor version or of programs with other results, or of nobody knows which, a line for each."""
+    """What is of another minor version or of programs with other results, or of nobody knows which, a line for each. Not of items
+    that are due, of which the list says so."""
     lines = []
     for item in items:
         files = item.files()
         if not files:
             lines.append(f"{item.name}: there is nothing of {', '.join(item.makes)}")
-        for file in files:
+        for file in () if item.due else files:
             age = ages.get(file, (None, None))[1]
             if age is None:
-                if not item.unknown:
-                    lines.append(f"{file}: docs/data/made-by.csv does not say by which programs it was made")
+                lines.append(f"{file}: docs/data/made-by.csv does not say by which programs it was made")
             elif minor(age.version) != minor(version):
                 lines.append(f"{file}: made by version {age.version}, the programs are of {version}")
             elif age.results != results:
@@ -227,6 +235,7 @@ def main(words: List[str]) -> int:
         ages = {file: row for file, row in read_ages().items() if row[0] != item.name}
         ages.update({file: (item.name, age) for file in item.files()})
         write_ages(ages)
+        ITEMS.write_text(without_due(ITEMS.read_text(encoding="utf-8"), item.name), encoding="utf-8")
         print(f"   {(time.monotonic() - start) / 60:.1f} min", flush=True)
     if failed:
         fail(f"not made: {', '.join(failed)}; what is made stays, the same command goes on")

@@ -1,16 +1,20 @@
 """release.py ROOT: the version in CMakeLists.txt, the newest version of CHANGELOG.md, CITATION.cff and the page on installing agree, and
-CITATION.cff holds what its format, version 1.2.0, demands.
+CITATION.cff holds what its format, version 1.2.0, demands. While CHANGELOG.md has an "Unreleased", the version in CMakeLists.txt and
+on that page may be a later one: that which the programs become, and by which evidence is made for it. What is due of that must be
+made when the version is released.
 """
 
 import datetime
 import re
 import sys
+import tomllib
 from pathlib import Path
 from typing import Any, Iterator, List, Optional, Tuple
 
 import yaml
 
 INSTALL = "docs/guide/install.md"
+EVIDENCE = "scripts/evidence/items.toml"
 SECTION = re.compile(r"^## (.*)$", re.MULTILINE)
 RELEASE = re.compile(r"(\d+\.\d+\.\d+) \((\d{4}-\d{2}-\d{2})\)")
 REFERENCE_TYPES = (
@@ -41,7 +45,7 @@ def releases(text: str) -> Tuple[List[Tuple[str, str]], List[str]]:
             found.append((match.group(1), match.group(2)))
         elif title != "Unreleased" or number > 0:
             problems.append(f"CHANGELOG.md: '## {title}' is no '## VERSION (YYYY-MM-DD)', nor 'Unreleased' at the top")
-    order = [tuple(map(int, version.split("."))) for version, _ in found]
+    order = [numbers(version) for version, _ in found]
     if order != sorted(set(order), reverse=True):
         problems.append("CHANGELOG.md: versions do not descend")
     dates = [date for _, date in found]
@@ -90,10 +94,33 @@ def problems(root: Path) -> Iterator[str]:
     if version is None:
         yield "CMakeLists.txt: project(): has no VERSION"
         return
-    found, wrong = releases((root / "CHANGELOG.md").read_text(encoding="utf-8"))
+    changes = (root / "CHANGELOG.md").read_text(encoding="utf-8")
+    found, wrong = releases(changes)
     yield from wrong
-    if not found or found[0][0] != version:
-        yield f"CHANGELOG.md: the newest version is {found[0][0] if found else 'none'}, that of CMakeLists.txt {version}"
+    newest = found[0][0] if found else "none"
+    in_work = SECTION.findall(changes)[:1] == ["Unreleased"]
+    if newest != version and not (in_work and found and numbers(version) > numbers(newest)):
+        yield f"CHANGELOG.md: the newest version is {newest}, that of CMakeLists.txt {version}"
+    yield from wrong_of_citation(root, found)
+    minor = ".".join(version.split(".")[:2])
+    asked = re.findall(r"find_package\(fsi-duo (\S+)", (root / INSTALL).read_text(encoding="utf-8"))
+    if not asked:
+        yield f"{INSTALL}: does not say find_package(fsi-duo {minor} ...)"
+    for one in asked:
+        if one != minor:
+            yield f"{INSTALL}: find_package(fsi-duo {one}): the version is {version}"
+    items = tomllib.loads((root / EVIDENCE).read_text(encoding="utf-8"))["item"]
+    due = [item["name"] for item in items if item.get("due")]
+    if due and not in_work:
+        yield f"{EVIDENCE}: due: {', '.join(due)}, but {version} is released; run scripts/evidence.sh"
+
+
+def numbers(version: str) -> Tuple[int, ...]:
+    return tuple(map(int, version.split(".")))
+
+
+def wrong_of_citation(root: Path, found: List[Tuple[str, str]]) -> Iterator[str]:
+    """Of CITATION.cff, which names the newest of the releases (version, date) found."""
     try:
         citation = yaml.safe_load((root / "CITATION.cff").read_text(encoding="utf-8"))
     except (OSError, yaml.YAMLError) as error:
@@ -103,20 +130,12 @@ def problems(root: Path) -> Iterator[str]:
     yield from wrong
     if wrong:
         return
-    if citation["version"] != version:
-        yield f"CITATION.cff: version: is {citation['version']}, that of CMakeLists.txt {version}"
-    if found and str(citation["date-released"]) != found[0][1]:
-        yield f"CITATION.cff: date-released: is {citation['date-released']}, that of CHANGELOG.md {found[0][1]}"
+    for key, newest in zip(("version", "date-released"), found[0] if found else ()):
+        if str(citation[key]) != newest:
+            yield f"CITATION.cff: {key}: is {citation[key]}, that of CHANGELOG.md {newest}"
     license_title = (root / "LICENSE").read_text(encoding="utf-8").split("\n", 1)[0]
     if license_title != f"{citation['license']} License":
         yield f"CITATION.cff: license: is {citation['license']}, LICENSE is the {license_title}"
-    minor = ".".join(version.split(".")[:2])
-    asked = re.findall(r"find_package\(fsi-duo (\S+)", (root / INSTALL).read_text(encoding="utf-8"))
-    if not asked:
-        yield f"{INSTALL}: does not say find_package(fsi-duo {minor} ...)"
-    for one in asked:
-        if one != minor:
-            yield f"{INSTALL}: find_package(fsi-duo {one}): the version is {version}"
 
 
 def main(words: List[str]) -> int:

@@ -74,7 +74,17 @@ class Stale(unittest.TestCase):
 
     def test_of_nobody_knows_which(self):
         self.assertRegex(self.told(None)[0], "made-by.csv does not say")
-        self.assertEqual(self.told(None, self.item._replace(unknown=True)), [])
+        self.assertEqual(self.told(None, self.item._replace(due=True)), [])
+
+    def test_what_is_due_may_be_of_an_earlier_version_until_it_is_made(self):
+        older = NOW._replace(version="0.2.9")
+        self.assertEqual(self.told(older, self.item._replace(due=True)), [])
+        text = (
+            '[[item]]\nname = "a"\ndue = true\nminutes = 1\n\n[[item]]\nname = "ab"  # long\nminutes = 2\ndue = true\n'
+        )
+        left = evidence.without_due(text, "ab")
+        self.assertEqual(left, text[: -len("due = true\n")])
+        self.assertEqual(evidence.without_due(left, "a").count("due"), 0)
 
     def test_nothing_made(self):
         self.assertRegex(self.told(NOW, self.item._replace(makes=("gone.csv",)))[0], "nothing of gone.csv")

@@ -11,6 +11,7 @@ from release import main
 CLEAN = {
     "CMakeLists.txt": "cmake_minimum_required(VERSION 3.22)\nproject(fsi-duo VERSION 1.2.3 LANGUAGES CXX)\n",
     "CHANGELOG.md": "# Changelog\n\n## Unreleased\n\n## 1.2.3 (2026-03-02)\n### New\n\n## 1.2.0 (2026-03-01)\n",
+    "scripts/evidence/items.toml": '[[item]]\nname = "one"\n\n[[item]]\nname = "two"\n',
     "LICENSE": "MIT License\n\nCopyright\n",
     "docs/guide/install.md": "find_package(fsi-duo 1.2 REQUIRED)\n",
     "CITATION.cff": """cff-version: 1.2.0
@@ -49,10 +50,28 @@ class Release(unittest.TestCase):
     def test_clean(self):
         self.assertEqual(self.said(), (0, ""))
 
+    def write(self, name, old, new):
+        text = (self.root / name).read_text()
+        self.assertIn(old, text)
+        (self.root / name).write_text(text.replace(old, new))
+
+    def test_a_version_in_work(self):
+        self.write("CMakeLists.txt", "1.2.3", "1.3.0")
+        self.assertIn("install.md: find_package(fsi-duo 1.2)", self.said()[1])
+        self.write("docs/guide/install.md", "1.2", "1.3")
+        self.assertEqual(self.said(), (0, ""))
+        self.write("scripts/evidence/items.toml", '"two"', '"two"\ndue = true')
+        self.assertEqual(self.said(), (0, ""))
+        self.write("CHANGELOG.md", "## Unreleased\n", "")
+        code, said = self.said()
+        self.assertEqual(code, 1)
+        self.assertIn("the newest version is 1.2.3, that of CMakeLists.txt 1.3.0", said)
+        self.assertIn("due: two, but 1.3.0 is released", said)
+
     def test_mistakes(self):
         for name, old, new, expected in (
-            ("CMakeLists.txt", "1.2.3", "1.3.0", "CHANGELOG.md: the newest version is 1.2.3"),
-            ("CMakeLists.txt", "1.2.3", "1.3.0", "CITATION.cff: version: is 1.2.3"),
+            ("CMakeLists.txt", "1.2.3", "1.2.2", "CHANGELOG.md: the newest version is 1.2.3"),
+            ("CHANGELOG.md", "1.2.3", "1.2.4", "CITATION.cff: version: is 1.2.3"),
             ("CMakeLists.txt", "1.2.3", "1.3.0", "install.md: find_package(fsi-duo 1.2)"),
             ("docs/guide/install.md", "find_package", "find", "install.md: does not say find_package(fsi-duo 1.2"),
             ("CMakeLists.txt", " VERSION 1.2.3", "", "has no VERSION"),
