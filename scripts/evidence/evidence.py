@@ -5,7 +5,7 @@ usage: scripts/evidence.sh [--list | --check] [--work FOLDER] [--programs BIN] [
   --check     exit code 1 where something is of other programs than those of BIN; makes nothing
   --work      keeps meshes and runs, so that a stopped item goes on; default: results/evidence
   --programs  default: build/release/bin
-  ITEM        only these; without one, all but the long ones that are not of this age
+  ITEM        only these; without one, all but the long ones that are due or of other programs
 An item that is done is of the age of the sources that it was made from: version, commit and, by scripts/evidence/short_runs.py,
 results of the programs. docs/data/made-by.csv keeps that, a row for each file. Exit code 1: an item failed; the others are made.
 """
@@ -55,10 +55,6 @@ class Age(NamedTuple):
     results: str
     processor: str
     date: str
-
-    def is_of(self, other: "Age") -> bool:
-        """Whether the programs were the same."""
-        return self[:3] == other[:3]
 
 
 COLUMNS = ("file", "item", *Age._fields)
@@ -221,10 +217,10 @@ def main(words: List[str]) -> int:
     failed = []
     for item in items:
         now = age_of(programs)  # of each item: the first one names the results
-        before = oldest(item, ages)
         if options.items and item.name not in options.items:
             continue
-        if not options.items and (item.long or (before is not None and before.is_of(now))):
+        wanted = item is items[0] or item.due or bool(stale([item], ages, now.version, now.results))  # the short runs
+        if not options.items and (item.long or not wanted):
             continue
         print(f"== {item.name}, about {item.minutes:g} min", flush=True)
         start = time.monotonic()
