@@ -1,22 +1,34 @@
-"""The command line of fsi-compare."""
+"""The command line of fsi-compare. A command is imported when it is called, since all of them take longer than most run."""
 
 import argparse
-from typing import Any, NoReturn, Sequence
+from importlib import import_module
+from typing import Mapping, NoReturn, Sequence
 
 from .base.errors import InputError
-from .mesh_import import command as mesh_import
-from .mesh_import import surface_command
-from .peer_cases import command as peer_cases
-from .reporting import accuracy, cost, export, picture_command, pressure, run_report, watch
-from .study import command as study, source_tree
+from .study import source_tree
 from .study.catalogue import OWN, Catalogue
-from .gallery import command as gallery
-from .tune import command as tune
-from .verify import command as verify
 
-OF_RESULTS = (pressure, run_report, picture_command, watch, cost, export, accuracy)
-OF_RUNS = (gallery, verify, tune)
-OF_IMPORT = (mesh_import, surface_command, peer_cases)
+# The module of each, which has a function add_parser.
+OF_RESULTS = {
+    "pressure": "fsi_compare.reporting.pressure",
+    "report": "fsi_compare.reporting.run_report",
+    "picture": "fsi_compare.reporting.picture_command",
+    "watch": "fsi_compare.reporting.watch",
+    "cost": "fsi_compare.reporting.cost",
+    "export": "fsi_compare.reporting.export",
+    "accuracy": "fsi_compare.reporting.accuracy",
+}
+OF_RUNS = {
+    "study": "fsi_compare.study.command",
+    "gallery": "fsi_compare.gallery.command",
+    "verify": "fsi_compare.verify.command",
+    "tune": "fsi_compare.tune.command",
+}
+OF_IMPORT = {
+    "convert-mesh": "fsi_compare.mesh_import.command",
+    "convert-surface": "fsi_compare.mesh_import.surface_command",
+    "convert-case": "fsi_compare.peer_cases.command",
+}
 
 
 class _Parser(argparse.ArgumentParser):
@@ -26,25 +38,29 @@ class _Parser(argparse.ArgumentParser):
         raise InputError("", "", message, f"see {self.prog} --help")
 
 
-def parser(version: str, catalogue: Catalogue = OWN, more: Sequence[Any] = ()) -> argparse.ArgumentParser:
-    """`more`: commands that the source tree adds."""
+def parser(version: str, modules: Mapping[str, str], catalogue: Catalogue = OWN) -> argparse.ArgumentParser:
+    """Of commands by name and module."""
     about = "Compares finished runs, and makes runs to judge a case by: studies, error bars, tuned openings."
     top = _Parser(prog="fsi-compare", description=about, allow_abbrev=False)
     top.add_argument("--version", action="version", version=f"fsi-compare {version}")
     commands = top.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
-    for command in (*OF_RESULTS, *more):
-        command.add_parser(commands, version)
-    study.add_parser(commands, version, catalogue)
-    for command in (*OF_RUNS, *OF_IMPORT):
-        command.add_parser(commands, version)
+    for name, module in modules.items():
+        catalogues = (catalogue,) if name == "study" else ()
+        import_module(module).add_parser(commands, version, *catalogues)
     return top
 
 
-def run(arguments: Sequence[str], version: str, catalogue: Catalogue = OWN, more: Sequence[Any] = ()) -> int:
-    """The exit code. Raises InputError for wrong use and bad input."""
-    if not more and arguments and arguments[0] in source_tree.COMMANDS:
-        raise source_tree.refusal("", "", f"the command {arguments[0]}")
-    top = parser(version, catalogue, more)
+def run(
+    arguments: Sequence[str], version: str, catalogue: Catalogue = OWN, more: Mapping[str, str] | None = None
+) -> int:
+    """The exit code. `more`: commands that the source tree adds. Raises InputError for wrong use and bad input."""
+    called = arguments[0] if arguments else ""
+    if not more and called in source_tree.COMMANDS:
+        raise source_tree.refusal("", "", f"the command {called}")
+    modules = {**OF_RESULTS, **(more or {}), **OF_RUNS, **OF_IMPORT}
+    if called in modules or called == "--version":
+        modules = {name: module for name, module in modules.items() if name == called}
+    top = parser(version, modules, catalogue)
     try:
         options = top.parse_args(list(arguments))
     except SystemExit as end:  # of --help and --version

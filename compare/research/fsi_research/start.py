@@ -20,7 +20,6 @@ def main(arguments: Sequence[str], version: str = "unknown", to_the_end: bool = 
 def _load() -> start.Run:
     from fsi_compare import cli
 
-    from .linear import command as linear
     from .studies import CATALOGUE
 
-    return functools.partial(cli.run, catalogue=CATALOGUE, more=(linear,))
+    return functools.partial(cli.run, catalogue=CATALOGUE, more={"solvers": "fsi_research.linear.command"})
