@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from folder_case import FolderCase
+from fsi_compare import cli
 from synthetic import TIMES, Z, parabola, write_run
 
 
@@ -27,6 +28,12 @@ class CommandLine(FolderCase):
         self.assertTrue(err.startswith("fsi-compare: error: "), err)
         self.assertIn(expected, err)
         self.assertFalse(self.out.exists(), "nothing may be written when the input is bad")
+
+    def test_each_command_is_that_of_its_module(self):
+        for name, module in {**cli.OF_RESULTS, **cli.OF_RUNS, **cli.OF_IMPORT}.items():
+            with self.subTest(name):
+                (commands,) = (a.choices for a in cli.parser("1.2.3", {name: module})._actions if a.choices)
+                self.assertEqual(list(commands), [name])
 
     def test_tables(self):
         code, out, err = self.call("pressure", self.one, self.two, "-o", self.out)
