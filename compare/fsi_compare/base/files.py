@@ -17,6 +17,8 @@ DEEPEST = 50  # levels of lists and sections; ours have five
 LARGEST = 64 << 20  # bytes of a JSON or TOML file; ours have a few thousand
 TEMPORARY = ".part"  # ends the names of files that are being written
 ELSEWHERE = "name another folder with -o"
+# Not those of Path: a name that is too long or a folder that may not be looked into is no exception.
+exists, is_file, is_folder = os.path.exists, os.path.isfile, os.path.isdir
 
 
 def folder(text: str) -> Path:
@@ -25,19 +27,6 @@ def folder(text: str) -> Path:
     if not text.strip():
         raise ValueError(text)
     return Path(text)
-
-
-def exists(path: Path) -> bool:
-    """Like Path.exists, but a name that is too long or a folder that may not be looked into is no exception."""
-    return os.path.exists(path)
-
-
-def is_file(path: Path) -> bool:
-    return os.path.isfile(path)
-
-
-def is_folder(path: Path) -> bool:
-    return os.path.isdir(path)
 
 
 def absolute(path: Path) -> Path:
