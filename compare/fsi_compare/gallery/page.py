@@ -4,7 +4,7 @@ from os.path import normpath
 from pathlib import Path
 from typing import Any, Mapping, Sequence
 
-from ..reporting.column import Column
+from ..reporting.column import Column, work_column
 from ..reporting.layout import Table
 from ..reporting.report import Report
 from ..results.run import RunResults
@@ -13,7 +13,6 @@ from ..runs.work_units import NOTE, per_step
 from .mesh_chain import as_typed, with_places
 from .running import Outcome
 from .scene import Number, Scene, SceneRun
-from ..reporting.work_column import work_column
 
 TITLE = "fsi-duo: gallery"
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..base.errors import InputError, printable
 from ..base.files import exists
 from ..base.options import Commands, add_command, add_folders, add_labels, add_output, add_times, add_title, add_usual
-from .column import Column, Facts
+from .column import Column, Facts, work_column
 from .layout import Table, hand_out
 from .pressure import read_times
 from ..runs.columns import read_iterations
@@ -20,7 +20,6 @@ from ..runs.run_folder import read_finished
 from ..runs.work_units import in_all, notes_on_work
 from ..runs.reference import FILE as DESCRIPTION_FILE, read_reference
 from ..runs.waves import PRESSURE, QUANTITIES, WINDOW, WRITTEN, Quantity, Waves, read_run, relative_difference
-from .work_column import work_column
 
 TIMES = "1.5,3,4.5,6"
 SAME_STEP = 1e-6  # relative

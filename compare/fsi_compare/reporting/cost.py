@@ -14,9 +14,8 @@ from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
 from ..runs.summary import PROGRAMS
 from ..runs.work_units import notes_on_work, per_step
-from .column import Column
+from .column import Column, work_column
 from .layout import Table, hand_out
-from .work_column import work_column
 
 DESCRIPTION = """\
 Tabulates what finished runs took: work units, wall time, coupling iterations, solves of the whole system and of the

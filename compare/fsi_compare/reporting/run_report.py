@@ -14,7 +14,7 @@ from ..runs.coupling import with_coupling
 from ..runs.labels import folder_labels, read_labels, title_of
 from ..runs.samples import CENTRE_LINE
 from ..runs.work_units import about_machines, notes_on_work, per_step
-from .column import Column, Facts
+from .column import Column, Facts, work_column
 from .error_bars import add_error_bars, find_bars
 from .first_read import case_lines, constants_table, cost_table, cycles_table, openings_table, thickness_table
 from .first_read import trust_table
@@ -22,7 +22,6 @@ from .layout import Table, say_written
 from .matplotlib_loader import load_matplotlib
 from .pressure import MOST_TIMES, read_times
 from .samples import sample_differences, sample_table
-from .work_column import work_column
 
 if TYPE_CHECKING:
     from .report import Report
