@@ -94,15 +94,6 @@ class Study:
     processes: int = 1  # of each run whose group does not say
     scenes: Mapping[str, Scene] = field(default_factory=dict)  # of the cases that are scenes of the gallery
 
-    def request(
-        self, group: str, case: str, method: str, values: Entries, settings: Entries, mesh: str | None = None
-    ) -> Request:
-        """One more run, for kinds that decide on the next run from the last."""
-        chosen = self.methods[method]
-        merged = {**self.settings, **self.case_settings.get(case, {}), **chosen.settings, **settings}
-        made = self.meshes[mesh] if mesh else mesh_of_scene(self.scenes.get(case), self.quick)
-        return Request(group, case, chosen, dict(values), self.cases[case], made, merged, self.time_limit)
-
 
 def method_of(driver: str) -> Method:
     """A driver as it is: `monolithic` or `partitioned`."""

@@ -79,7 +79,7 @@ def evaluate(context: Context) -> int:
 
 
 def _runs_of(context: Context, case: str) -> Dict[str, StudyRun]:
-    return {run.request.method.program: run for run in context.select(case=case)}
+    return {run.request.method.program: run for run in context.runs if run.request.case == case}
 
 
 def _measure(scene: Scene, runs: Mapping[str, StudyRun], quick: bool) -> Measured:
