@@ -213,11 +213,3 @@ def displaced(surface: Surface, time: float, factor: float = 1.0) -> np.ndarray:
     if "displacement" not in surface.names or factor == 0:
         return surface.points
     return surface.points + factor * surface.at(time, "displacement")
-
-
-def largest_at(surface: Surface, values: np.ndarray) -> tuple[float, np.ndarray | None]:
-    """The largest of these values at its points, and where that is, mm; None without points."""
-    if not len(values):
-        return float("nan"), None
-    place = int(np.nanargmax(values))
-    return float(values[place]), surface.points[place]

@@ -63,12 +63,6 @@ def pressure_file(folder: Path) -> Path:
     return folder / (LINES if found else ALONG_AXIS)
 
 
-def has_pressure(folder: Path) -> bool:
-    """Whether there is a line to read the pressure along. Raises InputError."""
-    lines = folder / LINES
-    return is_file(folder / ALONG_AXIS) or (is_file(lines) and requested_line(lines) is not None)
-
-
 def read_pressure_line(folder: Path) -> PressureWaves:
     """The pressure along the centre line; of a vessel without one along the line of `lines.csv` that stands for it
     (runs/samples.py), its arc length in place of z. Raises InputError."""

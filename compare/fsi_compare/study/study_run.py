@@ -11,7 +11,7 @@ from ..runs.columns import Columns, read_columns
 from ..runs.pressure_waves import PressureWaves
 from ..runs.run_folder import read_pressure_line
 from ..runs.summary import FILE, checked
-from ..runs.work_units import in_all, per_step
+from ..runs.work_units import per_step
 from .study_file import Request
 
 DONE = "done"
@@ -64,9 +64,6 @@ class StudyRun:
         """All columns of a CSV of the run, e.g. `iterations.csv`. Raises InputError when it is missing or broken."""
         return read_columns(self.folder / file)
 
-    def has(self, file: str) -> bool:
-        return is_file(self.folder / file)
-
     @property
     def method_label(self) -> str:
         """The method's name in the study; behind it the kind of coupling of a partitioned run, and the scheme where the
@@ -90,11 +87,6 @@ class StudyRun:
     def work_units_per_step(self) -> float | None:
         """Work units per step; None: the run did not measure the unit."""
         return per_step(self.summary)
-
-    @property
-    def work_units(self) -> float | None:
-        """Work units of all time steps."""
-        return in_all(self.summary)
 
     @property
     def passes(self) -> float:

@@ -6,6 +6,7 @@ from typing import Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 from fsi_compare.base.case_names import short_name
 from fsi_compare.runs.coupling import coupling_kind
 from fsi_compare.runs.waves import AVERAGED, DISPLACEMENT, QUANTITIES, Waves, read_run, relative_difference
+from fsi_compare.runs.work_units import in_all
 from fsi_compare.study.study_file import Request, show
 from fsi_compare.study.study_run import StudyRun
 from .plan import Plan
@@ -42,7 +43,7 @@ class Measured:
 
     @property
     def work_units(self) -> Optional[float]:
-        return self.run.work_units
+        return in_all(self.run.summary)
 
     @property
     def step(self) -> float:  # ms
