@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Sequence
 
-from ..base.errors import InputError, printable
+from ..base.errors import printable
 from ..base.files import exists
 from ..base.options import Commands, add_command, add_folders, add_labels, add_output, add_title, add_usual
 from ..runs.columns import read_columns, read_iterations

@@ -4,7 +4,7 @@ import shlex
 from typing import TYPE_CHECKING, Sequence
 
 from ..results.run import RunResults
-from ..runs.verification import KeptBar, Verification, find_verification
+from ..runs.verification import KeptBar, Verification
 from .column import Column
 from .layout import Table
 
@@ -28,11 +28,6 @@ def _said(bar: KeptBar) -> str:
     return f"{bar.verdict}: {bar.advice}" if bar.advice else bar.verdict
 
 
-def find_bars(runs: Sequence[RunResults]) -> list[Verification | None]:
-    """The bars beside each run; None: no family is beside it. Raises InputError for a broken file."""
-    return [find_verification(run.folder, run.summary) for run in runs]
-
-
 def unknown(run: RunResults, label: str) -> str:
     """The line for a run without bars."""
     case = shlex.quote(str(run.summary.get("case") or "CASE.toml"))
@@ -42,6 +37,7 @@ def unknown(run: RunResults, label: str) -> str:
 def add_error_bars(
     page: "Report", runs: Sequence[RunResults], labels: Sequence[str], found: Sequence[Verification | None]
 ) -> None:
+    """`found`: the bars beside each run; None: no family is beside it."""
     page.section("Error bars")
     rows = [(label, bar) for label, of_run in zip(labels, found) if of_run is not None for bar in of_run.bars]
     if rows:

@@ -4,7 +4,7 @@ import argparse
 from typing import TYPE_CHECKING, NamedTuple, Sequence
 
 from ..base.errors import InputError, printable, say_note
-from ..base.files import folder, together
+from ..base.files import together
 from ..base.options import Commands, add_command, add_count, add_folders, add_labels, add_output, add_usual
 from ..results.comparison import difference
 from ..results.line import Line
@@ -13,9 +13,10 @@ from ..runs.differences import Difference
 from ..runs.coupling import with_coupling
 from ..runs.labels import folder_labels, read_labels, title_of
 from ..runs.samples import CENTRE_LINE
+from ..runs.verification import find_verification
 from ..runs.work_units import about_machines, notes_on_work, per_step
 from .column import Column, Facts, work_column
-from .error_bars import add_error_bars, find_bars
+from .error_bars import add_error_bars
 from .first_read import case_lines, constants_table, cost_table, cycles_table, openings_table, thickness_table
 from .first_read import trust_table
 from .layout import Table, say_written
@@ -66,7 +67,7 @@ def report(options: argparse.Namespace) -> int:
         pairs = zip(folder_labels(options.folders), runs)
         labels = [with_coupling(label, run.program, run.summary) for label, run in pairs]
     check_runs(runs, times)
-    bars = find_bars(runs)
+    bars = [find_verification(run.folder, run.summary) for run in runs]
     tables = [differences_table(runs, labels), sample_table(sample_differences(options.folders), labels)]
     title = title_of(options.title, [run.title for run in runs], "Runs beside each other")
     with together(options.output) as place:
