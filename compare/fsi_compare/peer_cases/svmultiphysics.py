@@ -98,11 +98,7 @@ class Medium:
     name: str = ""  # group
 
 
-def is_case(root: Entry) -> bool:
-    return root.name == "svMultiPhysicsFile"
-
-
-def read_case(root: Entry, units: Units, fibre_angle: float | None = None, tolerance: float = 0.0) -> PeerCase:
+def read_case(root: Entry, units: Units, fibre_angle: float | None, tolerance: float) -> PeerCase:
     """Reads solver.xml. Raises InputError."""
     return _Reader(root, units, fibre_angle, tolerance).read()
 
