@@ -2,7 +2,6 @@
 
 With NLGEOM its *ELASTIC is St. Venant and Kirchhoff's law, without it the linear one."""
 
-from dataclasses import dataclass
 from pathlib import Path
 
 from ..base.errors import InputError
@@ -13,12 +12,6 @@ SI = SYSTEMS["si"]
 Card = tuple[int, str, list[str]]  # line, keyword line, and lines of data
 
 
-@dataclass
-class Deck:
-    path: Path
-    words: list[str]  # in our keys and units, if the deck is in SI
-
-
 def deck_beside(folder: Path) -> Path | None:
     """The only .inp in the folder or one below it that has a material; None where there are none or several."""
     small = [p for p in [*folder.glob("*.inp"), *folder.glob("*/*.inp")] if p.is_file() and p.stat().st_size <= LARGEST]
@@ -26,8 +19,8 @@ def deck_beside(folder: Path) -> Path | None:
     return found[0] if len(found) == 1 else None
 
 
-def read_deck(path: Path) -> Deck:
-    """Reads a deck. Raises InputError."""
+def read_deck(path: Path) -> list[str]:
+    """What a deck says, in our keys and units, if it is in SI. Raises InputError."""
     by_name: dict[str, list[Card]] = {}
     for card in _cards(path):
         by_name.setdefault(card[1].split(",")[0].strip().upper(), []).append(card)
@@ -48,7 +41,7 @@ def read_deck(path: Path) -> Deck:
     if "*DYNAMIC" in by_name:
         step, end = _numbers(path, by_name["*DYNAMIC"][0], 2)
         words.append(f"time.step = {step * SI.time:g}, time.end = {end * SI.time:g}")
-    return Deck(path, words)
+    return words
 
 
 def _cards(path: Path) -> list[Card]:

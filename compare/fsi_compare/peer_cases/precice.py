@@ -27,7 +27,7 @@ def refusal(root: Entry) -> InputError:
     deck = deck_beside(root.file.parent)
     if deck is not None:
         wall = str(deck)
-        said.append(f"of the wall {deck} says {', '.join(read_deck(deck).words)}")
+        said.append(f"of the wall {deck} says {', '.join(read_deck(deck))}")
     words = f" (in SI {'; '.join(said)})" if said else ""
     command = f"fsi-mesh import fluid=FILE wall={wall} -o FILE.msh"
     remedy = f"import the meshes of both, the fluid's from its program: {command}; then write the case file by hand"
