@@ -86,16 +86,8 @@ def add_still(report: Report, stem: str, run: RunResults, asked: Mapping[str, An
     report.still(stem, lambda: run.picture(**words), f"{caption[0].upper()}{caption[1:]} at {when}.")
 
 
-def driver(program: str) -> str:
-    return program.removeprefix("fsi-")
-
-
 def differs(number: Number) -> str:
     return percent(number.error) + ("" if number.holds else " (!)")
-
-
-def quantity(number: Number) -> str:
-    return number.what + (f" [{number.unit}]" if number.unit else "")
 
 
 def percent(share: float) -> str:
@@ -107,9 +99,11 @@ def total(run: SceneRun, name: str) -> Any:
 
 
 NUMBERS: Sequence[Column[Number]] = (
-    Column("quantity", "quantity", lambda n: n.what, text=quantity, left=True),
+    Column(
+        "quantity", "quantity", lambda n: n.what, text=lambda n: f"{n.what} [{n.unit}]" if n.unit else n.what, left=True
+    ),
     Column(csv="unit", value=lambda n: n.unit),
-    Column("driver", "program", lambda n: n.program, driver, left=True),
+    Column("driver", "program", lambda n: n.program, lambda name: name.removeprefix("fsi-"), left=True),
     Column("known from", "source", lambda n: n.source, left=True),
     Column("value", "value", lambda n: n.value, ".5g"),
     Column("known", "reference", lambda n: n.reference, ".5g"),

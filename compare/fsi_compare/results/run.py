@@ -16,7 +16,7 @@ from ..runs.summary import AGAIN, FILE, FINISHED, PROGRAMS, checked
 from .fields import MediumFields, read_fields
 from .line import Line, line_of, lines_of
 from .openings import Opening, inlet_and_outlet, openings_of
-from .picture import Scene, camera_named, picture
+from .picture import Scene, picture
 from .surfaces import Surface, Surfaces
 from .table import Table, read_table
 
@@ -190,7 +190,7 @@ class RunResults:
         """The vessel coloured by a field as a matplotlib figure: at a time in ms (default: the last), moved by `factor`
         times the displacement, `cut` open by a plane through its middle or not (default: for the velocity), in 'kPa',
         'Pa' or 'mmHg', with the range of colours `span`, seen from 'x', '-x', ... or an opening. Raises InputError."""
-        return picture(self.scene, field, time, factor, cut, unit, span, camera_named(self.scene, view), self.label)
+        return picture(self.scene, field, time, factor, cut, unit, span, view, self.label)
 
     @cached_property
     def meshes(self) -> Surfaces:
