@@ -114,10 +114,6 @@ def _wanted(key: Line, options: dict[str, str], name: str) -> str:
     return value
 
 
-def _words(line: Line) -> list[str]:
-    return [word.strip() for word in line.text.split(",") if word.strip()]
-
-
 def _shape(said: str) -> tuple[int, int]:
     """Dimension and nodes of a type of elements: 3 and 10 of C3D10MH; 0 for one that is not known."""
     for name, found in OTHER_TYPES.items():
@@ -384,7 +380,7 @@ def _set_numbers(
     """Numbers of a set, which may name other sets. `words` begin the message for one that is not there."""
     numbers: list[int] = []
     for line in data:
-        entries, found = _words(line), []
+        entries, found = [word.strip() for word in line.text.split(",") if word.strip()], []
         if "GENERATE" in options:
             try:
                 first, last = int(entries[0]), int(entries[1])

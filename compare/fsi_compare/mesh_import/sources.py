@@ -75,7 +75,9 @@ def read_sources(sources: Sequence[Source], scale: float) -> tuple[FoundMesh, li
         for name in [*mesh.cells, *mesh.points_of]:
             if name == WHOLE:
                 continue
-            known = take(f"{stem}/{name}" if source.name or _taken(name, mesh, meshes) else name)
+            others = (other for other in meshes if other is not mesh)
+            twice = any(name in other.cells or name in other.points_of for other in others)
+            known = take(f"{stem}/{name}" if source.name or twice else name)
             if name in mesh.points_of:
                 whole.points_of[known] = mesh.points_of[name] + first
                 continue
@@ -88,10 +90,6 @@ def read_sources(sources: Sequence[Source], scale: float) -> tuple[FoundMesh, li
         numbered.add(WHOLE)
     whole.numbered = frozenset(numbered)
     return whole, ends
-
-
-def _taken(name: str, mesh: FoundMesh, meshes: Sequence[FoundMesh]) -> bool:
-    return any(name in other.cells or name in other.points_of for other in meshes if other is not mesh)
 
 
 def join(file: str, mesh: FoundMesh, ends: Sequence[int], tolerance: float) -> list[str]:
