@@ -188,6 +188,12 @@ def replacing(path: Path) -> Iterator[Path]:
             os.unlink(temporary)
 
 
+def write_text(path: Path, text: str) -> None:
+    """Writes a file in UTF-8, whole or not at all. Raises InputError."""
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
 def _not_written(path: Path, error: OSError) -> InputError:
     return InputError(path, "", f"cannot be written: {error.strerror or error}", ELSEWHERE)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from ..base.errors import printable
-from ..base.files import replacing, together
+from ..base.files import replacing, together, write_text
 from .column import Column, Facts
 
 
@@ -104,8 +104,7 @@ def _field(cell: Any) -> Any:
 
 def write_tables(folder: Path, tables: Sequence[Table], markdown: str, heading: str) -> list[Path]:
     """Writes each table as CSV, and all into one Markdown file of that name."""
-    with replacing(folder / markdown) as temporary:
-        temporary.write_text("\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]), encoding="utf-8")
+    write_text(folder / markdown, "\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]))
     return [*(table.write_csv(folder) for table in tables), folder / markdown]
 
 

@@ -7,7 +7,7 @@ from typing import Any, Callable, Sequence
 
 from matplotlib.figure import Figure
 
-from ..base.files import replacing
+from ..base.files import write_text
 from .layout import Table
 from .coinciding import sentence_of_coinciding
 from .pictures import write_figure, write_plot
@@ -104,8 +104,7 @@ class Report:
         values: dict[str, Any] = {"title": self.title, "sections": self._sections, "blocks": self._blocks}
         values |= {"plays": "player" in kinds, "shows": "scene" in kinds}
         for name in ("report.md", "report.html"):
-            with replacing(self.folder / name) as temporary:
-                temporary.write_text(render(f"{name}.j2", **values).rstrip("\n") + "\n", encoding="utf-8")
+            write_text(self.folder / name, render(f"{name}.j2", **values).rstrip("\n") + "\n")
         self.written.append(self.folder / name)
         return self.folder / name
 

@@ -13,7 +13,7 @@ from typing import Any, Mapping, Sequence
 from ..base import interruption
 from ..base.errors import InputError, ProgramError
 from ..base.files import TEMPORARY, absolute, is_file, listed, make_folder, read_bytes, read_json, read_object
-from ..base.files import remove_tree, replacing
+from ..base.files import remove_tree, write_text
 from ..base.toml import toml_value
 from ..starting.launch import launched
 from ..gallery.mesh_chain import contents, make_mesh
@@ -72,7 +72,7 @@ class Runner:
     def run(self, requests: Sequence[Request]) -> list[StudyRun]:
         """Makes runs, and returns them in the order of the requests. The same run asked for twice is made once."""
         make_folder(self.folder / "runs")
-        keys = [fingerprint(*self._what_decides(r)) for r in requests]
+        keys = list(map(self._fingerprint, requests))
         progress = StudyProgress(self.quiet, self.jobs)
         jobs: list[Job] = []
         wanted: dict[str, Request] = {}
@@ -157,9 +157,9 @@ class Runner:
         self._known[key] = run
         self.seconds += max(run.seconds, sum(run.timings))
 
-    def _what_decides(self, request: Request) -> tuple[Request, Program, Path | None, int, int]:
-        mesh_file = self.mesh_file(request.mesh)
-        return request, self._program(request), mesh_file, self.threads, self.processes_of(request)
+    def _fingerprint(self, request: Request) -> str:
+        mesh = self.mesh_file(request.mesh)
+        return fingerprint(request, self._program(request), mesh, self.threads, self.processes_of(request))
 
     def processes_of(self, request: Request) -> int:
         return request.processes or self.processes
@@ -183,8 +183,7 @@ class Runner:
         if end.code:
             raise ProgramError(self.study.path, f"meshes.{mesh.name}", end.message, "change its options")
         os.replace(unfinished, path)
-        with replacing(path.with_suffix(".options.json")) as temporary:
-            temporary.write_text(json.dumps(recipe(mesh)), encoding="utf-8")
+        write_text(path.with_suffix(".options.json"), json.dumps(recipe(mesh)))
         return path
 
     def _mesh_path(self, mesh: StudyMesh) -> Path:
@@ -207,7 +206,7 @@ class Runner:
                 words = [str(request.case_file), request.method.name, mesh.name, *map(str, request.settings.items())]
                 found["; ".join(words)] = None
             else:
-                key = fingerprint(*self._what_decides(request))
+                key = self._fingerprint(request)
                 found[key] = self._finished(key, request)
         there = [run for run in found.values() if run is not None]
         return Standing(len(found), len(there), sum(not run.done for run in there))
@@ -269,8 +268,7 @@ def recipe(mesh: StudyMesh) -> list[str]:
 
 
 def write_record(folder: Path, record: dict[str, Any]) -> None:
-    with replacing(folder / RECORD) as temporary:
-        temporary.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    write_text(folder / RECORD, json.dumps(record, indent=1) + "\n")
 
 
 def remove_runs(folder: Path) -> None:

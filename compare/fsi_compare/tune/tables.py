@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from ..base.errors import printable
-from ..base.files import absolute, replacing
+from ..base.files import absolute, write_text
 from ..reporting.column import Column
 from ..reporting.layout import Table, say_written, write_tables
 from .scene import Scene
@@ -103,8 +103,7 @@ def write_results(
         "beats": [one.about for one in outcome.beats],
     }
     path = folder / "tune.json"
-    with replacing(path) as temporary:
-        temporary.write_text(json.dumps(said, indent=1) + "\n", encoding="utf-8")
+    write_text(path, json.dumps(said, indent=1) + "\n")
     return tables, [*written, path]
 
 

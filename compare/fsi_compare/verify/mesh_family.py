@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
-from ..base.files import is_file, replacing
+from ..base.files import is_file, write_text
 from ..gallery.mesh_chain import MARK, READ, SCRIPT, commands_of, links, with_places
 from ..gallery.scene import Scene, read_scene
 from ..study.study_file import StudyMesh
@@ -85,8 +85,7 @@ class Recipe:
             text, _ = graded_text(script, factor)
             script = folder / "meshes" / f"{self.geo.script.stem}-x{factor:.4g}.geo"
             script.parent.mkdir(parents=True, exist_ok=True)
-            with replacing(script) as temporary:
-                temporary.write_text(text, encoding="utf-8")
+            write_text(script, text)
         settings = self.geo.settings(factor, dict(self.given)).items()
         words = [word for name, value in settings for word in ("--set", f"{name}={value:.10g}")]
         return [str(script), *without(self.words, ("--set",)), *words]

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 from typing import Any, Sequence
 
-from ..base.files import replacing
+from ..base.files import write_text
 from ..reporting.column import Column
 from ..reporting.layout import Table
 from ..runs.verification import FILE, identity
@@ -103,8 +103,7 @@ def write_json(folder: Path, about: dict[str, Any], sets: Sequence[BarsOfRun], f
     """`verification.json`: about the case, all bars with what tells the run that they are of, all members."""
     members = [dict(_fields(MEMBERS, row)) for row in members_table(families).records]
     data = {**about, "sets": [_set(one) for one in sets], "members": members}
-    with replacing(folder / FILE) as temporary:
-        temporary.write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    write_text(folder / FILE, json.dumps(data, indent=1, ensure_ascii=False) + "\n")
     return folder / FILE
 
 
