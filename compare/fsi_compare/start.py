@@ -42,7 +42,9 @@ def _guarded_main(arguments: Sequence[str], version: str, load: Callable[[], Run
         say_error(str(error))
         return 1
     except interruption.Interrupted as signal:
-        print(f"{PROGRAM}: interrupted by {signal}{_what_stays(arguments)}", file=sys.stderr)
+        goes_on = arguments[:1] in (["study"], ["solvers"], ["verify"], ["tune"])
+        kept = "; finished runs are kept, the same command goes on" if goes_on else ""
+        print(f"{PROGRAM}: interrupted by {signal}{kept}", file=sys.stderr)
         return signal.code
     except MemoryError:
         less = LESS.get(arguments[0] if arguments else "", "compare fewer or smaller runs")
@@ -91,12 +93,6 @@ LESS = {  # advice for a command that ran out of memory: what to give it less of
     "verify": "give --coarser, sample fewer points, or take a coarser case; finished runs are kept",
     "tune": "take a coarser case; finished runs are kept",
 }
-
-
-def _what_stays(arguments: Sequence[str]) -> str:
-    if arguments[:1] in (["study"], ["solvers"], ["verify"], ["tune"]):
-        return "; finished runs are kept, the same command goes on"
-    return ""
 
 
 def _has_working_folder() -> bool:

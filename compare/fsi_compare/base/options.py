@@ -8,6 +8,7 @@ from .errors import PROGRAM, InputError
 from .files import folder
 
 Commands: TypeAlias = "argparse._SubParsersAction[Any]"  # of the program's parser
+Run: TypeAlias = Callable[[argparse.Namespace], int]  # a command, which returns the exit code
 
 
 def positive(option: str) -> Callable[[str], int]:
@@ -52,21 +53,12 @@ def share(option: str) -> Callable[[str], float]:
 
 
 def add_command(
-    commands: Commands,
-    name: str,
-    run: Callable[[argparse.Namespace], int],
-    help: str,
-    description: str,
-    examples: str | None = None,
+    commands: Commands, name: str, run: Run, help: str, description: str, examples: str | None = None
 ) -> argparse.ArgumentParser:
-    """`run` returns the exit code. Description and examples are printed as they stand."""
+    """Description and examples are printed as they stand."""
+    form = argparse.RawDescriptionHelpFormatter
     made: argparse.ArgumentParser = commands.add_parser(
-        name,
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        help=help,
-        description=description,
-        epilog=examples,
+        name, allow_abbrev=False, formatter_class=form, help=help, description=description, epilog=examples
     )
     made.set_defaults(run=run)
     return made

@@ -133,10 +133,6 @@ class _Reader:
         self._name_the_rest()
         return self.case
 
-    def _note_all(self, notes: list[tuple[Entry, str, bool]]) -> None:
-        for entry, words, matters in notes:
-            self._note(entry, words, matters)
-
     def _note(self, entry: Entry, words: str, matters: bool = False, what: str = "") -> None:
         """`what`: the entry's name in the note, its key unless it is given."""
         self.case.note(what or entry.key, f"line {entry.line}", words, matters)
@@ -315,7 +311,8 @@ class _Reader:
                 continue
             layer = layer_of(entry, own, self.units, self.fibre_angle)
             layers[medium.name] = layer
-            self._note_all(layer.notes)
+            for note in layer.notes:
+                self._note(*note)
             forces = [entry.number(f"Force_{axis}", 0.0) * self.units.of(1, 0, -2) for axis in "xyz"]
             if any(forces):
                 self.structure["gravity"] = forces
@@ -340,7 +337,8 @@ class _Reader:
             self._note(entry.need("Density"), words, True, "Density")
         viscosity, notes = viscosity_of(entry, self.units)
         self.fluid = {"density": density, **viscosity}
-        self._note_all(notes)
+        for note in notes:
+            self._note(*note)
         self.backflow = entry.number("Backflow_stabilization_coefficient", 0.2)
         for axis in "xyz":
             if entry.number(f"Force_{axis}", 0.0):

@@ -107,11 +107,7 @@ def pressure_figure(
 
 
 def finish(
-    figure: Figure,
-    handles: Sequence[Artist],
-    labels: Sequence[str],
-    title: str,
-    panels: tuple[float, float] | None = None,
+    figure: Figure, handles: Sequence[Artist], labels: Sequence[str], title: str, panels: Sequence[float] = ()
 ) -> Figure:
     """The figure, done: puts the heading above the panels and the legend below them, each in a strip of its own so that
     it covers no curve, and sets the figure's size; `panels` are width and height of the panels together, in inches: the

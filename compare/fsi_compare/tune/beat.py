@@ -65,10 +65,7 @@ def outlets_of(ends: Mapping[str, End]) -> list[str]:
 
 
 def _shown(
-    targets: Sequence[Target],
-    pressure: Mapping[str, np.ndarray],
-    means: Mapping[str, float],
-    flows: Mapping[str, float],
+    targets: Sequence[Target], pressure: Mapping[str, np.ndarray], means: Mapping[str, float], flows: dict[str, float]
 ) -> np.ndarray:
     total = sum(flows.values())
     of_kind: dict[str, Callable[[str], float]] = {
