@@ -13,11 +13,6 @@ RESULTS = ("centerline_pressure.csv", "wall_displacement.csv", "lines.csv")
 NOT_THE_SAME = "its results were not the same when it was repeated"
 
 
-def place_of(folder: Path, repetition: int) -> Path:
-    """Where repetition 2, 3, ... of the run in `folder` is made."""
-    return folder.with_name(f"{folder.name}-{repetition}")
-
-
 def step_seconds(folder: Path) -> float:
     """Seconds of the time steps, from summary.json; NaN when there is none."""
     try:

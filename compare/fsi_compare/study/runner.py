@@ -6,9 +6,9 @@ import os
 import re
 import shlex
 import time
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, Mapping, Sequence
+from typing import Any, Mapping, NamedTuple, Sequence
 
 from ..base import interruption
 from ..base.errors import InputError, ProgramError
@@ -36,8 +36,7 @@ OWN_PLACE = re.compile(r".+-[0-9a-f]{12}(-\d+)?")  # of a run in `runs`, or of a
 NOT_A_NUMBER = re.compile(r"(?:^|,)\s*[-+]?(?:nan|inf(?:inity)?)\s*(?=$|,)", re.IGNORECASE | re.MULTILINE)
 
 
-@dataclass(frozen=True)
-class Standing:
+class Standing(NamedTuple):
     """Number of runs that a study lists, and of those that are there."""
 
     asked: int
@@ -113,7 +112,7 @@ class Runner:
 
         short = {k: request for k, request in requests.items() if study.repeats > 1 and is_short(self._known[k])}
         rounds = range(2, study.repeats + 1)
-        again = [(k, r, repeats.place_of(self._place(k, r), n)) for n in rounds for k, r in short.items()]
+        again = [(k, r, self._place(k, r, f"-{n}")) for n in rounds for k, r in short.items()]
         places: dict[str, list[Path]] = {key: [] for key in short}
         progress.repeat([request for _, request, _ in again])
         for _, _, place in again:
@@ -211,9 +210,10 @@ class Runner:
         there = [run for run in found.values() if run is not None]
         return Standing(len(found), len(there), sum(not run.done for run in there))
 
-    def _place(self, key: str, request: Request) -> Path:
+    def _place(self, key: str, request: Request, repetition: str = "") -> Path:
+        """The run's folder; `repetition`: -2, -3, ... of one that is timed again."""
         name = re.sub(r"[^A-Za-z0-9.+-]+", "-", f"{request.case}-{request.method.name}").strip("-")[:LONGEST_NAME]
-        return self.folder / "runs" / f"{name}-{key[:12]}"
+        return self.folder / "runs" / f"{name}-{key[:12]}{repetition}"
 
     def _command(self, request: Request, folder: Path) -> list[str]:
         words = [str(self._program(request).path), str(request.case_file), "-o", str(folder), "-q"]
@@ -253,13 +253,10 @@ class Runner:
         record = {"fingerprint": key, "status": status, "message": message, "seconds": end.seconds, "command": command}
         record |= {"run": request.label, "ended": time.strftime("%Y-%m-%d %H:%M:%S")}
         record |= {"executable": self._program(request).digest}
-        write_record(folder, {**record, "interrupted": is_interrupted(end.code) and not end.out_of_time})
+        # Ended from outside: that says nothing about the run, so that the next call makes it anew.
+        interrupted = any(end.code in (-number, 128 + number) for number in interruption.WATCHED)
+        write_record(folder, {**record, "interrupted": interrupted and not end.out_of_time})
         return StudyRun(request, folder, status, message, end.seconds, command)
-
-
-def is_interrupted(code: int) -> bool:
-    """Whether the run was ended from outside: that says nothing about it, so that the next call makes it anew."""
-    return any(code in (-number, 128 + number) for number in interruption.WATCHED)
 
 
 def recipe(mesh: StudyMesh) -> list[str]:

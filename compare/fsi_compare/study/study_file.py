@@ -172,8 +172,9 @@ class _Reader:
         kind = self.one_of("kind", kind, kinds)
         entries = top.table("cases", True)
         cases = {name: self.case(name, entry) for name, entry in entries.items()}
+        short = {name: scene.quick for name, scene in self.scenes.items()} if self.quick else {}
         of_case = {
-            name: {**self.of_scene(name), **self.section(f"cases.{name}", entry, CASE_KEYS).settings("set")}
+            name: {**short.get(name, {}), **self.section(f"cases.{name}", entry, CASE_KEYS).settings("set")}
             for name, entry in entries.items()
             if isinstance(entry, dict)
         }
@@ -226,10 +227,6 @@ class _Reader:
             raise self.wrong(key, "has a file beside it", "give one of the two")
         self.scenes[name] = read_scene(READY / self.one_of(key, entry["scene"], ready_scenes()))
         return self.scenes[name].case
-
-    def of_scene(self, name: str) -> dict[str, Any]:
-        """Settings of a scene's short form, where that is asked for."""
-        return dict(self.scenes[name].quick) if self.quick and name in self.scenes else {}
 
     def method(self, name: str, entry: Any) -> Method:
         section = self.section(f"methods.{name}", entry, METHOD_KEYS)

@@ -14,7 +14,7 @@ from ..study.study_run import StudyRun
 from ..starting.duration import duration
 from .adapting import Adapted
 from .cost import Costs, learn
-from .demand import Settings, cheapest, direction_of, outside, reached, refinable, shown_by, tolerance_factor, widest
+from .demand import cheapest, direction_of, outside, reached, refinable, shown_by, tolerance_factor, widest
 from .doubt import step_within
 from .family import INDICATOR, STEP_RATIO, Member, members, with_settings
 from .found_case import write_case
@@ -154,12 +154,6 @@ class Search:
         if run is not None:
             self.sets[run.folder] = BarsOfRun(self.driver, run, judged)
 
-    def _best(self, judged: Sequence[Judged], demand: float) -> Settings | None:
-        costs, requests = self._costs(self.centre), self.maker.requests
-        if costs is None:
-            return None
-        return cheapest(judged, costs, demand, self.ratio, requests.facts.static, requests.recipe.coarsens)
-
     def _costs(self, centre: Member) -> Costs | None:
         family = about(self.maker.families[self.driver], centre)
         return learn(family.runs, self.maker.dimension, self.maker.requests.facts.element)
@@ -190,7 +184,10 @@ class Search:
     def _towards(self, asked: Sequence[Judged]) -> Member | None:
         """The cheapest settings that are predicted to reach the demand, but no further from the centre than FURTHEST
         ratios: the family's orders tell little beyond."""
-        best = self._best(asked, self.demand.error)
+        costs, facts, recipe = self._costs(self.centre), self.maker.requests.facts, self.maker.requests.recipe
+        if costs is None:
+            return self._finer("both")
+        best = cheapest(asked, costs, self.demand.error, self.ratio, facts.static, recipe.coarsens)
         if best is None:
             return self._finer("both")
         mesh = max(best.mesh, self.ratio**-FURTHEST)
