@@ -24,7 +24,7 @@ from ..results.fields import read_fields
 from ..results.units import split_unit
 from ..runs.levels import integral
 from ..runs.samples import LINES, PLANES, POINTS, Samples, read_samples
-from .curve_norms import CurveNorm, Stretch, norm_on, stretch_of
+from .curve_norms import Curve, Stretch, norm_of, on, size_of
 
 TABLES = (POINTS, LINES, PLANES, "openings.csv", "surfaces.csv", "centerline_pressure.csv", "wall_displacement.csv")
 WITHOUT_NAMES = {"centerline_pressure.csv": "centre line", "wall_displacement.csv": "inner wall", "flow.csv": "tube"}
@@ -33,28 +33,6 @@ PRIMARY = ("displacement", "velocity", "pressure")  # fields that are solved for
 SEEN = 2e-5  # relative to the largest of all curves with the unit: what is smaller is zero but for round-off
 ONE_SIDED = 0.02  # an extreme that is smaller than this part of the other is none
 SMOOTH = 2.5  # times the bend one level beside over that at the largest, which is 0.41 at least of 8 levels a period
-AT_REST = 0.01  # of the largest value: an error of a line that is below this at a time is relative to that
-
-
-@dataclass(frozen=True)
-class Curve:
-    """A column of a sample over time; of lines at several points."""
-
-    name: str  # "tip: displacement y"
-    unit: str
-    times: np.ndarray  # ms, (levels,)
-    values: np.ndarray  # (levels, points)
-    s: np.ndarray  # mm along the line, (points,)
-    derived: bool = False  # of a field that is made of gradients of what is solved for
-
-    @property
-    def largest(self) -> float:
-        return float(np.nanmax(np.abs(self.values))) if self.values.size else 0.0
-
-    @property
-    def is_pressure(self) -> bool:
-        """Whether it is a pressure or of its order: stresses, forces, gradients of what is solved for."""
-        return self.derived or any(word in self.name.rpartition(": ")[2] for word in ("pressure", "stress", "force"))
 
 
 Reading = Callable[[Curve], float]
@@ -138,16 +116,6 @@ def quantities_of(curves: Mapping[str, Curve], asked: Asked) -> list[Quantity]:
     return found
 
 
-def norm_of(curve: Curve, stretch: Stretch) -> CurveNorm:
-    """Norm of differences from this curve, the user's own."""
-    return norm_on(curve.times, curve.s, stretch)
-
-
-def on(grid: Curve, curve: Curve, stretch: Stretch) -> np.ndarray:
-    """A member's curve at the levels and points of the user's own, (levels * points,)."""
-    return stretch_of(curve.times, curve.s, curve.values, (grid.times, grid.s), stretch)
-
-
 def _of_curve(curve: Curve, asked: Asked) -> list[Quantity]:
     line = curve.values.shape[1] > 1
     end = float(curve.times[-1])
@@ -175,11 +143,6 @@ def _number(
 ) -> Quantity:
     name = f"{curve.name}, {what}"
     return Quantity(name, curve.name, curve.unit, curve.is_pressure, curve.largest, of, extreme, None, held_by, is_norm)
-
-
-def size_of(curve: Curve, stretch: Stretch) -> float:
-    """The size that the curve's error is relative to."""
-    return max(norm_of(curve, stretch)(on(curve, curve, stretch)), AT_REST * curve.largest)
 
 
 def _whole(curve: Curve, time: float | None = None, when: str = "") -> list[Quantity]:

@@ -14,13 +14,14 @@ from ..study.study_run import StudyRun
 from ..starting.duration import duration
 from .adapting import Adapted
 from .cost import Costs, learn
+from .curve_norms import Curve
 from .demand import cheapest, direction_of, outside, reached, refinable, shown_by, tolerance_factor, widest
 from .doubt import step_within
 from .family import INDICATOR, STEP_RATIO, Member, members, with_settings
 from .found_case import write_case
 from .lean import between, cross, lean
 from .making import Maker
-from .quantities import Curve, curves_of
+from .quantities import curves_of
 from .results import BarsOfRun, FamilyRuns, Judged, about, judge, relative, same_size
 
 FOUND, MESH = "found.toml", "found.msh"
