@@ -13,12 +13,6 @@ from .mesh_chain import make_mesh, with_places
 from .scene import Scene, SceneRun, SceneRuns, read_scene_run
 
 
-@dataclass(frozen=True)
-class Programs:
-    mesh: Path
-    drivers: Mapping[str, Program]
-
-
 @dataclass
 class Outcome:
     """The finished runs of a scene, and why others are missing."""
@@ -34,11 +28,12 @@ class Outcome:
 def make_runs(
     scenes: Sequence[Scene],
     folder: Path,
-    programs: Programs,
+    mesh_maker: Path,
+    drivers: Mapping[str, Program],
     quick: bool,
     at_once: int,
+    processes: int,
     said: Callable[[str], None],
-    processes: int = 1,
 ) -> list[Outcome]:
     """Runs each scene with its drivers, each on `processes` of one thread, `at_once` at a time:
     `folder/NAME/monolithic` and so on."""
@@ -47,11 +42,11 @@ def make_runs(
     places = []
     for outcome in outcomes:
         scene = outcome.scene
-        mesh = _make_mesh(scene, folder / scene.name, programs.mesh, quick)
+        mesh = _make_mesh(scene, folder / scene.name, mesh_maker, quick)
         for program in scene.drivers:
             place = folder / scene.name / program.removeprefix("fsi-")
             remove_tree(place)
-            command = launched(_command(scene, programs.drivers[program], mesh, place, quick), processes)
+            command = launched(_command(scene, drivers[program], mesh, place, quick), processes)
             jobs.append(Job(len(jobs), command))
             places.append((outcome, program, place))
 

@@ -11,7 +11,8 @@ from ..base.files import exists
 from .joining import TooMany, first_of_cluster, near_pairs
 from .parts import WHOLE, FoundMesh, found_mesh, whole_of
 from .raw_mesh import Block, nothing
-from .readers import read_mesh, read_surface
+from .readers import read_mesh
+from .vtp import read_faces
 
 # Points of two files are one where their places agree in single precision, in which VTK and others write.
 SINGLE = 4 * 2.0**-24
@@ -49,7 +50,7 @@ def read_sources(sources: Sequence[Source], scale: float) -> tuple[FoundMesh, li
     meshes = []
     for source in sources:
         surface = source.path.suffix.lower() in SURFACES and len(sources) > 1
-        meshes.append(found_mesh(source.file, (read_surface if surface else read_mesh)(source.path), scale))
+        meshes.append(found_mesh(source.file, (read_faces if surface else read_mesh)(source.path), scale))
     ends = np.cumsum([len(mesh.points) for mesh in meshes]).tolist()
     if len(meshes) == 1 and not names:
         return meshes[0], ends

@@ -15,6 +15,7 @@ from typing import Any, Callable, Iterator, TypeVar
 import numpy as np
 
 from ..base.errors import InputError
+from ..base.files import exists
 
 TYPES = {f"{kind}{8 * size}": f"{kind[0].lower()}{size}" for kind in ("Int", "UInt") for size in (1, 2, 4, 8)}
 TYPES |= {"Float32": "f4", "Float64": "f8"}
@@ -132,6 +133,8 @@ Read = TypeVar("Read")
 
 def read_by(reader: Callable[[VtkFile], Read], path: Path, contents: str, what: str) -> Read:
     """What `reader` makes of a file, `what` for its message. Raises InputError, of damages too."""
+    if not exists(path):
+        raise InputError(path, "", "no such file", f"give a {what}, {EXTENSIONS[contents]}")
     try:
         return reader(VtkFile(path, contents))
     except DAMAGES as error:
