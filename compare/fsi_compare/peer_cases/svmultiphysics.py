@@ -14,7 +14,7 @@ from ..base.errors import InputError, printable
 from ..base.files import absolute
 from ..base.suggestions import hint
 from .geometry import CaseMesh, Face, plain_names, read_case_mesh
-from .model import PeerCase, Table
+from .model import Note, PeerCase
 from .svmultiphysics_laws import Layer, layer_of, viscosity_of
 from .units import Units
 from .waveforms import Waveform, read_coefficients, read_series
@@ -135,7 +135,7 @@ class _Reader:
 
     def _note(self, entry: Entry, words: str, matters: bool = False, what: str = "") -> None:
         """`what`: the entry's name in the note, its key unless it is given."""
-        self.case.note(what or entry.key, f"line {entry.line}", words, matters)
+        self.case.notes.append(Note(what or entry.key, f"line {entry.line}", words, matters))
 
     def _time(self, general: Entry) -> dict[str, Any]:
         if general.number("Number_of_spatial_dimensions", 3) != 3:
@@ -377,7 +377,7 @@ class _Reader:
                 remedy = "give it one: of a wall Dir with Value 0"
                 raise InputError(self.root.file, f"Add_face {face.given}", problem, remedy)
             self.openings.append({"surface": face.name, "backflow": 0.0})
-            self.case.note(f"Add_face {face.given}", "no Add_BC", "an opening free of traction, as there")
+            self.case.notes.append(Note(f"Add_face {face.given}", "no Add_BC", "an opening free of traction, as there"))
             return
         (entry,) = entries
         given = entry.word("Type")
@@ -489,7 +489,7 @@ class _Reader:
         wave, words = self._wave(entry)
         name = f"{face.name}.csv"
         rows = [(time * self.units.time, value * factor) for time, value in wave.rows()]
-        self.case.tables[name] = Table(header, rows)
+        self.case.tables[name] = header, rows
         made: dict[str, Any] = {key: {"file": name}}
         if not wave.ramp:
             made["period"] = wave.period * self.units.time
@@ -586,7 +586,5 @@ class _Reader:
                 continue
             lines = ", ".join(str(entry.line) for entry in entries[:6]) + (", ..." if len(entries) > 6 else "")
             where = f"line{'s' if len(entries) > 1 else ''} {lines}"
-            if name in LOST:
-                self.case.note(name, where, LOST[name], True)
-            else:
-                self.case.note(name, where, INSTEAD.get(name, "no counterpart: passed over"), name not in INSTEAD)
+            instead = LOST.get(name) or INSTEAD.get(name, "no counterpart: passed over")
+            self.case.notes.append(Note(name, where, instead, name in LOST or name not in INSTEAD))
