@@ -23,8 +23,8 @@ def case_lines(runs: Sequence[RunResults], labels: Sequence[str]) -> list[str]:
     facts = {
         "case": [run.title for run in runs],
         "program": [run.program for run in runs],
-        "element": [_word(run.summary, "element") for run in runs],
-        "geometry": [_word(run.summary, "geometry") for run in runs],
+        "element": [word_of(run.summary, "element") for run in runs],
+        "geometry": [word_of(run.summary, "geometry") for run in runs],
         "mesh": [_mesh(run) for run in runs],
         "unknowns": [_count(run.summary.get("unknowns", {}), "coupled") for run in runs],
         "steps": [_steps(run) for run in runs],
@@ -47,7 +47,7 @@ def _count(entries: Mapping[str, Any], name: str, unit: str = "") -> str:
 def _mesh(run: RunResults) -> str:
     mesh = run.summary.get("mesh", {})
     cells = _count(mesh, "tetrahedra", " tetrahedra") or _count(mesh, "triangles", " triangles")
-    return ", ".join(part for part in (_word(mesh, "name"), _count(mesh, "nodes", " nodes"), cells) if part)
+    return ", ".join(part for part in (word_of(mesh, "name"), _count(mesh, "nodes", " nodes"), cells) if part)
 
 
 def _steps(run: RunResults) -> str:
@@ -64,7 +64,7 @@ def _steps(run: RunResults) -> str:
 def _choices(run: RunResults) -> str:
     found = run.summary.get("choices", {})
     choices = found.items() if isinstance(found, dict) else ()
-    return ", ".join(f"{printable(name)} = {_word(one, 'value')}" for name, one in choices if isinstance(one, dict))
+    return ", ".join(f"{printable(name)} = {word_of(one, 'value')}" for name, one in choices if isinstance(one, dict))
 
 
 def _total(run: RunResults, name: str) -> float | None:
@@ -167,7 +167,7 @@ Entry = tuple[str, dict[str, Any]]  # a run's label, and an entry of a list in i
 
 
 def _words_column(name: str) -> Column[Entry]:
-    return Column(name, name, lambda e: _word(e[1], name), left=True)
+    return Column(name, name, lambda e: word_of(e[1], name), left=True)
 
 
 def _number_column(head: str, name: str, unit: str = "", group: str = "") -> Column[Entry]:
@@ -226,7 +226,8 @@ def _list(entries: Mapping[str, Any], name: str) -> list[Any]:
     return found if isinstance(found, list) else []
 
 
-def _word(entry: Mapping[str, Any], name: str) -> str:
+def word_of(entry: Mapping[str, Any], name: str) -> str:
+    """An entry as text; empty where it is missing."""
     return printable(str(entry.get(name, "")))
 
 

@@ -80,15 +80,11 @@ def largest_of(run: RunScene, number: int, key: str) -> Place | None:
             node = int(np.nanargmax(numbers))
             if numbers[node] > (best.value if best else 0.0):
                 quantity, value = run.scene.quantities[key][part.surface.medium.name], float(numbers[node])
-                point = rounded(part.surface.points[node], float(np.ptp(part.surface.points)))
+                place, size = part.surface.points[node], float(np.ptp(part.surface.points))
+                point = np.where(np.abs(place) < 1e-9 * size, 0.0, place)  # without round-off of zeros
                 words, unit = quantity.words, quantity.shown_unit
                 best = Place(run.name, number, key, words, unit, value, float(time), part.name, point)
     return best
-
-
-def rounded(point: np.ndarray, size: float) -> np.ndarray:
-    """Coordinates without round-off of zeros."""
-    return np.where(np.abs(point) < 1e-9 * size, 0.0, point)
 
 
 def apart_table(scene: ReportScene) -> Table:

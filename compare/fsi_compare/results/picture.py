@@ -12,7 +12,7 @@ from ..drawing.raster import Mesh, rendered
 from ..drawing.sweep import angles, swept, turned
 from ..runs.levels import thinned
 from .quantities import Quantity
-from .scene_parts import CutPlane, Part, camera_of, first_quantity, middle_plane, parts_of, scene_quantities, views_of
+from .scene_parts import FIRST, CutPlane, Part, camera_of, middle_plane, parts_of, scene_quantities, views_of
 from .surfaces import Surfaces, displaced
 
 if TYPE_CHECKING:
@@ -41,7 +41,8 @@ class Scene:
 
     @property
     def first(self) -> str:
-        return first_quantity(list(self.quantities), self.meshes.flat)
+        """The quantity that a reader is shown first."""
+        return next(key for key in (*FIRST[self.meshes.flat], *self.quantities) if key in self.quantities)
 
     def check(self, key: str) -> None:
         if key not in self.quantities:

@@ -174,7 +174,8 @@ def _at_end(curve: Curve) -> list[Quantity]:
     end = float(curve.times[-1])
     if curve.values.shape[1] > 1:
         norm = _number(curve, "L2 norm at the end", lambda c: _at(c, end), Stretch(False, end), True)
-        return [norm, _number(curve, "largest at the end", _largest_at_end, Stretch(True, end))]
+        largest: Reading = lambda c: float(c.values[-1][np.argmax(np.abs(c.values[-1]))])
+        return [norm, _number(curve, "largest at the end", largest, Stretch(True, end))]
     return [_number(curve, "at the end", lambda c: _at(c, float(c.times[-1])), Stretch(True))]
 
 
@@ -210,11 +211,6 @@ def _at(curve: Curve, time: float) -> float:
     """The value of a point, or the L2 norm along a line."""
     row = np.array([np.interp(time, curve.times, column) for column in curve.values.T])
     return float(row[0]) if len(row) == 1 else _norm(curve.s, row)
-
-
-def _largest_at_end(curve: Curve) -> float:
-    row = curve.values[-1]
-    return float(row[int(np.argmax(np.abs(row)))])
 
 
 def _norm(x: np.ndarray, y: np.ndarray) -> float:
