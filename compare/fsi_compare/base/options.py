@@ -6,6 +6,7 @@ from typing import Any, Callable, TypeAlias
 
 from .errors import PROGRAM, InputError
 from .files import folder
+from .numbers import parsed
 
 Commands: TypeAlias = "argparse._SubParsersAction[Any]"  # of the program's parser
 Run: TypeAlias = Callable[[argparse.Namespace], int]  # a command, which returns the exit code
@@ -41,10 +42,7 @@ def share(option: str) -> Callable[[str], float]:
     """The type of an option that takes a part of a value: 0.02 for 2% and for 0.02. Raises InputError for another."""
 
     def part(text: str) -> float:
-        try:
-            value = float(text[:-1]) / 100 if text.endswith("%") else float(text)
-        except ValueError:
-            value = 0.0
+        value = parsed(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
         if not 0 < value < 1:
             raise InputError("", option, f"{text} is no part of a value", "give a percentage, like 1%")
         return value

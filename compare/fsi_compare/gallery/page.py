@@ -12,7 +12,7 @@ from ..runs.coupling import coupling_kind
 from ..runs.work_units import NOTE, per_step
 from .mesh_chain import as_typed, with_places
 from .running import Outcome
-from .scene import Number, Scene, SceneRun
+from .scene import Number, Scene, SceneRun, SceneRuns
 
 TITLE = "fsi-duo: gallery"
 
@@ -49,7 +49,7 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> list[
     report.list([f"`{command}`" for command in commands])
     for program, failure in outcome.failures.items():
         report.text(f"**{program} failed:** {failure}")
-    runs = outcome.finished(quick)
+    runs = SceneRuns({name: outcome.runs[name] for name in scene.drivers if name in outcome.runs}, quick)
     if outcome.failures:
         return []
     add_still(report, f"{stem}_vessel", runs.first.results, getattr(scene.module, "STILL", {}), scene.at_rest)

@@ -6,11 +6,12 @@ from typing import Any, Callable, Mapping, Sequence
 
 from ..base.errors import InputError, ProgramError
 from ..base.files import absolute, make_folder, remove_tree
+from ..runs.run_folder import read_finished
 from ..starting.launch import launched
 from ..starting.processes import End, Job, run_jobs
 from ..starting.programs import Program
 from .mesh_chain import make_mesh, with_places
-from .scene import Scene, SceneRun, SceneRuns, read_scene_run
+from .scene import Scene, SceneRun
 
 
 @dataclass
@@ -20,9 +21,6 @@ class Outcome:
     scene: Scene
     runs: dict[str, SceneRun] = field(default_factory=dict)
     failures: dict[str, str] = field(default_factory=dict)  # by program
-
-    def finished(self, quick: bool) -> SceneRuns:
-        return SceneRuns({name: self.runs[name] for name in self.scene.drivers if name in self.runs}, quick)
 
 
 def make_runs(
@@ -56,7 +54,7 @@ def make_runs(
             outcome.failures[program] = end.message
             said(f"{outcome.scene.name}, {program}: failed: {end.message}")
             return
-        outcome.runs[program] = read_scene_run(place, program, end.seconds)
+        outcome.runs[program] = SceneRun(place, program, read_finished(place), end.seconds)
         said(f"{outcome.scene.name}, {program}: {end.seconds:.1f} s")
 
     run_jobs(jobs, at_once, ended)

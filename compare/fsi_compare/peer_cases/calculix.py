@@ -2,10 +2,12 @@
 
 With NLGEOM its *ELASTIC is St. Venant and Kirchhoff's law, without it the linear one."""
 
+import math
 from pathlib import Path
 
 from ..base.errors import InputError
 from ..base.files import LARGEST, read_text
+from ..base.numbers import parsed
 from .units import SYSTEMS
 
 SI = SYSTEMS["si"]
@@ -59,11 +61,7 @@ def _cards(path: Path) -> list[Card]:
 
 def _numbers(path: Path, card: Card, count: int) -> list[float]:
     line, keyword, data = card
-    words = data[0].split(",") if data else []
-    try:
-        numbers = [float(word) for word in words[:count]]
-    except ValueError:
-        numbers = []
-    if len(numbers) != count:
+    numbers = list(map(parsed, data[0].split(",")[:count] if data else []))
+    if len(numbers) != count or any(map(math.isnan, numbers)):
         raise InputError(path, f"line {line}: {keyword}", f"has not {count} numbers behind it", "mend the deck")
     return numbers

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..base.errors import InputError, printable
 from ..base.files import absolute
+from ..base.numbers import parsed
 from ..base.suggestions import hint
 from .geometry import CaseMesh, Face, plain_names, read_case_mesh
 from .model import Note, PeerCase
@@ -462,11 +463,7 @@ class _Reader:
         found = entry.find("Effective_direction")
         if found is None:
             return []
-        words = found.text.replace("(", " ").replace(")", " ").replace(",", " ").split()
-        try:
-            numbers = [float(word) for word in words]
-        except ValueError:
-            numbers = []
+        numbers = list(map(parsed, found.text.replace("(", " ").replace(")", " ").replace(",", " ").split()))
         if len(numbers) != 3 or not np.isfinite(numbers).all():
             raise found.refuse(f"'{found.text}' is no direction", "write, for one, (0, 0, 1)")
         return numbers

@@ -64,7 +64,8 @@ def write_series(
 ) -> int:
     """NAME.pvd and a VTU file for each time, by default those that all of the fields were written at. Returns how many
     files. Raises InputError for a time outside of them."""
-    at = common_times(medium, fields) if times is None else times
+    common = set.intersection(*(set(medium.times_of(field).tolist()) for field in fields))
+    at = sorted(common) if times is None else times
     digits = max(4, len(str(len(at))))
     series: list[tuple[float, str]] = []
     for number, time in enumerate(at):
@@ -82,11 +83,6 @@ def write_series(
         series.append((time, file))
     write_pvd(place / f"{name}.pvd", series)
     return len(series) + 1
-
-
-def common_times(medium: MediumFields, fields: list[str]) -> list[float]:
-    """Times in ms that all of these fields were written at."""
-    return sorted(set.intersection(*(set(medium.times_of(field).tolist()) for field in fields)))
 
 
 def _wanted_fields(text: str | None, media: dict[str, MediumFields]) -> list[str] | None:

@@ -15,7 +15,7 @@ from .vessel import Vessel
 def given_ends(scene: Scene, curves: Curves, phases: int) -> dict[str, End]:
     """Ends of all openings, with the laws of the case; what the case gives there, as a run shows it."""
     found: dict[str, End] = {}
-    for name in curves.names:
+    for name in curves.flow:
         kind = scene.kind(name)
         if kind in ("resistance", "windkessel"):
             found[name] = scene.law(name)

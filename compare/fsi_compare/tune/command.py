@@ -160,9 +160,6 @@ class Beats:
             raise ProgramError(self.scene.path, f"beat {number}", message, "mend the case first")
         return Ran(curves_of(open_run(done.folder).openings), done.seconds)
 
-    def mesh_file(self) -> Path | None:
-        return self.runner.mesh_file(self.mesh)
-
 
 def _mesh(scene: Scene, words: str | None, mesh_maker: Path | None, place: Path) -> StudyMesh | None:
     """The mesh of the beats; None: the case's own file or level."""
@@ -200,7 +197,7 @@ def _write_tuned(inside: Path, scene: Scene, outcome: Outcome, beats: Beats) -> 
     entries["opening"] = [_tuned(one, last.values, last.starts) for one in scene.entries["opening"]]
     if last.starts and "start" in entries["time"]:
         entries["time"] = {**entries["time"], "start": "given"}
-    mesh = beats.mesh_file()
+    mesh = beats.runner.mesh_file(beats.mesh)
     if mesh is not None:
         entries["mesh"] = {"file": str(absolute(mesh))}
     words = f"{printable(str(scene.path))} with the Windkessels that fsi-compare tune has found:"

@@ -137,7 +137,10 @@ def measure(runs: Iterable[StudyRun], plan: Plan) -> List[Measured]:
             Measured(
                 run,
                 own,
-                {q.column: relative_difference(own[q.column], plan.references[case].of(q), times) for q in QUANTITIES},
+                {
+                    q.column: relative_difference(own[q.column], plan.references[case].waves[q.column], times)
+                    for q in QUANTITIES
+                },
                 _against(own, exact, times) if run.request.method.name != plan.tight else {},
             )
         )
