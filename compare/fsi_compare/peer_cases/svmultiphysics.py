@@ -547,24 +547,17 @@ class _Reader:
         sections["title"] = printable(f"{folder or self.root.file.stem}, from {PROGRAM}")
         sections["element"] = "p1" if mesh.order == 1 else "p2p1"
         sections["mesh"] = {"file": "mesh.msh"}
-        if self.fluid:
-            sections["fluid"] = self.fluid
         if layers:
             first = next(iter(layers.values()))
             self.structure = {"density": first.density, **self.structure}
             if first.bulk_modulus is not None:
                 self.structure["bulk_modulus"] = first.bulk_modulus
             self.structure["layers"] = {name: layer.constants for name, layer in layers.items()}
-            sections["structure"] = self.structure
-        if self.openings:
-            sections["opening"] = self.openings
-        if self.supports:
-            sections["support"] = list(self.supports.values())
-        if kind == "FSI":
-            sections["mesh_motion"] = {"method": "stiffened"}
-        sections["time"] = time
-        if self.every > 0:
-            sections["output"] = {"every": self.every}
+        told: dict[str, Any] = {"fluid": self.fluid, "structure": self.structure, "opening": self.openings}
+        told |= {"support": list(self.supports.values())}
+        told |= {"mesh_motion": {"method": "stiffened"} if kind == "FSI" else {}, "time": time}
+        told |= {"output": {"every": self.every} if self.every > 0 else {}}
+        sections |= {name: entries for name, entries in told.items() if entries}
         self.case.said += mesh.said + [ELEMENTS[mesh.order]]
         self.case.mesh = mesh
 

@@ -16,11 +16,7 @@ def default_output(path: Path, quick: bool) -> Path:
 
 
 def overview(
-    catalogue: Catalogue,
-    quick: bool,
-    programs: dict[str, Program] | None,
-    threads: int | None = None,
-    mesh_maker: Path | None = None,
+    catalogue: Catalogue, quick: bool, programs: dict[str, Program] | None, threads: int | None, mesh_maker: Path | None
 ) -> list[str]:
     """A line for each ready study: name, title, and how its default output folder stands. `programs`: by name; None:
     they are not built, and nothing is known of finished runs. Makes nothing."""

@@ -74,12 +74,11 @@ def _used(text: str, constants: dict[str, float], patterns: Sequence["re.Pattern
     return {name: value for name, value in constants.items() if name in words}
 
 
-def graded_text(script: Path, factor: float) -> tuple[str, bool]:
-    """The script with its ratios of neighbouring cells for so many times the cells; whether it has any."""
+def graded_text(script: Path, factor: float) -> str:
+    """The script with its ratios of neighbouring cells for so many times the cells."""
     text = read_text(script, "give a gmsh script that is there", "give a gmsh script")
 
     def softer(match: "re.Match[str]") -> str:
         return f"Using Progression {float(match[1]) ** (1 / factor):.12g}"
 
-    changed = PROGRESSION.sub(softer, text)
-    return changed, changed != text
+    return PROGRESSION.sub(softer, text)

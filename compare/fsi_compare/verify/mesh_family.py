@@ -82,7 +82,7 @@ class Recipe:
         assert self.geo is not None
         script = self.geo.script
         if self.geo.graded and factor != 1:
-            text, _ = graded_text(script, factor)
+            text = graded_text(script, factor)
             script = folder / "meshes" / f"{self.geo.script.stem}-x{factor:.4g}.geo"
             script.parent.mkdir(parents=True, exist_ok=True)
             write_text(script, text)
