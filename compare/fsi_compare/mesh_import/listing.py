@@ -8,7 +8,7 @@ import numpy as np
 
 from ..base.errors import printable
 from .groups import facets_between
-from .parts import WHOLE, FoundMesh, count_in, dimensions_of, is_surface, shown_names
+from .parts import WHOLE, FoundMesh, dimensions_of, is_surface, shown_names
 from .raw_mesh import CORNERS, ELEMENTS, Block
 from .sources import Source
 from .touching import contacts, doubled_words, gap_words, lonely, touch_words
@@ -88,7 +88,8 @@ def _table(mesh: FoundMesh, scale: float) -> list[str]:
     if scale != 1:
         rows[0][3] = "size, mm"
     for name, places in mesh.cells.items():
-        counts = ", ".join(f"{count_in(mesh, places, d)} {ELEMENTS[d]}" for d in dimensions_of(mesh, places))
+        number = {d: sum(len(p) for b, p in zip(mesh.blocks, places) if b.dimension == d) for d in ELEMENTS}
+        counts = ", ".join(f"{number[d]} {ELEMENTS[d]}" for d in dimensions_of(mesh, places))
         top = max(dimensions_of(mesh, places), default=0)
         measure, is_flat = _measure(mesh.points, _cells(mesh, name))
         unit = ("mm" if scale != 1 else "unit") + ("" if top == 1 else f"^{top}")

@@ -40,8 +40,3 @@ def keep_median(folder: Path, repetitions: Sequence[Path]) -> list[float]:
     for place in repetitions:
         remove_tree(place)
     return sorted(seconds.values())
-
-
-def spread(timings: Sequence[float]) -> float | None:
-    """Slowest over fastest; None: timed once."""
-    return max(timings) / min(timings) if len(timings) > 1 and min(timings) > 0 else None

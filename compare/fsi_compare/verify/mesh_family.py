@@ -61,7 +61,8 @@ class Recipe:
     def mesh(self, factor: float, folder: Path, case: str) -> StudyMesh | None:
         """The mesh finer by `factor`; None: the case's own file as it stands."""
         if self.chain:
-            command, *words = chained([command.finer(factor, folder) for command in self.chain])
+            marked = [word for one in self.chain for word in (MARK, *one.finer(factor, folder))]
+            _, command, *words = marked
         elif self.command == "geo":
             command, words = "geo", self.geo_words(factor, folder)
         elif self.command == "refine" and factor == 1:
@@ -103,11 +104,6 @@ class Script(Command):
 
     def finer(self, factor: float, folder: Path) -> list[str]:
         return ["geo", *self.recipe.geo_words(factor, folder)]
-
-
-def chained(commands: Sequence[Sequence[str]]) -> list[str]:
-    """Their words, with marks between."""
-    return [word for number, words in enumerate(commands) for word in ([MARK] if number else []) + list(words)]
 
 
 def ratio_for(counts: Sequence[float], levels: Sequence[int]) -> float:

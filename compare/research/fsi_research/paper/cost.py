@@ -12,8 +12,8 @@ from fsi_compare.reporting.cost import COUPLED, FLUID, WALL, calls
 from fsi_compare.reporting.column import Column, work_column
 from fsi_compare.reporting.layout import Table
 from fsi_compare.runs.work_units import NOTE
-from fsi_compare.study.repeats import spread
 from fsi_compare.study.study_run import OUT_OF_TIME, StudyRun
+from ..evidence.timings import spread
 from .claims import NOT_COMPARABLE, Claim, unexamined, verdict
 from .linear import FIRST_SYSTEM
 from .runs import COST, FIXED_POINT, NEWTON, WAVES, PaperRuns, mesh_of
