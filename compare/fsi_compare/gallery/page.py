@@ -14,12 +14,10 @@ from .mesh_chain import as_typed, with_places
 from .running import Outcome
 from .scene import Number, Scene, SceneRun, SceneRuns
 
-TITLE = "fsi-duo: gallery"
-
 
 def write_page(folder: Path, outcomes: Sequence[Outcome], quick: bool, at_once: int) -> tuple[Report, list[Number]]:
     """Writes the page; also what was measured, of all scenes. A scene of which a run failed says so."""
-    report = Report(folder, TITLE + (", short form" if quick else ""))
+    report = Report(folder, "fsi-duo: gallery" + (", short form" if quick else ""))
     report.text(
         "Each scene is a folder of `gallery/` with a case file, what its mesh is made from, and a number that is known. "
         "Scenes with fluid and wall are run by both drivers from the same case file, others by one; one thread each. "

@@ -16,7 +16,6 @@ from .vtp import read_faces
 
 # Points of two files are one where their places agree in single precision, in which VTK and others write.
 SINGLE = 4 * 2.0**-24
-SURFACES = (".vtp",)
 
 
 @dataclass
@@ -49,7 +48,7 @@ def read_sources(sources: Sequence[Source], scale: float) -> tuple[FoundMesh, li
             raise InputError("", name, "is the name of two files", "give each file a name of its own")
     meshes = []
     for source in sources:
-        surface = source.path.suffix.lower() in SURFACES and len(sources) > 1
+        surface = source.path.suffix.lower() == ".vtp" and len(sources) > 1
         meshes.append(found_mesh(source.file, (read_faces if surface else read_mesh)(source.path), scale))
     ends = np.cumsum([len(mesh.points) for mesh in meshes]).tolist()
     if len(meshes) == 1 and not names:

@@ -27,9 +27,7 @@ EQUATIONS |= {"structural": "struct", "ustruct": "ustruct", "structural_velocity
 EQUATIONS |= {"lElas": "lElas", "linear_elasticity": "lElas"}
 WALLS = ("struct", "ustruct", "lElas")
 CMM = ("CMM", "coupled_momentum")
-# Beside the one above; what is lost with it.
 TRANSPORTS = ("AD", "advection_diffusion", "heatF", "dyeTransport", "scalarTransport")
-SIDE_EQUATIONS = dict.fromkeys(TRANSPORTS, "the transport of a substance")
 REFUSED = {
     "stokes": "a flow without inertia",
     "shell": "a shell",
@@ -165,9 +163,9 @@ class _Reader:
                 raise entry.refuse(f"{given} is {REFUSED[given]}, which ours does not solve", "take that equation out")
             if given == "mesh":
                 self._mesh_motion(entry)
-            elif given in SIDE_EQUATIONS:
+            elif given in TRANSPORTS:
                 entry.take_all()
-                self._note(entry, f"left out: {SIDE_EQUATIONS[given]}", True, f"Add_equation {given}")
+                self._note(entry, "left out: the transport of a substance", True, f"Add_equation {given}")
             elif given not in EQUATIONS:
                 raise entry.refuse(f"'{given}' is no equation", hint(given, EQUATIONS, "There are") + " and mesh")
             else:

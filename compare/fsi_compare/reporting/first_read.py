@@ -8,12 +8,12 @@ import numpy as np
 from ..base.errors import printable
 from ..base.numbers import is_number, number_of
 from ..results.openings import Opening
+from ..results.picture import PER_KPA
 from ..results.run import RunResults
 from ..runs.steadiness import cycle_change, period_of, sawtooth
 from .column import Column
 from .layout import Table
 
-PA_PER_KPA, MMHG_PER_KPA = 1000.0, 7.50062
 SUPPLIED = ("inlet_work", "load_work", "inlet_kinetic_inflow", "support_work")  # columns of energy.csv
 Labelled = tuple[str, RunResults]
 
@@ -238,13 +238,13 @@ class OfOpening(NamedTuple):
     window: np.ndarray  # levels that count
 
 
-def _pressure(head: str, kind: str, per_kpa: float, unit: str) -> Column[OfOpening]:
+def _pressure(kind: str, unit: str) -> Column[OfOpening]:
     def value(record: OfOpening) -> float:
-        levels = record.opening.mean_pressure[record.window] / PA_PER_KPA
-        return per_kpa * float({"minimum": levels.min, "mean": levels.mean, "maximum": levels.max}[kind]())
+        levels = record.opening.mean_pressure[record.window] / PER_KPA["Pa"]
+        return PER_KPA[unit] * float({"minimum": levels.min, "mean": levels.mean, "maximum": levels.max}[kind]())
 
     form, group = ".3f" if unit == "kPa" else ".2f", "mean pressure over the opening, {unit}"
-    return Column(head, f"{kind}_pressure", value, form, unit, group)
+    return Column(kind, f"{kind}_pressure", value, form, unit, group)
 
 
 def _flow(head: str, of: Callable[[np.ndarray], Any]) -> Column[OfOpening]:
@@ -260,8 +260,7 @@ OPENINGS: Sequence[Column[OfOpening]] = (
     Column("share of outflow", "share_of_outflow", lambda r: r.share, ".1%"),
     _flow("mean", lambda flow: flow.mean()),
     _flow("largest", lambda flow: np.abs(flow).max()),
-    *(_pressure(kind, kind, 1.0, "kPa") for kind in ("minimum", "mean", "maximum")),
-    *(_pressure(kind, kind, MMHG_PER_KPA, "mmHg") for kind in ("minimum", "mean", "maximum")),
+    *(_pressure(kind, unit) for unit in ("kPa", "mmHg") for kind in ("minimum", "mean", "maximum")),
 )
 
 

@@ -15,8 +15,6 @@ from .opening_faces import flat_pieces, named_openings
 from .openings import Opening
 from .plane_cut import cut_by_plane
 
-UPWARDS = {"axisymmetric": (0.0, -1.0, 0.0)}  # normal of the plane of a two-dimensional mesh, if it is not z
-PLANE = (0.0, 0.0, 1.0)
 NO_FIELDS = "the run has written no fields"
 ASK = "set output.fields and output.every (not 0) in the case, and run it again"
 
@@ -106,7 +104,7 @@ class Surfaces:
         self._fields = fields
         self._known_openings = openings
         self.geometry = geometry
-        self.up = np.array(UPWARDS.get(geometry, PLANE))
+        self.up = np.array((0.0, -1.0, 0.0) if geometry == "axisymmetric" else (0.0, 0.0, 1.0))  # normal of a flat mesh
 
     @property
     def flat(self) -> bool:

@@ -28,7 +28,6 @@ from .curve_norms import Curve, Stretch, norm_of, on, size_of
 
 TABLES = (POINTS, LINES, PLANES, "openings.csv", "surfaces.csv", "centerline_pressure.csv", "wall_displacement.csv")
 WITHOUT_NAMES = {"centerline_pressure.csv": "centre line", "wall_displacement.csv": "inner wall", "flow.csv": "tube"}
-SKIPPED = ("step",)  # columns that are no results
 PRIMARY = ("displacement", "velocity", "pressure")  # fields that are solved for: samples have them, at any place
 SEEN = 2e-5  # relative to the largest of all curves with the unit: what is smaller is zero but for round-off
 ONE_SIDED = 0.02  # an extreme that is smaller than this part of the other is none
@@ -78,10 +77,8 @@ def curves_of(folder: Path) -> dict[str, Curve]:
 
 def _curves(sample: str, samples: Samples) -> Iterator[Curve]:
     for column, values in samples.values.items():
-        if column in SKIPPED:
-            continue
         points = ~np.isnan(values).any(axis=0)
-        if not points.any():
+        if column == "step" or not points.any():
             continue
         name, unit = split_unit(column)
         s = samples.places.get("s_mm", samples.places.get("z_mm", np.zeros(values.shape[1])))
