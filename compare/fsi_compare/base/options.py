@@ -9,6 +9,7 @@ from .files import folder
 from .numbers import parsed
 
 Commands: TypeAlias = "argparse._SubParsersAction[Any]"  # of the program's parser
+DRIVERS = ("monolithic", "partitioned")
 Run: TypeAlias = Callable[[argparse.Namespace], int]  # a command, which returns the exit code
 
 
@@ -109,5 +110,5 @@ def add_usual(command: argparse.ArgumentParser, version: str, threads: str) -> N
 
 
 def add_drivers(command: argparse.ArgumentParser) -> None:
-    for name in ("monolithic", "partitioned"):
+    for name in DRIVERS:
         command.add_argument(f"--{name}", metavar="PATH", type=Path, help=f"fsi-{name} (default: beside this program)")

@@ -7,7 +7,8 @@ from typing import Any, Mapping
 
 from ..base.errors import InputError, ProgramError, printable, say_note, say_warning
 from ..base.files import absolute, is_file, output_folder, read_toml, remove_tree, together
-from ..base.options import Commands, add_case, add_command, add_drivers, add_time_limit, add_usual, share
+from ..base.options import DRIVERS, Commands, add_case, add_command, add_drivers, add_time_limit, add_usual, share
+from ..reporting.layout import say_written
 from ..results.run import open_run
 from ..gallery.mesh_chain import with_places
 from ..gallery.scene import read_scene as read_gallery_scene
@@ -20,11 +21,10 @@ from ..verify.mesh_family import find_recipe
 from .curves import curves_of
 from .scene import Scene, checked_targets, read_scene
 from .solving import Rule
-from .tables import show, write_results
+from .tables import write_results
 from .targets import read_targets
 from .tuning import BeatFailed, Demand, Outcome, Ran, tune
 
-DRIVERS = ("monolithic", "partitioned")
 ONE_BEAT, TUNED = "one-beat.toml", "tuned.toml"
 GIVE = "give a case file that a driver runs"
 MOST_BEATS = 10
@@ -186,7 +186,8 @@ def _write(options: argparse.Namespace, scene: Scene, demand: Demand, outcome: O
     if not outcome.reached:
         remove_tree(beats.place / TUNED)  # of an earlier call
     if not options.quiet:
-        show(tables, outcome, beats.place, written)
+        print("\n".join([*(table.text() for table in tables[:2]), *map(printable, outcome.lines)]))
+        say_written(beats.place, written)
     return 0 if outcome.reached else 2
 
 

@@ -8,7 +8,7 @@ from typing import Any, Sequence
 from ..base.errors import printable
 from ..base.files import absolute, write_text
 from ..reporting.column import Column
-from ..reporting.layout import Table, say_written, write_tables
+from ..reporting.layout import Table, write_tables
 from .scene import Scene
 from .targets import KPA, Target
 from .tuning import Beat, Demand, Outcome
@@ -105,10 +105,3 @@ def write_results(
     path = folder / "tune.json"
     write_text(path, json.dumps(said, indent=1) + "\n")
     return tables, [*written, path]
-
-
-def show(tables: Sequence[Table], outcome: Outcome, place: Path, written: Sequence[Path]) -> None:
-    for table in tables[:2]:
-        print(table.text())
-    print("\n".join(map(printable, outcome.lines)))
-    say_written(place, written)

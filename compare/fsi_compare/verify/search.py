@@ -256,16 +256,11 @@ class Search:
         words = self._words(final.mesh / self.centre.mesh, final.step / self.centre.step)
         if not run.done:
             return Outcome(list(asked), False, [f"The run with {words} is missing: {run.status}, {run.message}."])
-        judged = _shown(asked, run)
+        curves = curves_of(run.folder)
+        judged = [shown_by(one, curves[one.quantity.curve]) for one in asked if one.quantity.curve in curves]
         self._keep(run, judged)
         line = f"{words.capitalize()} leave {100 * widest(judged):.2g} %, in {duration(run.seconds)}."
         return Outcome(judged, reached(judged, self.demand.error), [line], final, settings)
-
-
-def _shown(asked: Sequence[Judged], run: StudyRun) -> list[Judged]:
-    """Bars of a run by those of another."""
-    curves = curves_of(run.folder)
-    return [shown_by(one, curves[one.quantity.curve]) for one in asked if one.quantity.curve in curves]
 
 
 def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[str, StudyRun]) -> list[Path]:
