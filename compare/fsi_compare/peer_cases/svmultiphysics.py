@@ -574,5 +574,5 @@ class _Reader:
                 continue
             lines = ", ".join(str(entry.line) for entry in entries[:6]) + (", ..." if len(entries) > 6 else "")
             where = f"line{'s' if len(entries) > 1 else ''} {lines}"
-            instead = LOST.get(name) or INSTEAD.get(name, "no counterpart: passed over")
+            instead = LOST.get(name, INSTEAD.get(name, "no counterpart: passed over"))
             self.case.notes.append(Note(name, where, instead, name in LOST or name not in INSTEAD))

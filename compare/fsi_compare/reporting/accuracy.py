@@ -164,8 +164,11 @@ def _percents(q: Quantity, times: Sequence[float]) -> list[Column[Accuracy]]:
 
         return Column(head, value=percent, format=".3g", group=HEADS[q.column])
 
+    def at(place: int) -> Callable[[Accuracy], float]:
+        return lambda a: a.errors[q.column][place]
+
     return [
-        *(column(f"{time:g} ms", lambda a, i=i: a.errors[q.column][i]) for i, time in enumerate(times)),
+        *(column(f"{time:g} ms", at(place)) for place, time in enumerate(times)),
         column("mean", lambda a: a.mean(q)),
         column("worst", lambda a: a.worst(q)),
     ]

@@ -40,6 +40,6 @@ def difference(
         for time in asked:
             found.require(time, "", f"line {one.name}")
     rows = [(d.max_norm, d.max_relative, d.l2_norm, d.l2_relative) for d in differences_at(base, waves, asked)]
-    norms = np.array(rows, dtype=float).reshape(-1, 4).T  # None becomes NaN
-    largest = largest_difference(base, waves.on(base.z))
-    return LineDifference(np.array(asked), reference.units[quantity], *norms, largest)
+    most, most_relative, l2, l2_relative = np.array(rows, dtype=float).reshape(-1, 4).T  # None becomes NaN
+    unit, largest = reference.units[quantity], largest_difference(base, waves.on(base.z))
+    return LineDifference(np.array(asked), unit, most, most_relative, l2, l2_relative, largest)
