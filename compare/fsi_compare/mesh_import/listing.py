@@ -84,9 +84,8 @@ def _are_flat(areas: np.ndarray) -> bool:
 def _table(mesh: FoundMesh, scale: float) -> list[str]:
     """One line a part: its elements, its measure, its size under each guess of the unit, or by the given scale."""
     units = UNITS if scale == 1 else (("mm", 1.0),)
-    rows = [["part", "elements", "measure", *(f"size, mm, if in {unit}" for unit, _ in units)]]
-    if scale != 1:
-        rows[0][3] = "size, mm"
+    sizes = [f"size, mm, if in {unit}" for unit, _ in units] if scale == 1 else ["size, mm"]
+    rows = [["part", "elements", "measure", *sizes]]
     for name, places in mesh.cells.items():
         number = {d: sum(len(p) for b, p in zip(mesh.blocks, places) if b.dimension == d) for d in ELEMENTS}
         counts = ", ".join(f"{number[d]} {ELEMENTS[d]}" for d in dimensions_of(mesh, places))

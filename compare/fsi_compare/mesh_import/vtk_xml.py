@@ -84,13 +84,12 @@ class VtkFile:
         """Bytes of base64: header and data are coded one after the other, each with a padding of its own."""
         size = struct.calcsize(self.header)
         length = -(-size // 3) * 4
+        (count,) = struct.unpack_from(self.header, base64.b64decode(text[:length]))  # of bytes, or of packed blocks
         if not self.packed:
-            (count,) = struct.unpack_from(self.header, base64.b64decode(text[:length]))
             return base64.b64decode(text[: -(-(size + count) // 3) * 4])
-        (blocks,) = struct.unpack_from(self.header, base64.b64decode(text[:length]))
-        length = -(-size * (3 + blocks) // 3) * 4
+        length = -(-size * (3 + count) // 3) * 4
         head = base64.b64decode(text[:length])
-        counts = struct.unpack_from(f"{self.order}{blocks}{self.header[1]}", head, 3 * size)
+        counts = struct.unpack_from(f"{self.order}{count}{self.header[1]}", head, 3 * size)
         return head + base64.b64decode(text[length : length + -(-sum(counts) // 3) * 4])
 
     def _unpacked(self, data: bytes) -> bytes:

@@ -94,7 +94,7 @@ class Medium:
     given: str
     domain: int
     kind: str = ""  # fluid or wall
-    name: str = ""  # group
+    name: str = "fluid"  # group; of a wall its own
 
 
 def read_case(root: Entry, units: Units, fibre_angle: float | None, tolerance: float) -> PeerCase:
@@ -253,8 +253,6 @@ class _Reader:
         walls = [medium for medium in media if medium.kind == "wall"]
         for medium, name in zip(walls, plain_names([wall.given for wall in walls], ["fluid"])):
             medium.name = name
-        for medium in fluids:
-            medium.name = "fluid"
         return media
 
     def _mesh(self, media: list[Medium]) -> CaseMesh:
