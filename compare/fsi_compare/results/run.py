@@ -34,6 +34,7 @@ class RunResults:
         self.folder = folder
         #: summary.json as it stands: counts, totals, seconds of each phase, mesh
         self.summary: dict[str, Any] = summary
+        self._read: dict[str, Table] = {}
 
     def __repr__(self) -> str:
         return f"<RunResults {self.folder}: {self.program}, {self.status}, '{self.title}'>"
@@ -77,10 +78,6 @@ class RunResults:
                 raise InputError(self.folder, "", f"has no table '{file}'", remedy)
             self._read[file] = read_table(self.folder / file, finished=self.status == "done")
         return self._read[file]
-
-    @cached_property
-    def _read(self) -> dict[str, Table]:
-        return {}
 
     def _optional(self, name: str) -> Table | None:
         return self.table(name) if name in self.tables else None

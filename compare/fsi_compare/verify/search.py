@@ -138,7 +138,8 @@ class Search:
         family = about(self._kept(), centre)
         curves = {relative(member, centre): of for member, of in self.curves.items()}
         found = judge(family, curves, self.maker.requests.facts, self.demand.times, self.demand.names, additive)
-        self._keep(family.own, found)
+        if (own := family.own) is not None:  # the last family to have a run tells most of it
+            self.sets[own.folder] = BarsOfRun(self.driver, own, found)
         return found
 
     def _proved(self, judged: list[Judged]) -> list[Judged]:
@@ -149,11 +150,6 @@ class Search:
             return judged
         self.maker.run([self.centre])
         return self._family()
-
-    def _keep(self, run: StudyRun | None, judged: Sequence[Judged]) -> None:
-        """The last family to have a run tells most of it."""
-        if run is not None:
-            self.sets[run.folder] = BarsOfRun(self.driver, run, judged)
 
     def _costs(self, centre: Member) -> Costs | None:
         family = about(self.maker.families[self.driver], centre)
@@ -186,9 +182,8 @@ class Search:
         """The cheapest settings that are predicted to reach the demand, but no further from the centre than FURTHEST
         ratios: the family's orders tell little beyond."""
         costs, facts, recipe = self._costs(self.centre), self.maker.requests.facts, self.maker.requests.recipe
-        if costs is None:
-            return self._finer("both")
-        best = cheapest(asked, costs, self.demand.error, self.ratio, facts.static, recipe.coarsens)
+        how = self.demand.error, self.ratio, facts.static, recipe.coarsens
+        best = None if costs is None else cheapest(asked, costs, *how)
         if best is None:
             return self._finer("both")
         mesh = max(best.mesh, self.ratio**-FURTHEST)
@@ -258,7 +253,7 @@ class Search:
             return Outcome(list(asked), False, [f"The run with {words} is missing: {run.status}, {run.message}."])
         curves = curves_of(run.folder)
         judged = [shown_by(one, curves[one.quantity.curve]) for one in asked if one.quantity.curve in curves]
-        self._keep(run, judged)
+        self.sets[run.folder] = BarsOfRun(self.driver, run, judged)
         line = f"{words.capitalize()} leave {100 * widest(judged):.2g} %, in {duration(run.seconds)}."
         return Outcome(judged, reached(judged, self.demand.error), [line], final, settings)
 
