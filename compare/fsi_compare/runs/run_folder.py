@@ -14,7 +14,6 @@ from .pressure_waves import PressureWaves
 from .samples import CENTRE_LINE, LINES, waves_along
 from .summary import FILE, read_summary
 
-
 ALONG_AXIS = "centerline_pressure.csv"
 
 

@@ -8,7 +8,6 @@ from ..reporting.layout import Table
 from .study_file import show
 from .study_run import StudyRun, known
 
-
 RUNS: Sequence[Column[StudyRun]] = (
     Column("group", "group", lambda run: run.request.group, left=True),
     Column("case", "case", lambda run: run.request.case, left=True),

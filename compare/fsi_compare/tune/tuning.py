@@ -17,7 +17,6 @@ from .vessel import Vessel, fitted_vessel
 NEAR = 0.01  # of the pressure: beats that begin further from periodic say nothing of the model's error
 FEWEST_LEVELS = 16  # behind the lead of a beat
 
-
 Laws = Mapping[str, Windkessel]  # by outlet
 Starts = Mapping[str, float]  # pressures in kPa, by outlet
 

@@ -33,7 +33,6 @@ SEEN = 2e-5  # relative to the largest of all curves with the unit: what is smal
 ONE_SIDED = 0.02  # an extreme that is smaller than this part of the other is none
 SMOOTH = 2.5  # times the bend one level beside over that at the largest, which is 0.41 at least of 8 levels a period
 
-
 Reading = Callable[[Curve], float]
 
 

@@ -13,7 +13,6 @@ from .family import CaseFacts, Member
 from .quantities import Quantity, chosen, curves_of, quantities_of
 from .verdict import NOT_IN_RANGE, Bar, Value, bar_of, inherited
 
-
 Curves = Mapping[Member, Mapping[str, Curve]]  # of each member, by name
 Size = Callable[[Member], float]
 

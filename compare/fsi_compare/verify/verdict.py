@@ -24,7 +24,6 @@ SMALL = 0.1  # share of the bar below which a part does not decide the verdict
 NEGLIGIBLE = 1e-3  # of the largest of the curve: so small a part without order widens the bar, and does not forbid it
 DETECTED = 1e-7  # relative to the curve's largest: differences below are round-off
 
-
 Table = Mapping[tuple[float, float], Any]  # values by mesh and step
 Measure = Callable[[Any], float]  # norm of a value
 
