@@ -43,7 +43,7 @@ def read_bytes(path: Path, missing: str, broken: str, largest: float = float("in
             if not stat.S_ISREG(status.st_mode):
                 raise InputError(path, "", "is not a regular file", broken)
             if status.st_size > largest:
-                raise InputError(path, "", f"has more than {LARGEST >> 20} MiB", broken)
+                raise InputError(path, "", f"has more than {largest / 2**20:g} MiB", broken)
             return file.read()
     except FileNotFoundError:
         raise InputError(path, "", "is missing", missing) from None

@@ -42,7 +42,8 @@ def _fitting(data: dict[str, Any], mine: Mapping[str, Any]) -> list[Bar] | None:
     sets = data.get("sets")
     for one in sets if isinstance(sets, list) else []:
         if isinstance(one, dict) and isinstance(one.get("run"), dict) and _same(mine, one["run"]):
-            return [entry for entry in one.get("quantities") or [] if isinstance(entry, dict)]
+            found = one.get("quantities")
+            return [entry for entry in found if isinstance(entry, dict)] if isinstance(found, list) else []
     return None
 
 
