@@ -3,11 +3,10 @@
 import os
 import sys
 import traceback
-from pathlib import Path
 from typing import Callable, NoReturn, Sequence, TypeAlias
 
 from .base import interruption
-from .base.errors import PROBLEM_LIMIT, PROGRAM, InputError, say_error, shortened
+from .base.errors import PROBLEM_LIMIT, PROGRAM, InputError, loaded, say_error, shortened
 from .base.streams import ReaderLeft, guarded
 
 Run: TypeAlias = Callable[[Sequence[str], str], int]  # the command line: arguments and version to exit code
@@ -33,7 +32,7 @@ def _guarded_main(arguments: Sequence[str], version: str, load: Callable[[], Run
     try:
         if not _has_working_folder():
             raise InputError(".", "", "the working folder has been removed", "change to another one")
-        run = _loaded(load)  # takes a while: signals are watched by now
+        run = loaded(load)  # takes a while: signals are watched by now
         interruption.check()
         code = run(arguments, version)
         sys.stdout.flush()
@@ -68,15 +67,6 @@ def _own() -> Run:
     from .cli import run
 
     return run
-
-
-def _loaded(load: Callable[[], Run]) -> Run:
-    try:
-        return load()
-    except EOFError:  # what Python says of byte code that was cut by a full disk; none is written today
-        folder = Path(__file__).parent
-        remedy = f"remove the folders __pycache__ in {folder}"
-        raise InputError(folder, "", "byte code beside the sources is damaged", remedy) from None
 
 
 LESS = {  # advice for a command that ran out of memory: what to give it less of; others compare runs
