@@ -45,6 +45,9 @@ build_level() {
   cmake --build "build/level/$1" --target "$2"
 }
 
+# The commit that the sources are of; nothing where they are of none.
+committed() { git diff --quiet HEAD 2>/dev/null && git rev-parse --short=8 HEAD; }
+
 # sanitized_tests [--since FILE]: unit tests under the sanitizers; with FILE those that a change since its commit can change.
 # By another compiler than the release build's: each warns of what the other does not.
 sanitized_tests() {
@@ -83,10 +86,11 @@ all)
   ;;
 sanitized)
   echo "== unit tests with sanitizers, by clang, and without MPI"
+  state=$(committed)
   sanitized_tests
-  if changes=$(git status --porcelain --untracked-files=no 2>/dev/null) && [ -z "$changes" ]; then
-    { git rev-parse --short=8 HEAD; tail -n +2 "$sanitized_clean"; } >"$sanitized_clean.new"
-    mv "$sanitized_clean.new" "$sanitized_clean"
+  if [ -n "$state" ] && [ "$state" = "$(committed)" ]; then
+    rest=$(tail -n +2 "$sanitized_clean")
+    printf '%s\n' "$state" "$rest" >"$sanitized_clean"
     echo "$sanitized_clean names this commit now; commit the file"
   fi
   ;;

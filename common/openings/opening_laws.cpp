@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "materials/law_parameters.hpp"
+#include "openings/four_element_windkessel.hpp"
 #include "openings/resistance.hpp"
 #include "openings/windkessel.hpp"
 
@@ -43,7 +44,7 @@ NameTable<OpeningLawKind> table_of() {
 }  // namespace
 
 const NameTable<OpeningLawKind>& opening_laws() {
-  static const auto table = table_of<Resistance, Windkessel>();
+  static const auto table = table_of<Resistance, Windkessel, FourElementWindkessel>();
   return table;
 }
 

@@ -1,10 +1,12 @@
 """The command line of fsi-compare. A command is imported when it is called, since all of them take longer than most run."""
 
 import argparse
+from functools import partial
 from importlib import import_module
 from typing import Mapping, NoReturn, Sequence
 
-from .base.errors import InputError
+from .base import interruption
+from .base.errors import InputError, loaded
 from .study import source_tree
 from .study.catalogue import OWN, Catalogue
 
@@ -46,7 +48,7 @@ def parser(version: str, modules: Mapping[str, str], catalogue: Catalogue = OWN)
     commands = top.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     for name, module in modules.items():
         catalogues = (catalogue,) if name == "study" else ()
-        import_module(module).add_parser(commands, version, *catalogues)
+        loaded(partial(import_module, module)).add_parser(commands, version, *catalogues)
     return top
 
 
@@ -67,4 +69,5 @@ def run(
         return int(end.code or 0)
     if options.command is None:
         top.error("no command")
+    interruption.check()  # imports take a while
     return int(options.run(options))

@@ -3,11 +3,10 @@
 import os
 import sys
 import traceback
-from pathlib import Path
 from typing import Callable, NoReturn, Sequence, TypeAlias
 
 from .base import interruption
-from .base.errors import PROBLEM_LIMIT, PROGRAM, InputError, say_error, shortened
+from .base.errors import PROBLEM_LIMIT, PROGRAM, InputError, loaded, say_error, shortened
 from .base.streams import ReaderLeft, guarded
 
 Run: TypeAlias = Callable[[Sequence[str], str], int]  # the command line: arguments and version to exit code
@@ -33,7 +32,7 @@ def _guarded_main(arguments: Sequence[str], version: str, load: Callable[[], Run
     try:
         if not _has_working_folder():
             raise InputError(".", "", "the working folder has been removed", "change to another one")
-        run = _loaded(load)  # takes a while: signals are watched by now
+        run = loaded(load)  # takes a while: signals are watched by now
         interruption.check()
         code = run(arguments, version)
         sys.stdout.flush()
@@ -42,7 +41,9 @@ def _guarded_main(arguments: Sequence[str], version: str, load: Callable[[], Run
         say_error(str(error))
         return 1
     except interruption.Interrupted as signal:
-        print(f"{PROGRAM}: interrupted by {signal}{_what_stays(arguments)}", file=sys.stderr)
+        goes_on = arguments[:1] in (["study"], ["solvers"], ["verify"], ["tune"])
+        kept = "; finished runs are kept, the same command goes on" if goes_on else ""
+        print(f"{PROGRAM}: interrupted by {signal}{kept}", file=sys.stderr)
         return signal.code
     except MemoryError:
         less = LESS.get(arguments[0] if arguments else "", "compare fewer or smaller runs")
@@ -68,15 +69,6 @@ def _own() -> Run:
     return run
 
 
-def _loaded(load: Callable[[], Run]) -> Run:
-    try:
-        return load()
-    except EOFError:  # what Python says of byte code that was cut by a full disk; none is written today
-        folder = Path(__file__).parent
-        remedy = f"remove the folders __pycache__ in {folder}"
-        raise InputError(folder, "", "byte code beside the sources is damaged", remedy) from None
-
-
 LESS = {  # advice for a command that ran out of memory: what to give it less of; others compare runs
     "report": "give fewer runs, or fewer times by --frames",
     "picture": "take a run with fewer nodes",
@@ -91,12 +83,6 @@ LESS = {  # advice for a command that ran out of memory: what to give it less of
     "verify": "give --coarser, sample fewer points, or take a coarser case; finished runs are kept",
     "tune": "take a coarser case; finished runs are kept",
 }
-
-
-def _what_stays(arguments: Sequence[str]) -> str:
-    if arguments[:1] in (["study"], ["solvers"], ["verify"], ["tune"]):
-        return "; finished runs are kept, the same command goes on"
-    return ""
 
 
 def _has_working_folder() -> bool:

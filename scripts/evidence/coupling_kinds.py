@@ -407,21 +407,24 @@ def main() -> None:
         [options.programs / "fsi-partitioned", "--version"], capture_output=True, text=True, check=True
     ).stdout.split()[-1]
     origin = ORIGIN.format(turns=options.turns, version=version, processor=processor())
-    of = identity(options.programs, options.turns)
     for scene in (scene for scene in SCENES if scene.name in wanted):
         measured = options.work / f"{scene.name}.json"
+        of = identity(scene, options.programs, options.turns)
         before = json.loads(measured.read_text(encoding="utf-8")) if measured.exists() else {}
         if before.get("of") != of:
             before = {"of": of, "rows": measure(scene, options.programs, options.work, options.turns)}
-            measured.write_text(json.dumps(before), encoding="utf-8")
+            part = measured.with_suffix(".part")
+            part.write_text(json.dumps(before), encoding="utf-8")
+            part.replace(measured)
         kept[scene.title] = before["rows"]
         keep(options.output, origin, kept)
 
 
-def identity(programs: Path, turns: int) -> str:
-    """Of what measures: a scene that it has measured is not measured again."""
-    drivers = b"".join((programs / f"fsi-{name}").read_bytes() for name in ("monolithic", "partitioned"))
-    return f"{hashlib.sha256(drivers).hexdigest()}, {turns} turns"
+def identity(scene: Scene, programs: Path, turns: int) -> str:
+    """Of what is measured and by what: the same is not measured again."""
+    files = [programs / "fsi-monolithic", programs / "fsi-partitioned", scene.case, Path(__file__)]
+    digest = hashlib.sha256(b"".join(file.read_bytes() for file in files))
+    return f"{digest.hexdigest()}, {scene}, {turns} turns"
 
 
 def rows_by_scene(table: Path) -> Dict[str, List[Dict[str, Any]]]:

@@ -17,20 +17,39 @@ COMMENT = re.compile(
 
 
 def code_of(text: str) -> list[str]:
-    """What a source says to the compiler and to clang-tidy: without comments, but for those that silence a finding."""
-    kept = COMMENT.sub(lambda found: " " if found[1] and "NOLINT" not in found[1] else found[0], text)
-    return kept.split()
+    """What a source says to the compiler and to clang-tidy: without comments, but for those that silence a finding, and
+    without the blanks between words. Strings stay whole, as do the ends of preprocessor's lines."""
+    found: list[str] = []
+    end = 0
+    for match in COMMENT.finditer(text):
+        found += _words(text[end : match.start()])
+        if match[1] is None or "NOLINT" in match[1]:
+            found.append(match[0])
+        end = match.end()
+    return found + _words(text[end:])
+
+
+def _words(code: str) -> list[str]:
+    """Of code without strings and comments."""
+    ended = re.sub(r"(?m)^([ \t]*#.*)$", "\\1 \n#end ", code) if "#" in code else code
+    return ended.split()
 
 
 def changed_since(root: Path, record: Path) -> set[Path] | None:
     """Files that are not as they were at the commit that the record names, C++ sources by their code; None: that cannot be
     told, as where the clone does not have that commit."""
-    commit = record.read_text().split()[0]
+    words = record.read_text().split() if record.exists() else []
+    if not words:
+        return None
+    commit = words[0]
     git = ["git", "-C", str(root)]
     done = subprocess.run(
-        [*git, "diff", "--name-only", commit], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [*git, "diff", "--name-only", "--no-renames", "-z", commit],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
     )
-    new = subprocess.run([*git, "ls-files", "--others", "--exclude-standard"], stdout=subprocess.PIPE, text=True)
+    new = subprocess.run([*git, "ls-files", "--others", "--exclude-standard", "-z"], stdout=subprocess.PIPE, text=True)
     if done.returncode != 0 or new.returncode != 0:
         return None
 
@@ -43,7 +62,10 @@ def changed_since(root: Path, record: Path) -> set[Path] | None:
         )
         return old.returncode != 0 or code_of(old.stdout) != code_of(path.read_text())
 
-    return {root / name for name in (*filter(differs, done.stdout.splitlines()), *new.stdout.splitlines())}
+    def names(listed: str) -> list[str]:
+        return [name for name in listed.split("\0") if name]
+
+    return {root / name for name in (*filter(differs, names(done.stdout)), *names(new.stdout))}
 
 
 class Includes:

@@ -57,12 +57,13 @@ def reads_the_tree(root: Path, sources: set[Path]) -> bool:
 def is_touched(root: Path, sources: set[Path], headers: set[Path], changed: set[Path]) -> bool:
     code = sources | headers
     others = {path for path in changed if path.suffix not in (".cpp", ".hpp")}
-    lists = {path.parent for path in others if path.name == "CMakeLists.txt"}
-    data = {path.parent for path in others}
+    # Whatever else lies in a room, such as a header that CMake fills in, or its list.
+    rooms = {path.parent for path in others if path.name == "CMakeLists.txt" or path.suffix == ".in"}
+    tests = {path.parent for path in sources if path.is_relative_to(root / "tests")}
     return (
         bool(changed & code)
-        or any(lists & set(path.parents) for path in code)
-        or any(path.parent in data for path in sources if path.is_relative_to(root / "tests"))
+        or any(rooms & set(path.parents) for path in code)
+        or any(tests & set(path.parents) for path in others)  # their data
         or (reads_the_tree(root, sources) and any(path.suffix == ".toml" for path in others))
     )
 

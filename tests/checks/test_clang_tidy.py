@@ -58,11 +58,18 @@ class ClangTidy(unittest.TestCase):
         self.assertEqual(self.found(a=GOOD, b=GOOD.replace("one", "other")), "")
 
     def test_comments_are_no_code(self) -> None:
-        self.assertEqual(code_of('a("//"); // b\nc /* d */ e'), ['a("//");', "c", "e"])
-        self.assertEqual(code_of("x = '\"'; // b"), ["x", "=", "'\"';"])
-        self.assertEqual(code_of('R"x(// a)" )x" // b'), ['R"x(//', 'a)"', ')x"'])
+        self.assertEqual(code_of('a("//"); // b\nc /* d */ e'), ["a(", '"//"', ");", "c", "e"])
+        self.assertEqual(code_of("x = '\"'; // b"), ["x", "=", "'\"'", ";"])
+        self.assertEqual(code_of('R"x(// a)" )x" // b'), ['R"x(// a)" )x"'])
         self.assertEqual(code_of("1'000 // a\n+ 2'000"), ["1'000", "+", "2'000"])
         self.assertNotEqual(code_of("a // NOLINT(x)"), code_of("a // b"))
+        self.assertEqual(code_of("a  (b)\n;"), code_of("a (b) ; // c"))
+
+    def test_blanks_in_strings_and_the_ends_of_macros_are_code(self) -> None:
+        self.assertNotEqual(code_of('"a b"'), code_of('"a  b"'))
+        self.assertNotEqual(code_of('R"(a = 1\nb = 2)"'), code_of('R"(a = 1 b = 2)"'))
+        self.assertNotEqual(code_of("#define A 1\nint x;"), code_of("#define A 1 int x;"))
+        self.assertEqual(code_of("#define A 1  // b\nint x;"), code_of("#define A 1\n\nint x;"))
 
     def test_what_has_changed_since_a_commit(self) -> None:
         def git(*words: str) -> str:

@@ -54,7 +54,7 @@ class Stale(unittest.TestCase):
         patch.start()
         self.addCleanup(patch.stop)
         (Path(folder.name) / "table.csv").write_text("# made by hand\n")
-        self.item = Item("one", 1, (), ("table.csv",), False, False, False)
+        self.item = Item("one", 1, (), ("table.csv",), False, False, (0,), False)
 
     def told(self, age, item=None):
         ages = {"table.csv": ("one", age)} if age else {}

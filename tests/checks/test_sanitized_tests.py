@@ -75,7 +75,9 @@ class SanitizedTests(unittest.TestCase):
 
     def test_files_that_are_no_code_touch_those_beside_them(self) -> None:
         self.assertEqual(self.programs("tests/unit/mesh/points.csv"), ["test_mesh"])
+        self.assertEqual(self.programs("tests/unit/mesh/data/points.csv"), ["test_mesh"])
         self.assertEqual(self.programs("common/fluid/CMakeLists.txt"), ["test_fluid"])
+        self.assertEqual(self.programs("common/fluid/version.hpp.in"), ["test_fluid"])
         self.assertEqual(self.programs("CMakeLists.txt"), ["test_fluid", "test_mesh"])
         self.assertEqual(self.programs("gallery/tube.toml"), ["test_fluid"])  # which is told where the sources lie
 

@@ -2,8 +2,10 @@
 
 import sys
 from pathlib import Path
+from typing import Callable, TypeVar
 
 PROGRAM = "fsi-compare"
+T = TypeVar("T")
 # Characters that each part may take, as in the C++ programs (common/base/error.cpp). The user's input is in the
 # first three; a remedy is our own words, in which a command is meant to be pasted.
 FILE_LIMIT, KEY_LIMIT, PROBLEM_LIMIT, REMEDY_LIMIT = 200, 200, 600, 2000
@@ -76,3 +78,13 @@ def say_warning(text: str) -> None:
 
 def _tell(line: str) -> None:
     print(line, file=sys.stderr, flush=True)
+
+
+def loaded(load: Callable[[], T]) -> T:
+    """What an import gives. Raises InputError for damaged byte code."""
+    try:
+        return load()
+    except EOFError:  # what Python says of byte code that was cut by a full disk; none is written today
+        folder = Path(__file__).parents[1]
+        remedy = f"remove the folders __pycache__ in {folder}"
+        raise InputError(folder, "", "byte code beside the sources is damaged", remedy) from None

@@ -17,6 +17,8 @@ DEEPEST = 50  # levels of lists and sections; ours have five
 LARGEST = 64 << 20  # bytes of a JSON or TOML file; ours have a few thousand
 TEMPORARY = ".part"  # ends the names of files that are being written
 ELSEWHERE = "name another folder with -o"
+# Not those of Path: a name that is too long or a folder that may not be looked into is no exception.
+exists, is_file, is_folder = os.path.exists, os.path.isfile, os.path.isdir
 
 
 def folder(text: str) -> Path:
@@ -25,19 +27,6 @@ def folder(text: str) -> Path:
     if not text.strip():
         raise ValueError(text)
     return Path(text)
-
-
-def exists(path: Path) -> bool:
-    """Like Path.exists, but a name that is too long or a folder that may not be looked into is no exception."""
-    return os.path.exists(path)
-
-
-def is_file(path: Path) -> bool:
-    return os.path.isfile(path)
-
-
-def is_folder(path: Path) -> bool:
-    return os.path.isdir(path)
 
 
 def absolute(path: Path) -> Path:
@@ -54,7 +43,7 @@ def read_bytes(path: Path, missing: str, broken: str, largest: float = float("in
             if not stat.S_ISREG(status.st_mode):
                 raise InputError(path, "", "is not a regular file", broken)
             if status.st_size > largest:
-                raise InputError(path, "", f"has more than {LARGEST >> 20} MiB", broken)
+                raise InputError(path, "", f"has more than {largest / 2**20:g} MiB", broken)
             return file.read()
     except FileNotFoundError:
         raise InputError(path, "", "is missing", missing) from None
@@ -197,6 +186,12 @@ def replacing(path: Path) -> Iterator[Path]:
     finally:
         if temporary and os.path.lexists(temporary):
             os.unlink(temporary)
+
+
+def write_text(path: Path, text: str) -> None:
+    """Writes a file in UTF-8, whole or not at all. Raises InputError."""
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
 
 
 def _not_written(path: Path, error: OSError) -> InputError:

@@ -1,5 +1,6 @@
-"""Whether entries of files are numbers."""
+"""Whether entries of files, and words, are numbers."""
 
+import math
 from typing import Any, Mapping, TypeGuard
 
 
@@ -12,3 +13,11 @@ def number_of(entries: Mapping[str, Any], name: str) -> float | None:
     """The number of this name; None where it is missing, or something else."""
     value = entries.get(name)
     return float(value) if is_number(value) else None
+
+
+def parsed(text: str) -> float:
+    """The number that a text says; NaN where it says none."""
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan

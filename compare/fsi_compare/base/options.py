@@ -6,8 +6,11 @@ from typing import Any, Callable, TypeAlias
 
 from .errors import PROGRAM, InputError
 from .files import folder
+from .numbers import parsed
 
 Commands: TypeAlias = "argparse._SubParsersAction[Any]"  # of the program's parser
+DRIVERS = ("monolithic", "partitioned")
+Run: TypeAlias = Callable[[argparse.Namespace], int]  # a command, which returns the exit code
 
 
 def positive(option: str) -> Callable[[str], int]:
@@ -40,10 +43,7 @@ def share(option: str) -> Callable[[str], float]:
     """The type of an option that takes a part of a value: 0.02 for 2% and for 0.02. Raises InputError for another."""
 
     def part(text: str) -> float:
-        try:
-            value = float(text[:-1]) / 100 if text.endswith("%") else float(text)
-        except ValueError:
-            value = 0.0
+        value = parsed(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
         if not 0 < value < 1:
             raise InputError("", option, f"{text} is no part of a value", "give a percentage, like 1%")
         return value
@@ -52,21 +52,12 @@ def share(option: str) -> Callable[[str], float]:
 
 
 def add_command(
-    commands: Commands,
-    name: str,
-    run: Callable[[argparse.Namespace], int],
-    help: str,
-    description: str,
-    examples: str | None = None,
+    commands: Commands, name: str, run: Run, help: str, description: str, examples: str | None = None
 ) -> argparse.ArgumentParser:
-    """`run` returns the exit code. Description and examples are printed as they stand."""
+    """Description and examples are printed as they stand."""
+    form = argparse.RawDescriptionHelpFormatter
     made: argparse.ArgumentParser = commands.add_parser(
-        name,
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        help=help,
-        description=description,
-        epilog=examples,
+        name, allow_abbrev=False, formatter_class=form, help=help, description=description, epilog=examples
     )
     made.set_defaults(run=run)
     return made
@@ -119,5 +110,5 @@ def add_usual(command: argparse.ArgumentParser, version: str, threads: str) -> N
 
 
 def add_drivers(command: argparse.ArgumentParser) -> None:
-    for name in ("monolithic", "partitioned"):
+    for name in DRIVERS:
         command.add_argument(f"--{name}", metavar="PATH", type=Path, help=f"fsi-{name} (default: beside this program)")

@@ -45,18 +45,15 @@ def scale_of(levels: Iterable[np.ndarray], signed: bool) -> Scale:
     """Scale of values at some times and places. A single node cannot stretch it: of each array the 99th percentile
     counts, and of these the largest (below: the 1st, the least). Unsigned values begin at zero. Signed ones are centred
     about zero when both signs matter."""
-    lows: list[float] = []
-    highs: list[float] = []
-    ends: list[float] = []
+    found = []
     for values in levels:
         finite = values[np.isfinite(values)]
         if len(finite):
-            lows.append(float(np.percentile(finite, 100 - PERCENTILE)))
-            highs.append(float(np.percentile(finite, PERCENTILE)))
-            ends += [float(finite.min()), float(finite.max())]
-    if not ends:
+            found.append([*np.percentile(finite, (100 - PERCENTILE, PERCENTILE)), finite.min(), finite.max()])
+    if not found:
         return Scale(0.0, 1.0, False, float("nan"), float("nan"))
-    low, high, least, largest = min(lows), max(highs), min(ends), max(ends)
+    lows, highs, leasts, most = np.array(found, dtype=float).T.tolist()
+    low, high, least, largest = min(lows), max(highs), min(leasts), max(most)
     if not signed:
         return Scale(0.0, _above(0.0, high if high > 0 else largest), False, least, largest)
     smaller, larger = sorted((abs(low), abs(high)))

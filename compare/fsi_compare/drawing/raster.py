@@ -27,13 +27,13 @@ class Mesh:
 
 
 def rendered(
-    meshes: Sequence[Mesh], camera: Camera, width: int, height: int, colours: np.ndarray, fit: np.ndarray | None = None
+    meshes: Sequence[Mesh], camera: Camera, width: int, height: int, colours: np.ndarray
 ) -> tuple[np.ndarray, float]:
     """Red, green, blue of 0 to 255, (height, width, 3), and the pixels for each mm. `colours` (256, 3). The picture
-    holds all points, or those of `fit` (points, 3)."""
+    holds all points."""
     wide, high = SAMPLES * width, SAMPLES * height
     axes = camera.axes
-    shown = fit if fit is not None else np.concatenate([mesh.points for mesh in meshes])
+    shown = np.concatenate([mesh.points for mesh in meshes])
     scale, middle = fitted((shown @ axes.T)[:, :2], wide, high)
     image = np.full((wide * high, 3), float(BACKGROUND))
     depth = np.full(wide * high, -np.inf)

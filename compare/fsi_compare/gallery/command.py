@@ -8,7 +8,7 @@ from ..base.files import folder, make_folder
 from ..base.options import Commands, add_command, add_count, add_drivers, add_output, add_usual
 from ..base.folder_lock import locked
 from ..starting.programs import find_drivers, need_mesh_maker
-from .running import Programs, make_runs
+from .running import make_runs
 from .scene import BOTH, PEERS, READY, Number, find_scenes
 
 DESCRIPTION = """\
@@ -55,8 +55,8 @@ def gallery(options: argparse.Namespace) -> int:
 
     make_folder(options.output)
     with locked(options.output):
-        programs = Programs(mesh_maker, drivers)
-        outcomes = make_runs(scenes, options.output, programs, options.quick, options.jobs, said, options.processes)
+        how = options.quick, options.jobs, options.processes
+        outcomes = make_runs(scenes, options.output, mesh_maker, drivers, *how, said)
         from .page import write_page  # matplotlib takes a second to load
 
         report, numbers = write_page(options.output, outcomes, options.quick, options.jobs)

@@ -4,7 +4,7 @@ from os.path import normpath
 from pathlib import Path
 from typing import Any, Mapping, Sequence
 
-from ..reporting.column import Column
+from ..reporting.column import Column, work_column
 from ..reporting.layout import Table
 from ..reporting.report import Report
 from ..results.run import RunResults
@@ -12,15 +12,12 @@ from ..runs.coupling import coupling_kind
 from ..runs.work_units import NOTE, per_step
 from .mesh_chain import as_typed, with_places
 from .running import Outcome
-from .scene import Number, Scene, SceneRun
-from ..reporting.work_column import work_column
-
-TITLE = "fsi-duo: gallery"
+from .scene import Number, Scene, SceneRun, SceneRuns
 
 
 def write_page(folder: Path, outcomes: Sequence[Outcome], quick: bool, at_once: int) -> tuple[Report, list[Number]]:
     """Writes the page; also what was measured, of all scenes. A scene of which a run failed says so."""
-    report = Report(folder, TITLE + (", short form" if quick else ""))
+    report = Report(folder, "fsi-duo: gallery" + (", short form" if quick else ""))
     report.text(
         "Each scene is a folder of `gallery/` with a case file, what its mesh is made from, and a number that is known. "
         "Scenes with fluid and wall are run by both drivers from the same case file, others by one; one thread each. "
@@ -50,7 +47,7 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> list[
     report.list([f"`{command}`" for command in commands])
     for program, failure in outcome.failures.items():
         report.text(f"**{program} failed:** {failure}")
-    runs = outcome.finished(quick)
+    runs = SceneRuns({name: outcome.runs[name] for name in scene.drivers if name in outcome.runs}, quick)
     if outcome.failures:
         return []
     add_still(report, f"{stem}_vessel", runs.first.results, getattr(scene.module, "STILL", {}), scene.at_rest)
@@ -87,16 +84,8 @@ def add_still(report: Report, stem: str, run: RunResults, asked: Mapping[str, An
     report.still(stem, lambda: run.picture(**words), f"{caption[0].upper()}{caption[1:]} at {when}.")
 
 
-def driver(program: str) -> str:
-    return program.removeprefix("fsi-")
-
-
 def differs(number: Number) -> str:
     return percent(number.error) + ("" if number.holds else " (!)")
-
-
-def quantity(number: Number) -> str:
-    return number.what + (f" [{number.unit}]" if number.unit else "")
 
 
 def percent(share: float) -> str:
@@ -108,9 +97,11 @@ def total(run: SceneRun, name: str) -> Any:
 
 
 NUMBERS: Sequence[Column[Number]] = (
-    Column("quantity", "quantity", lambda n: n.what, text=quantity, left=True),
+    Column(
+        "quantity", "quantity", lambda n: n.what, text=lambda n: f"{n.what} [{n.unit}]" if n.unit else n.what, left=True
+    ),
     Column(csv="unit", value=lambda n: n.unit),
-    Column("driver", "program", lambda n: n.program, driver, left=True),
+    Column("driver", "program", lambda n: n.program, lambda name: name.removeprefix("fsi-"), left=True),
     Column("known from", "source", lambda n: n.source, left=True),
     Column("value", "value", lambda n: n.value, ".5g"),
     Column("known", "reference", lambda n: n.reference, ".5g"),

@@ -6,17 +6,12 @@ from typing import Any, Callable, Mapping, Sequence
 
 from ..base.errors import InputError, ProgramError
 from ..base.files import absolute, make_folder, remove_tree
+from ..runs.run_folder import read_finished
 from ..starting.launch import launched
 from ..starting.processes import End, Job, run_jobs
 from ..starting.programs import Program
 from .mesh_chain import make_mesh, with_places
-from .scene import Scene, SceneRun, SceneRuns, read_scene_run
-
-
-@dataclass(frozen=True)
-class Programs:
-    mesh: Path
-    drivers: Mapping[str, Program]
+from .scene import Scene, SceneRun
 
 
 @dataclass
@@ -27,18 +22,16 @@ class Outcome:
     runs: dict[str, SceneRun] = field(default_factory=dict)
     failures: dict[str, str] = field(default_factory=dict)  # by program
 
-    def finished(self, quick: bool) -> SceneRuns:
-        return SceneRuns({name: self.runs[name] for name in self.scene.drivers if name in self.runs}, quick)
-
 
 def make_runs(
     scenes: Sequence[Scene],
     folder: Path,
-    programs: Programs,
+    mesh_maker: Path,
+    drivers: Mapping[str, Program],
     quick: bool,
     at_once: int,
+    processes: int,
     said: Callable[[str], None],
-    processes: int = 1,
 ) -> list[Outcome]:
     """Runs each scene with its drivers, each on `processes` of one thread, `at_once` at a time:
     `folder/NAME/monolithic` and so on."""
@@ -47,11 +40,11 @@ def make_runs(
     places = []
     for outcome in outcomes:
         scene = outcome.scene
-        mesh = _make_mesh(scene, folder / scene.name, programs.mesh, quick)
+        mesh = _make_mesh(scene, folder / scene.name, mesh_maker, quick)
         for program in scene.drivers:
             place = folder / scene.name / program.removeprefix("fsi-")
             remove_tree(place)
-            command = launched(_command(scene, programs.drivers[program], mesh, place, quick), processes)
+            command = launched(_command(scene, drivers[program], mesh, place, quick), processes)
             jobs.append(Job(len(jobs), command))
             places.append((outcome, program, place))
 
@@ -61,7 +54,7 @@ def make_runs(
             outcome.failures[program] = end.message
             said(f"{outcome.scene.name}, {program}: failed: {end.message}")
             return
-        outcome.runs[program] = read_scene_run(place, program, end.seconds)
+        outcome.runs[program] = SceneRun(place, program, read_finished(place), end.seconds)
         said(f"{outcome.scene.name}, {program}: {end.seconds:.1f} s")
 
     run_jobs(jobs, at_once, ended)

@@ -29,7 +29,6 @@ from ..base.suggestions import nearest
 from ..results.run import RunResults, open_run
 from ..results.table import Table
 from ..runs.coupling import coupling_words
-from ..runs.run_folder import read_finished
 
 BOTH = ("fsi-monolithic", "fsi-partitioned")
 READY = Path(__file__).resolve().parents[3] / "gallery"
@@ -192,7 +191,3 @@ def read_scene(folder: Path) -> Scene:
     if not is_file(scene.case):
         raise InputError(scene.case, "", "no such file", "a scene's case is named after its folder")
     return scene
-
-
-def read_scene_run(folder: Path, program: str, seconds: float) -> SceneRun:
-    return SceneRun(folder, program, read_finished(folder), seconds)

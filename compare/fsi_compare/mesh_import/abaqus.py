@@ -114,10 +114,6 @@ def _wanted(key: Line, options: dict[str, str], name: str) -> str:
     return value
 
 
-def _words(line: Line) -> list[str]:
-    return [word.strip() for word in line.text.split(",") if word.strip()]
-
-
 def _shape(said: str) -> tuple[int, int]:
     """Dimension and nodes of a type of elements: 3 and 10 of C3D10MH; 0 for one that is not known."""
     for name, found in OTHER_TYPES.items():
@@ -233,18 +229,16 @@ class _Deck:
             _refuse(key, f"elements of the type {said} are not known", "leave them out of the deck")
         kind = OF_COUNT[dimension][count]
         rows = self.blocks.setdefault(kind, [])
-        numbers, nodes = self._element_rows(data, said, count)
-        self.current.elements.update((number, (kind, place)) for place, number in enumerate(numbers, len(rows)))
-        rows += nodes
+        found = self._element_rows(data, said, count)
+        self.current.elements.update((number, (kind, place)) for place, number in enumerate(found, len(rows)))
+        rows += found.values()
         if options.get("ELSET"):
-            self._take_elements(self.current, options["ELSET"], numbers)
+            self._take_elements(self.current, options["ELSET"], list(found))
 
-    def _element_rows(self, data: list[Line], said: str, count: int) -> tuple[list[int], list[list[int]]]:
-        """Numbers and nodes of elements; one may go on in the next line."""
+    def _element_rows(self, data: list[Line], said: str, count: int) -> dict[int, list[int]]:
+        """Nodes of elements by their numbers; one may go on in the next line."""
         known, taken = self.current.nodes, self.current.elements
-        numbers: list[int] = []
-        rows: list[list[int]] = []
-        fresh = set()
+        found: dict[int, list[int]] = {}
         words: list[str] = []
         for line in data:
             words += line.text.rstrip(",").split(",")
@@ -254,19 +248,18 @@ class _Deck:
                 _refuse(line, f"element {words[0]} has {len(words) - 1} nodes, its type {said} {count}")
             try:
                 number = int(words[0])
-                rows.append([known[int(word)] for word in words[1:]])
+                nodes = [known[int(word)] for word in words[1:]]
             except ValueError:
                 _refuse(line, f"'{line.text[:60]}' is no element")
             except KeyError as error:
                 _refuse(line, f"element {words[0]} has the node {error.args[0]}, which is not there")
-            if number in taken or number in fresh:
+            if number in taken or number in found:
                 _refuse(line, f"element {number} is there twice")
-            fresh.add(number)
-            numbers.append(number)
+            found[number] = nodes
             words = []
         if words:
             _refuse(data[-1], f"element {words[0]} has {len(words) - 1} nodes, its type {said} {count}")
-        return numbers, rows
+        return found
 
     def _owner(self, key: Line, options: dict[str, str]) -> Part:
         """The part whose numbers a set has."""
@@ -384,7 +377,7 @@ def _set_numbers(
     """Numbers of a set, which may name other sets. `words` begin the message for one that is not there."""
     numbers: list[int] = []
     for line in data:
-        entries, found = _words(line), []
+        entries, found = [word.strip() for word in line.text.split(",") if word.strip()], []
         if "GENERATE" in options:
             try:
                 first, last = int(entries[0]), int(entries[1])

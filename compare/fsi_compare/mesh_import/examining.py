@@ -4,8 +4,6 @@ doubled points. All else is asked of the mesh by `fsi-mesh` itself."""
 import shlex
 from typing import Sequence
 
-import numpy as np
-
 from .listing import MOST_VOLUMES, UNITS, Volumes, box_of, separate_volumes, unit_words
 from .parts import WHOLE, FoundMesh, shown_names
 from .touching import Contact, contacts, doubled_words, gap_words, lonely, touch_words

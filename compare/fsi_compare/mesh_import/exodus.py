@@ -15,21 +15,13 @@ import numpy as np
 from ..base.errors import InputError
 from .raw_mesh import RawMesh, nothing, sides_in_order
 
-# By the letters with which a block's type begins, longest first, and how many nodes its elements have.
-SHAPES = ["TRISHELL", "TRIANGLE", "TETRA", "TRUSS", "BEAM", "BAR", "TET", "TRI", "SHELL", "QUAD", "HEX", "WEDGE"]
-SHAPES += ["PYRAMID", "SPHERE", "CIRCLE", "NODE"]
-KIND_OF = {
-    (name, count): kind
-    for names, kinds in (
-        (("TETRA", "TET"), {4: "tetra", 10: "tetra10"}),
-        (("TRISHELL", "TRIANGLE", "TRI", "SHELL"), {3: "triangle", 6: "triangle6"}),
-        (("TRUSS", "BEAM", "BAR"), {2: "line", 3: "line3"}),
-    )
-    for name in names
-    for count, kind in kinds.items()
-}
+# By the letters with which a block's type begins, and how many nodes its elements have.
+KINDS: dict[str, dict[int, str]] = dict.fromkeys(("TETRA", "TET"), {4: "tetra", 10: "tetra10"})
+KINDS |= dict.fromkeys(("TRISHELL", "TRIANGLE", "TRI", "SHELL"), {3: "triangle", 6: "triangle6"})
+KINDS |= dict.fromkeys(("TRUSS", "BEAM", "BAR"), {2: "line", 3: "line3"})
 OTHERS = {"SHELL": "quad", "QUAD": "quad", "HEX": "hexahedron", "WEDGE": "wedge", "PYRAMID": "pyramid"}
-POINTS = ("SPHERE", "CIRCLE", "NODE")
+OTHERS |= dict.fromkeys(("SPHERE", "CIRCLE", "NODE"), "vertex")
+SHAPES = sorted({*KINDS, *OTHERS}, key=len, reverse=True)
 # Nodes of sides 1, 2, ... Shells of triangles, which all triangles in space are to the Exodus library, whatever their
 # type says, have two faces before them.
 SIDES = sides_in_order((2, 0, 1, 3))
@@ -117,12 +109,9 @@ def _names(file: Any, short: str, word: str, dimension: str) -> list[str]:
 
 def _kind(path: Path, block: str, said: str, count: int) -> str:
     shape = next((s for s in SHAPES if said.upper().startswith(s)), "")
-    if (shape, count) in KIND_OF:
-        return KIND_OF[shape, count]
-    if shape in POINTS:
-        return "vertex"
-    if shape in OTHERS:
-        return OTHERS[shape]
+    kind = KINDS.get(shape, {}).get(count) or OTHERS.get(shape)
+    if kind is not None:
+        return kind
     problem = f"has elements of the type {said} with {count} nodes"
     raise InputError(path, block, problem, "mesh it by tetrahedra of 4 or 10 nodes, or by triangles of 3 or 6")
 

@@ -73,23 +73,13 @@ def first_of_cluster(count: int, i: np.ndarray, j: np.ndarray) -> np.ndarray:
 
 
 def nearest_distance(first: np.ndarray, second: np.ndarray, longest: float) -> float:
-    """The least distance between points of the two, infinite beyond `longest`. Looks further by degrees."""
-    box = float(np.max(np.ptp(np.vstack([first, second]), axis=0)))
-    radius = max(box * 1e-9, 1e-300)
-    while True:
-        try:
-            _, _, distances = near_pairs(first, second, min(radius, longest))
-        except TooMany:
-            return radius
-        if len(distances):
-            return float(distances.min())
-        if radius >= longest:
-            return float("inf")
-        radius *= 8
+    """The least distance between points of the two, infinite beyond `longest`."""
+    return float(distances_to(first, second, longest, least=True).min())
 
 
-def distances_to(first: np.ndarray, second: np.ndarray, longest: float) -> np.ndarray:
-    """Distance of each point of `first` to the nearest of `second`, infinite beyond `longest`."""
+def distances_to(first: np.ndarray, second: np.ndarray, longest: float, least: bool = False) -> np.ndarray:
+    """Distance of each point of `first` to the nearest of `second`, infinite beyond `longest`. Looks further by degrees;
+    `least`: until the least of all is found."""
     found = np.full(len(first), np.inf)
     box = float(np.max(np.ptp(np.vstack([first, second]), axis=0)))
     radius, left = max(box * 1e-9, 1e-300), np.arange(len(first))
@@ -100,8 +90,8 @@ def distances_to(first: np.ndarray, second: np.ndarray, longest: float) -> np.nd
             found[left] = radius
             break
         np.minimum.at(found, left[i], distances)
-        if radius >= longest:
+        if radius >= longest or (least and len(distances)):
             break
         left = left[np.isinf(found[left])]
-        radius *= 4
+        radius *= 8 if least else 4
     return found

@@ -1,7 +1,6 @@
 """What `fsi-mesh import --list` says: the parts of a mesh, its size, what touches, and the command that takes it in."""
 
 import shlex
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Sequence
 
@@ -9,7 +8,7 @@ import numpy as np
 
 from ..base.errors import printable
 from .groups import facets_between
-from .parts import WHOLE, FoundMesh, count_in, dimensions_of, is_surface, shown_names
+from .parts import WHOLE, FoundMesh, dimensions_of, is_surface, shown_names
 from .raw_mesh import CORNERS, ELEMENTS, Block
 from .sources import Source
 from .touching import contacts, doubled_words, gap_words, lonely, touch_words
@@ -25,15 +24,6 @@ MOST_VOLUMES = 4  # whose distances are looked for, each with each; of more what
 MOST_LINES = 200  # of parts
 
 
-@dataclass
-class _Extent:
-    """Size of a part, in the file's unit."""
-
-    measure: float  # volume, area or length
-    box: np.ndarray
-    flat: bool = False
-
-
 def listing(mesh: FoundMesh, words: Sequence[str], sources: Sequence[Source], scale: float, join: float) -> list[str]:
     """Lines. `words` are the files as the user gave them; the mesh is scaled already."""
     lines = _table(mesh, scale)
@@ -41,7 +31,7 @@ def listing(mesh: FoundMesh, words: Sequence[str], sources: Sequence[Source], sc
     lines += _touching(mesh, volumes)
     factor = scale
     if scale == 1:
-        factor, said = _unit(float(_box(mesh.points, _cells(mesh, WHOLE)).max()))
+        factor, said = _unit(float(box_of(mesh, WHOLE).max()))
         lines.append(said)
     return lines + _command(mesh, volumes, words, sources, factor, join)
 
@@ -65,8 +55,8 @@ def box_of(mesh: FoundMesh, name: str) -> np.ndarray:
     return _box(mesh.points, _cells(mesh, name))
 
 
-def _extent(points: np.ndarray, blocks: Sequence[Block]) -> _Extent:
-    """The part's extent, by its vertices."""
+def _measure(points: np.ndarray, blocks: Sequence[Block]) -> tuple[float, bool]:
+    """Volume, area or length of a part by its vertices, in the unit of the points, and whether it is flat."""
     measure, areas_of = 0.0, [np.zeros((0, 3))]
     for block in blocks:
         corners = points[block.nodes[:, : CORNERS[block.kind]]]
@@ -79,7 +69,7 @@ def _extent(points: np.ndarray, blocks: Sequence[Block]) -> _Extent:
             areas_of.append(areas)
         else:
             measure += float(np.linalg.norm(edges[:, 0], axis=1).sum())
-    return _Extent(measure, _box(points, blocks), _are_flat(np.concatenate(areas_of)))
+    return measure, _are_flat(np.concatenate(areas_of))
 
 
 def _are_flat(areas: np.ndarray) -> bool:
@@ -94,18 +84,18 @@ def _are_flat(areas: np.ndarray) -> bool:
 def _table(mesh: FoundMesh, scale: float) -> list[str]:
     """One line a part: its elements, its measure, its size under each guess of the unit, or by the given scale."""
     units = UNITS if scale == 1 else (("mm", 1.0),)
-    rows = [["part", "elements", "measure", *(f"size, mm, if in {unit}" for unit, _ in units)]]
-    if scale != 1:
-        rows[0][3] = "size, mm"
+    sizes = [f"size, mm, if in {unit}" for unit, _ in units] if scale == 1 else ["size, mm"]
+    rows = [["part", "elements", "measure", *sizes]]
     for name, places in mesh.cells.items():
-        counts = ", ".join(f"{count_in(mesh, places, d)} {ELEMENTS[d]}" for d in dimensions_of(mesh, places))
+        number = {d: sum(len(p) for b, p in zip(mesh.blocks, places) if b.dimension == d) for d in ELEMENTS}
+        counts = ", ".join(f"{number[d]} {ELEMENTS[d]}" for d in dimensions_of(mesh, places))
         top = max(dimensions_of(mesh, places), default=0)
-        extent = _extent(mesh.points, _cells(mesh, name))
+        measure, is_flat = _measure(mesh.points, _cells(mesh, name))
         unit = ("mm" if scale != 1 else "unit") + ("" if top == 1 else f"^{top}")
         words = {3: "volume", 2: "area", 1: "length"}
-        measure = f"{words[top]} {extent.measure:.4g} {unit}" if top else ""
-        flat = ", flat" if extent.flat and mesh.dimension == 3 else ""
-        rows.append([name, counts or "none", measure + flat, *_sizes(extent.box, units)])
+        said = f"{words[top]} {measure:.4g} {unit}" if top else ""
+        said += ", flat" if is_flat and mesh.dimension == 3 else ""
+        rows.append([name, counts or "none", said, *_sizes(box_of(mesh, name), units)])
     for name, points in mesh.points_of.items():
         box = np.ptp(mesh.points[points], axis=0) if len(points) else np.zeros(3)
         rows.append([name, f"{len(points)} points", "", *_sizes(box, units)])
@@ -208,7 +198,7 @@ def guessed_groups(mesh: FoundMesh, volumes: Volumes, given: Sequence[str] = ())
     groups = [] if given else list(_roles(mesh, volumes).items())
     surfaces = [name for name in mesh.cells if is_surface(mesh, name) and name not in given]
     if mesh.dimension == 3:
-        surfaces = [name for name in surfaces if _extent(mesh.points, _cells(mesh, name)).flat]
+        surfaces = [name for name in surfaces if _measure(mesh.points, _cells(mesh, name))[1]]
     seen: list[set] = []
     # The same facets under a name and a number are one opening.
     for name in sorted(surfaces, key=lambda name: _rank(mesh, name)):
@@ -220,7 +210,7 @@ def guessed_groups(mesh: FoundMesh, volumes: Volumes, given: Sequence[str] = ())
         flat = FoundMesh(mesh.points, [block for blocks in volumes.values() for block in blocks])
         for name, points in mesh.points_of.items():
             facets = facets_between(flat, points)
-            if facets and _extent(mesh.points, facets).flat:
+            if facets and _measure(mesh.points, facets)[1]:
                 groups.append((_name(name), name))
     return groups
 

@@ -167,10 +167,6 @@ def is_surface(mesh: FoundMesh, part: str) -> bool:
     return dimensions_of(mesh, mesh.cells[part]) == [mesh.dimension - 1]
 
 
-def count_in(mesh: FoundMesh, places: Sequence[np.ndarray], dimension: int) -> int:
-    return sum(len(p) for block, p in zip(mesh.blocks, places) if block.dimension == dimension)
-
-
 def shown_names(names: Sequence[str]) -> str:
     """The first names, in one line."""
     return ", ".join(names[:SHOWN]) + (f", and {len(names) - SHOWN} more" if len(names) > SHOWN else "")

@@ -14,7 +14,6 @@ from .dolfin_xml import read_dolfin_xml
 from .exodus import read_exodus
 from .med import read_med
 from .raw_mesh import RawMesh, of_meshio
-from .vtp import read_faces
 from .vtu import read_vtu
 from .xdmf import read_xdmf
 
@@ -63,13 +62,6 @@ def _way_into(folder: Path) -> str:
     ends = [face for face in sorted(folder.glob("mesh-surfaces/*.vtp")) if not face.stem.lower().startswith("wall")]
     words = [f"fluid={cells[0]}"] + [f"{face.stem}={face}" for face in ends]
     return f"give the files in it: fsi-mesh import {' '.join(map(shlex.quote, words))} -o {folder.name}.msh"
-
-
-def read_surface(path: Path) -> RawMesh:
-    """A surface of VTK (.vtp) beside a mesh of cells. Raises InputError."""
-    if not exists(path):
-        raise InputError(path, "", "no such file", "give a surface, .vtp")
-    return read_faces(path)
 
 
 def _read_by_meshio(path: Path) -> RawMesh:

@@ -11,11 +11,11 @@ from ..base.files import exists
 from .joining import TooMany, first_of_cluster, near_pairs
 from .parts import WHOLE, FoundMesh, found_mesh, whole_of
 from .raw_mesh import Block, nothing
-from .readers import read_mesh, read_surface
+from .readers import read_mesh
+from .vtp import read_faces
 
 # Points of two files are one where their places agree in single precision, in which VTK and others write.
 SINGLE = 4 * 2.0**-24
-SURFACES = (".vtp",)
 
 
 @dataclass
@@ -48,8 +48,8 @@ def read_sources(sources: Sequence[Source], scale: float) -> tuple[FoundMesh, li
             raise InputError("", name, "is the name of two files", "give each file a name of its own")
     meshes = []
     for source in sources:
-        surface = source.path.suffix.lower() in SURFACES and len(sources) > 1
-        meshes.append(found_mesh(source.file, (read_surface if surface else read_mesh)(source.path), scale))
+        surface = source.path.suffix.lower() == ".vtp" and len(sources) > 1
+        meshes.append(found_mesh(source.file, (read_faces if surface else read_mesh)(source.path), scale))
     ends = np.cumsum([len(mesh.points) for mesh in meshes]).tolist()
     if len(meshes) == 1 and not names:
         return meshes[0], ends
@@ -75,7 +75,9 @@ def read_sources(sources: Sequence[Source], scale: float) -> tuple[FoundMesh, li
         for name in [*mesh.cells, *mesh.points_of]:
             if name == WHOLE:
                 continue
-            known = take(f"{stem}/{name}" if source.name or _taken(name, mesh, meshes) else name)
+            others = (other for other in meshes if other is not mesh)
+            twice = any(name in other.cells or name in other.points_of for other in others)
+            known = take(f"{stem}/{name}" if source.name or twice else name)
             if name in mesh.points_of:
                 whole.points_of[known] = mesh.points_of[name] + first
                 continue
@@ -88,10 +90,6 @@ def read_sources(sources: Sequence[Source], scale: float) -> tuple[FoundMesh, li
         numbered.add(WHOLE)
     whole.numbered = frozenset(numbered)
     return whole, ends
-
-
-def _taken(name: str, mesh: FoundMesh, meshes: Sequence[FoundMesh]) -> bool:
-    return any(name in other.cells or name in other.points_of for other in meshes if other is not mesh)
 
 
 def join(file: str, mesh: FoundMesh, ends: Sequence[int], tolerance: float) -> list[str]:

@@ -2,8 +2,7 @@
 
 import argparse
 
-from ..base.files import exists, folder
-from ..base.errors import InputError
+from ..base.files import folder
 from ..base.options import Commands, add_command
 from .vtp import read_vtp, scalar_field
 
@@ -18,8 +17,6 @@ def add_parser(commands: Commands, version: str) -> None:
 
 def convert_surface(options: argparse.Namespace) -> int:
     """The command. Raises InputError."""
-    if not exists(options.surface):
-        raise InputError(options.surface, "", "no such file", "give a surface, .vtp")
     surface = read_vtp(options.surface)
     lines = []
     if options.field is not None:

@@ -15,6 +15,7 @@ from typing import Any, Callable, Iterator, TypeVar
 import numpy as np
 
 from ..base.errors import InputError
+from ..base.files import exists
 
 TYPES = {f"{kind}{8 * size}": f"{kind[0].lower()}{size}" for kind in ("Int", "UInt") for size in (1, 2, 4, 8)}
 TYPES |= {"Float32": "f4", "Float64": "f8"}
@@ -83,13 +84,12 @@ class VtkFile:
         """Bytes of base64: header and data are coded one after the other, each with a padding of its own."""
         size = struct.calcsize(self.header)
         length = -(-size // 3) * 4
+        (count,) = struct.unpack_from(self.header, base64.b64decode(text[:length]))  # of bytes, or of packed blocks
         if not self.packed:
-            (count,) = struct.unpack_from(self.header, base64.b64decode(text[:length]))
             return base64.b64decode(text[: -(-(size + count) // 3) * 4])
-        (blocks,) = struct.unpack_from(self.header, base64.b64decode(text[:length]))
-        length = -(-size * (3 + blocks) // 3) * 4
+        length = -(-size * (3 + count) // 3) * 4
         head = base64.b64decode(text[:length])
-        counts = struct.unpack_from(f"{self.order}{blocks}{self.header[1]}", head, 3 * size)
+        counts = struct.unpack_from(f"{self.order}{count}{self.header[1]}", head, 3 * size)
         return head + base64.b64decode(text[length : length + -(-sum(counts) // 3) * 4])
 
     def _unpacked(self, data: bytes) -> bytes:
@@ -132,6 +132,8 @@ Read = TypeVar("Read")
 
 def read_by(reader: Callable[[VtkFile], Read], path: Path, contents: str, what: str) -> Read:
     """What `reader` makes of a file, `what` for its message. Raises InputError, of damages too."""
+    if not exists(path):
+        raise InputError(path, "", "no such file", f"give a {what}, {EXTENSIONS[contents]}")
     try:
         return reader(VtkFile(path, contents))
     except DAMAGES as error:

@@ -2,21 +2,16 @@
 
 With NLGEOM its *ELASTIC is St. Venant and Kirchhoff's law, without it the linear one."""
 
-from dataclasses import dataclass
+import math
 from pathlib import Path
 
 from ..base.errors import InputError
 from ..base.files import LARGEST, read_text
+from ..base.numbers import parsed
 from .units import SYSTEMS
 
 SI = SYSTEMS["si"]
 Card = tuple[int, str, list[str]]  # line, keyword line, and lines of data
-
-
-@dataclass
-class Deck:
-    path: Path
-    words: list[str]  # in our keys and units, if the deck is in SI
 
 
 def deck_beside(folder: Path) -> Path | None:
@@ -26,8 +21,8 @@ def deck_beside(folder: Path) -> Path | None:
     return found[0] if len(found) == 1 else None
 
 
-def read_deck(path: Path) -> Deck:
-    """Reads a deck. Raises InputError."""
+def read_deck(path: Path) -> list[str]:
+    """What a deck says, in our keys and units, if it is in SI. Raises InputError."""
     by_name: dict[str, list[Card]] = {}
     for card in _cards(path):
         by_name.setdefault(card[1].split(",")[0].strip().upper(), []).append(card)
@@ -48,7 +43,7 @@ def read_deck(path: Path) -> Deck:
     if "*DYNAMIC" in by_name:
         step, end = _numbers(path, by_name["*DYNAMIC"][0], 2)
         words.append(f"time.step = {step * SI.time:g}, time.end = {end * SI.time:g}")
-    return Deck(path, words)
+    return words
 
 
 def _cards(path: Path) -> list[Card]:
@@ -66,11 +61,7 @@ def _cards(path: Path) -> list[Card]:
 
 def _numbers(path: Path, card: Card, count: int) -> list[float]:
     line, keyword, data = card
-    words = data[0].split(",") if data else []
-    try:
-        numbers = [float(word) for word in words[:count]]
-    except ValueError:
-        numbers = []
-    if len(numbers) != count:
+    numbers = list(map(parsed, data[0].split(",")[:count] if data else []))
+    if len(numbers) != count or any(map(math.isnan, numbers)):
         raise InputError(path, f"line {line}: {keyword}", f"has not {count} numbers behind it", "mend the deck")
     return numbers

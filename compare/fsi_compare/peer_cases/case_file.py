@@ -8,7 +8,7 @@ from ..base.toml import toml_lines
 from .model import PeerCase
 from .units import rounded
 
-CASE, MESH = "case.toml", "mesh.msh"
+CASE = "case.toml"
 
 
 def case_text(case: PeerCase) -> str:
@@ -44,7 +44,7 @@ def _section(name: str, section: dict[str, Any]) -> list[str]:
 
 def write_case(case: PeerCase, folder: Path) -> None:
     """Writes all but the mesh into a folder that is there."""
-    for name, table in case.tables.items():
-        rows = "".join(f"{rounded(time)!r},{rounded(value)!r}\n" for time, value in table.rows)
-        (folder / name).write_text(",".join(table.header) + "\n" + rows, encoding="utf-8")
+    for name, (header, rows) in case.tables.items():
+        lines = "".join(f"{rounded(time)!r},{rounded(value)!r}\n" for time, value in rows)
+        (folder / name).write_text(",".join(header) + "\n" + lines, encoding="utf-8")
     (folder / CASE).write_text(case_text(case), encoding="utf-8")

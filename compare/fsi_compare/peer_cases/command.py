@@ -7,9 +7,11 @@ from ..base.errors import InputError, printable, say_warning
 from ..base.files import folder
 from ..base.options import Commands, add_command
 from ..mesh_import.command import add_join
+from . import precice, svmultiphysics
 from .case_file import write_case
-from .formats import read_peer_case
-from .units import SYSTEMS, units_of
+from .model import PeerCase
+from .units import SYSTEMS, Units, units_of
+from .xml_file import read_xml
 
 
 def add_parser(commands: Commands, version: str) -> None:
@@ -46,3 +48,17 @@ def convert_case(options: argparse.Namespace) -> int:
         if note.matters:
             say_warning(str(note))
     return 0
+
+
+def read_peer_case(path: Path, units: Units, fibre_angle: float | None, tolerance: float) -> PeerCase:
+    """Reads the case of another program, which the root of its XML names. Raises InputError."""
+    root = read_xml(path)
+    if root.name == "svMultiPhysicsFile":
+        root.taken = True
+        return svmultiphysics.read_case(root, units, fibre_angle, tolerance)
+    if root.name == "precice-configuration":
+        raise precice.refusal(root)
+    if root.name == "dolfin":
+        problem = "is a mesh of dolfin, which holds no case: materials and conditions are Python of turtleFSI or VaSP"
+        raise InputError(path, "", problem, "import the mesh with -o FILE.msh, and write the case file by hand")
+    raise InputError(path, root.name, "is no case that ours reads", "give solver.xml of svMultiPhysics")

@@ -20,12 +20,7 @@ class Note:
         return f"{self.entry} ({self.where}): {self.instead}"
 
 
-@dataclass
-class Table:
-    """Rows of time in ms and a value."""
-
-    header: tuple[str, str]
-    rows: list[tuple[float, float]]
+Table = tuple[tuple[str, str], list[tuple[float, float]]]  # header; rows of a time in ms and a value
 
 
 @dataclass
@@ -40,6 +35,3 @@ class PeerCase:
     notes: list[Note] = field(default_factory=list)
     faces: list[Face] = field(default_factory=list)
     mesh: CaseMesh | None = None
-
-    def note(self, entry: str, where: str, instead: str, matters: bool = False) -> None:
-        self.notes.append(Note(entry, where, instead, matters))

@@ -1,19 +1,15 @@
 """preCICE's configuration, which couples programs and holds neither mesh nor material. What it and a deck of CalculiX
 beside it say is read and told; the rest of the case is with the program of the fluid, whose mesh nothing names."""
 
-
+from ..base.errors import InputError
 from .calculix import deck_beside, read_deck
-from .model import PeerCase
-from .units import SYSTEMS, Units
+from .units import SYSTEMS
 from .xml_file import Entry
 
 
-def is_case(root: Entry) -> bool:
-    return root.name == "precice-configuration"
-
-
-def read_case(root: Entry, units: Units, fibre_angle: float | None = None, tolerance: float = 0.0) -> PeerCase:
-    """Raises InputError always: the configuration has no fluid."""
+def refusal(root: Entry) -> InputError:
+    """What it says, and why that is no case: the configuration has no fluid. Raises InputError for numbers that are
+    none."""
     said: list[str] = []
     participants = [entry.attribute("name") for entry in root.every() if entry.name == "participant"]
     if participants:
@@ -31,8 +27,8 @@ def read_case(root: Entry, units: Units, fibre_angle: float | None = None, toler
     deck = deck_beside(root.file.parent)
     if deck is not None:
         wall = str(deck)
-        said.append(f"of the wall {deck} says {', '.join(read_deck(deck).words)}")
+        said.append(f"of the wall {deck} says {', '.join(read_deck(deck))}")
     words = f" (in SI {'; '.join(said)})" if said else ""
     command = f"fsi-mesh import fluid=FILE wall={wall} -o FILE.msh"
     remedy = f"import the meshes of both, the fluid's from its program: {command}; then write the case file by hand"
-    raise root.refuse(f"a preCICE configuration does not hold the fluid's mesh{words}", remedy)
+    return root.refuse(f"a preCICE configuration does not hold the fluid's mesh{words}", remedy)

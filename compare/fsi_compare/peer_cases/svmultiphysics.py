@@ -12,9 +12,10 @@ import numpy as np
 
 from ..base.errors import InputError, printable
 from ..base.files import absolute
+from ..base.numbers import parsed
 from ..base.suggestions import hint
 from .geometry import CaseMesh, Face, plain_names, read_case_mesh
-from .model import PeerCase, Table
+from .model import Note, PeerCase
 from .svmultiphysics_laws import Layer, layer_of, viscosity_of
 from .units import Units
 from .waveforms import Waveform, read_coefficients, read_series
@@ -26,9 +27,7 @@ EQUATIONS |= {"structural": "struct", "ustruct": "ustruct", "structural_velocity
 EQUATIONS |= {"lElas": "lElas", "linear_elasticity": "lElas"}
 WALLS = ("struct", "ustruct", "lElas")
 CMM = ("CMM", "coupled_momentum")
-# Beside the one above; what is lost with it.
 TRANSPORTS = ("AD", "advection_diffusion", "heatF", "dyeTransport", "scalarTransport")
-SIDE_EQUATIONS = dict.fromkeys(TRANSPORTS, "the transport of a substance")
 REFUSED = {
     "stokes": "a flow without inertia",
     "shell": "a shell",
@@ -95,14 +94,10 @@ class Medium:
     given: str
     domain: int
     kind: str = ""  # fluid or wall
-    name: str = ""  # group
+    name: str = "fluid"  # group; of a wall its own
 
 
-def is_case(root: Entry) -> bool:
-    return root.name == "svMultiPhysicsFile"
-
-
-def read_case(root: Entry, units: Units, fibre_angle: float | None = None, tolerance: float = 0.0) -> PeerCase:
+def read_case(root: Entry, units: Units, fibre_angle: float | None, tolerance: float) -> PeerCase:
     """Reads solver.xml. Raises InputError."""
     return _Reader(root, units, fibre_angle, tolerance).read()
 
@@ -137,13 +132,9 @@ class _Reader:
         self._name_the_rest()
         return self.case
 
-    def _note_all(self, notes: list[tuple[Entry, str, bool]]) -> None:
-        for entry, words, matters in notes:
-            self._note(entry, words, matters)
-
     def _note(self, entry: Entry, words: str, matters: bool = False, what: str = "") -> None:
         """`what`: the entry's name in the note, its key unless it is given."""
-        self.case.note(what or entry.key, f"line {entry.line}", words, matters)
+        self.case.notes.append(Note(what or entry.key, f"line {entry.line}", words, matters))
 
     def _time(self, general: Entry) -> dict[str, Any]:
         if general.number("Number_of_spatial_dimensions", 3) != 3:
@@ -172,9 +163,9 @@ class _Reader:
                 raise entry.refuse(f"{given} is {REFUSED[given]}, which ours does not solve", "take that equation out")
             if given == "mesh":
                 self._mesh_motion(entry)
-            elif given in SIDE_EQUATIONS:
+            elif given in TRANSPORTS:
                 entry.take_all()
-                self._note(entry, f"left out: {SIDE_EQUATIONS[given]}", True, f"Add_equation {given}")
+                self._note(entry, "left out: the transport of a substance", True, f"Add_equation {given}")
             elif given not in EQUATIONS:
                 raise entry.refuse(f"'{given}' is no equation", hint(given, EQUATIONS, "There are") + " and mesh")
             else:
@@ -262,8 +253,6 @@ class _Reader:
         walls = [medium for medium in media if medium.kind == "wall"]
         for medium, name in zip(walls, plain_names([wall.given for wall in walls], ["fluid"])):
             medium.name = name
-        for medium in fluids:
-            medium.name = "fluid"
         return media
 
     def _mesh(self, media: list[Medium]) -> CaseMesh:
@@ -319,7 +308,8 @@ class _Reader:
                 continue
             layer = layer_of(entry, own, self.units, self.fibre_angle)
             layers[medium.name] = layer
-            self._note_all(layer.notes)
+            for note in layer.notes:
+                self._note(*note)
             forces = [entry.number(f"Force_{axis}", 0.0) * self.units.of(1, 0, -2) for axis in "xyz"]
             if any(forces):
                 self.structure["gravity"] = forces
@@ -344,7 +334,8 @@ class _Reader:
             self._note(entry.need("Density"), words, True, "Density")
         viscosity, notes = viscosity_of(entry, self.units)
         self.fluid = {"density": density, **viscosity}
-        self._note_all(notes)
+        for note in notes:
+            self._note(*note)
         self.backflow = entry.number("Backflow_stabilization_coefficient", 0.2)
         for axis in "xyz":
             if entry.number(f"Force_{axis}", 0.0):
@@ -383,7 +374,7 @@ class _Reader:
                 remedy = "give it one: of a wall Dir with Value 0"
                 raise InputError(self.root.file, f"Add_face {face.given}", problem, remedy)
             self.openings.append({"surface": face.name, "backflow": 0.0})
-            self.case.note(f"Add_face {face.given}", "no Add_BC", "an opening free of traction, as there")
+            self.case.notes.append(Note(f"Add_face {face.given}", "no Add_BC", "an opening free of traction, as there"))
             return
         (entry,) = entries
         given = entry.word("Type")
@@ -468,11 +459,7 @@ class _Reader:
         found = entry.find("Effective_direction")
         if found is None:
             return []
-        words = found.text.replace("(", " ").replace(")", " ").replace(",", " ").split()
-        try:
-            numbers = [float(word) for word in words]
-        except ValueError:
-            numbers = []
+        numbers = list(map(parsed, found.text.replace("(", " ").replace(")", " ").replace(",", " ").split()))
         if len(numbers) != 3 or not np.isfinite(numbers).all():
             raise found.refuse(f"'{found.text}' is no direction", "write, for one, (0, 0, 1)")
         return numbers
@@ -495,7 +482,7 @@ class _Reader:
         wave, words = self._wave(entry)
         name = f"{face.name}.csv"
         rows = [(time * self.units.time, value * factor) for time, value in wave.rows()]
-        self.case.tables[name] = Table(header, rows)
+        self.case.tables[name] = header, rows
         made: dict[str, Any] = {key: {"file": name}}
         if not wave.ramp:
             made["period"] = wave.period * self.units.time
@@ -556,24 +543,17 @@ class _Reader:
         sections["title"] = printable(f"{folder or self.root.file.stem}, from {PROGRAM}")
         sections["element"] = "p1" if mesh.order == 1 else "p2p1"
         sections["mesh"] = {"file": "mesh.msh"}
-        if self.fluid:
-            sections["fluid"] = self.fluid
         if layers:
             first = next(iter(layers.values()))
             self.structure = {"density": first.density, **self.structure}
             if first.bulk_modulus is not None:
                 self.structure["bulk_modulus"] = first.bulk_modulus
             self.structure["layers"] = {name: layer.constants for name, layer in layers.items()}
-            sections["structure"] = self.structure
-        if self.openings:
-            sections["opening"] = self.openings
-        if self.supports:
-            sections["support"] = list(self.supports.values())
-        if kind == "FSI":
-            sections["mesh_motion"] = {"method": "stiffened"}
-        sections["time"] = time
-        if self.every > 0:
-            sections["output"] = {"every": self.every}
+        told: dict[str, Any] = {"fluid": self.fluid, "structure": self.structure, "opening": self.openings}
+        told |= {"support": list(self.supports.values())}
+        told |= {"mesh_motion": {"method": "stiffened"} if kind == "FSI" else {}, "time": time}
+        told |= {"output": {"every": self.every} if self.every > 0 else {}}
+        sections |= {name: entries for name, entries in told.items() if entries}
         self.case.said += mesh.said + [ELEMENTS[mesh.order]]
         self.case.mesh = mesh
 
@@ -592,7 +572,5 @@ class _Reader:
                 continue
             lines = ", ".join(str(entry.line) for entry in entries[:6]) + (", ..." if len(entries) > 6 else "")
             where = f"line{'s' if len(entries) > 1 else ''} {lines}"
-            if name in LOST:
-                self.case.note(name, where, LOST[name], True)
-            else:
-                self.case.note(name, where, INSTEAD.get(name, "no counterpart: passed over"), name not in INSTEAD)
+            instead = LOST.get(name, INSTEAD.get(name, "no counterpart: passed over"))
+            self.case.notes.append(Note(name, where, instead, name in LOST or name not in INSTEAD))

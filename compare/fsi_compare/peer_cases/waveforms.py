@@ -8,6 +8,7 @@ import numpy as np
 
 from ..base.errors import InputError
 from ..base.files import read_text
+from ..base.numbers import parsed
 
 SAMPLES_A_MODE = 64  # linear in between, the highest mode is off by 1/8 (2 pi/64)^2 of itself, 0.12 %
 FEWEST, MOST = 128, 20000
@@ -104,10 +105,7 @@ def _numbers(path: Path) -> list[list[float]]:
     rows = []
     for i, line in enumerate(text.splitlines(), 1):
         if line.strip():
-            try:
-                row = [float(word) for word in line.split()]
-            except ValueError:
-                row = [float("nan")]
+            row = list(map(parsed, line.split()))
             if not np.isfinite(row).all():
                 raise InputError(path, f"line {i}", f"'{line.strip()}' holds what is no finite number", "mend it")
             rows.append(row)

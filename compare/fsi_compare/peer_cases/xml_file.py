@@ -10,6 +10,7 @@ from typing import Iterator
 
 from ..base.errors import InputError
 from ..base.files import DEEPEST, LARGEST, read_bytes
+from ..base.numbers import parsed
 
 
 @dataclass
@@ -70,10 +71,7 @@ class Entry:
 
     def as_number(self) -> float:
         self.taken = True
-        try:
-            value = float(self.text)
-        except ValueError:
-            value = math.nan
+        value = parsed(self.text)
         if not math.isfinite(value):
             raise self.refuse(f"'{self.text}' is no finite number", "give a number")
         return value

@@ -11,16 +11,15 @@ import numpy as np
 from ..base.errors import InputError, printable
 from ..base.files import exists
 from ..base.options import Commands, add_command, add_folders, add_labels, add_output, add_times, add_title, add_usual
-from .column import Column, Facts
+from .column import Column, Facts, work_column
 from .layout import Table, hand_out
 from .pressure import read_times
 from ..runs.columns import read_iterations
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
 from ..runs.work_units import in_all, notes_on_work
-from ..runs.reference import FILE as DESCRIPTION_FILE, read_reference
+from ..runs.reference import FILE as DESCRIPTION_FILE, WaveReference, read_reference
 from ..runs.waves import PRESSURE, QUANTITIES, WINDOW, WRITTEN, Quantity, Waves, read_run, relative_difference
-from .work_column import work_column
 
 TIMES = "1.5,3,4.5,6"
 SAME_STEP = 1e-6  # relative
@@ -42,13 +41,6 @@ examples:
   fsi-compare accuracy results/axisymmetric-fine results/whole results/quarter results/axisymmetric
   fsi-compare accuracy compare/research/studies/references/neo-hookean results/small-steps --times 1.5,3,4.5,6,7.5,9
 """
-
-
-@dataclass(frozen=True)
-class Reference:
-    folder: Path
-    waves: dict[str, Waves]  # by quantity's column
-    step: float | None  # ms; None: extrapolated to zero
 
 
 @dataclass(frozen=True)
@@ -94,15 +86,14 @@ def accuracy(options: argparse.Namespace) -> int:
     return hand_out(accuracy_table(found, reference, times, printable(options.title)), options.output, options.quiet)
 
 
-def read_any_reference(folder: Path, times: Sequence[float]) -> Reference:
+def read_any_reference(folder: Path, times: Sequence[float]) -> WaveReference:
     """A kept reference, or a finished run with its means around `times`. Raises InputError."""
     if exists(folder / DESCRIPTION_FILE):
-        kept = read_reference(folder)
-        return Reference(folder, dict(kept.waves), kept.step)
+        return read_reference(folder)
     read_finished(folder)
     require_lines(folder)
     waves = read_run(folder, times)
-    return Reference(folder, waves, _step(waves))
+    return WaveReference(folder, "a finished run", {}, waves, {}, _step(waves))
 
 
 def require_lines(folder: Path) -> None:
@@ -120,7 +111,7 @@ def _step(waves: dict[str, Waves]) -> float:
     return float(times[-1] - times[-2]) if len(times) > 1 else float(times[-1])
 
 
-def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequence[float]) -> Accuracy:
+def read_accuracy(folder: Path, label: str, reference: WaveReference, times: Sequence[float]) -> Accuracy:
     """Reads a run. Raises InputError unless it is finished and it and the reference cover the times and the line."""
     summary = read_finished(folder)
     require_lines(folder)
@@ -197,7 +188,7 @@ def _facts(found: Sequence[Accuracy], times: Sequence[float]) -> Facts:
     return Facts(columns, [(one, place) for one in found for place in range(len(times))])
 
 
-def accuracy_table(found: Sequence[Accuracy], reference: Reference, times: Sequence[float], title: str) -> Table:
+def accuracy_table(found: Sequence[Accuracy], reference: WaveReference, times: Sequence[float], title: str) -> Table:
     notes = [
         f"Relative L2 norm along z of the difference from {reference.folder}. Averaged: over {WINDOW} ms around the "
         "time; no number where run or reference do not cover that."

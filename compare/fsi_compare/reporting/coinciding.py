@@ -4,10 +4,8 @@ import re
 from typing import Sequence
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.text import Text
 
 NEAR = 0.01  # of the height of the axes: less than a line is broad
 SHORT = 30  # characters, of a name that is said again
@@ -42,7 +40,9 @@ def labels_that_say_so(labels: Sequence[str], panels: Sequence[Sequence[Line2D]]
 def sentence_of_coinciding(figure: Figure) -> str:
     """A sentence for a caption: which curves with a name in a legend lie on each other in all panels that have them;
     empty where none do, or a legend or panel says it already."""
-    if any(SAID.search(text.get_text()) for axes in figure.axes for text in _texts(axes)):
+    texts = [text for axes in figure.axes for text in axes.texts]
+    texts += [text for axes in figure.axes if (legend := axes.get_legend()) for text in legend.get_texts()]
+    if any(SAID.search(text.get_text()) for text in texts):
         return ""
     said: dict[str, None] = {}  # in their order, each once
     for axes in figure.axes:
@@ -59,11 +59,6 @@ def sentence_of_coinciding(figure: Figure) -> str:
     groups = list(said)
     more = f"; {len(groups) - MOST} more" if len(groups) > MOST else ""
     return f"Lines that lie on each other: {'; '.join(groups[:MOST])}{more}."
-
-
-def _texts(axes: Axes) -> list[Text]:
-    legend = axes.get_legend()
-    return [*axes.texts, *(legend.get_texts() if legend else [])]
 
 
 def _near(one: Line2D, other: Line2D) -> bool:

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Any, Callable, Generic, Sequence, TypeVar
 
+from ..runs.work_units import shown
+
 R = TypeVar("R")
 
 
@@ -49,3 +51,9 @@ def fixed(value: Any, form: str | Callable[[Any], str], missing: str = "-") -> s
     if isinstance(form, str) and form.endswith("e") and value == 0:
         return "0"
     return format(value, form) if isinstance(form, str) else form(value)
+
+
+def work_column(head: str, csv: str, value: Callable[[R], float | None], group: str = "") -> Column[R]:
+    """Column of work units, printed where the table wants it, before seconds, and behind all others in CSV files. Its
+    cells are empty for runs that did not measure the unit."""
+    return Column(head, csv, value, shown, group=group, missing="", behind=True)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Sequence
 
-from ..base.errors import InputError, printable
+from ..base.errors import printable
 from ..base.files import exists
 from ..base.options import Commands, add_command, add_folders, add_labels, add_output, add_title, add_usual
 from ..runs.columns import read_columns, read_iterations
@@ -14,9 +14,8 @@ from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
 from ..runs.summary import PROGRAMS
 from ..runs.work_units import notes_on_work, per_step
-from .column import Column
+from .column import Column, work_column
 from .layout import Table, hand_out
-from .work_column import work_column
 
 DESCRIPTION = """\
 Tabulates what finished runs took: work units, wall time, coupling iterations, solves of the whole system and of the
@@ -146,27 +145,19 @@ def _calls(counts: str, csv: str, system: str) -> Column[Cost]:
 SYSTEMS = {"whole": COUPLED, "fluid": FLUID, "wall": WALL, "mesh": MESH}  # by their names in tables
 
 
-def _work_units(first: Cost) -> list[Column[Cost]]:
-    def relative(cost: Cost) -> float | None:
-        return cost.work_units / first.work_units if cost.work_units and first.work_units else None
-
-    group, csv = "work units", "work_units_relative_to_first"
-    return [
-        work_column("per step", "work_units_per_step", lambda c: c.work_units, group=group),
-        Column("relative", csv, relative, ".2f", group=group, missing="", behind=True),
-    ]
-
-
 def cost_columns(first: Cost) -> list[Column[Cost]]:
     """`first`: the run that the others' seconds and work units are relative to."""
 
     def relative(cost: Cost) -> float | None:
         return cost.seconds_per_step / first.seconds_per_step if first.seconds_per_step > 0 else None
 
+    def relative_work(cost: Cost) -> float | None:
+        return cost.work_units / first.work_units if cost.work_units and first.work_units else None
+
     def driver(cost: Cost) -> str:
         return coupling_words(f"fsi-{cost.program}", cost.summary)
 
-    gap, passes = "interface residual", "coupling iterations"
+    gap, passes, work = "interface residual", "coupling iterations", "work units"
     return [
         Column("run", "run", lambda c: c.label, left=True),
         Column("driver", "program", lambda c: c.program, left=True, text=driver),
@@ -177,7 +168,8 @@ def cost_columns(first: Cost) -> list[Column[Cost]]:
         Column(csv="threads", value=lambda c: c.threads),
         Column("processes", "processes", lambda c: c.processes, behind=True),
         Column("steps", "steps", lambda c: c.steps),
-        *_work_units(first),
+        work_column("per step", "work_units_per_step", lambda c: c.work_units, group=work),
+        Column("relative", "work_units_relative_to_first", relative_work, ".2f", group=work, missing="", behind=True),
         Column(csv="wall", unit="s", value=lambda c: c.seconds),
         Column("seconds per step", "wall_s_per_step", lambda c: c.seconds_per_step, ".3g"),
         Column("relative time", "wall_relative_to_first", relative, ".2f"),

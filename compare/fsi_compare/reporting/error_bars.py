@@ -3,34 +3,36 @@
 import shlex
 from typing import TYPE_CHECKING, Sequence
 
+from ..base.numbers import number_of
 from ..results.run import RunResults
-from ..runs.verification import KeptBar, Verification, find_verification
+from ..runs.verification import Bar
 from .column import Column
 from .layout import Table
 
 if TYPE_CHECKING:
     from .report import Report
 
-Row = tuple[str, KeptBar]
+Row = tuple[str, Bar]
+
+
+def _word(row: Row, name: str) -> str:
+    return str(row[1].get(name) or "")
+
+
+def _said(row: Row) -> str:
+    return _word(row, "verdict") + (f": {_word(row, 'advice')}" if _word(row, "advice") else "")
+
+
 COLUMNS: Sequence[Column[Row]] = (
     Column("run", "run", lambda r: r[0], left=True),
-    Column("quantity", "quantity", lambda r: r[1].quantity, left=True),
-    Column("unit", "unit", lambda r: r[1].unit, left=True),
-    Column("value", "value", lambda r: r[1].value, ".6g"),
-    Column("±", "error", lambda r: r[1].error, ".2g"),
-    Column("± [%]", "error_percent", lambda r: r[1].error_percent, ".2g"),
-    Column("verdict", "verdict", lambda r: r[1].verdict, text=lambda r: _said(r[1]), left=True),
+    Column("quantity", "quantity", lambda r: _word(r, "quantity"), left=True),
+    Column("unit", "unit", lambda r: _word(r, "unit"), left=True),
+    Column("value", "value", lambda r: number_of(r[1], "value") or 0.0, ".6g"),
+    Column("±", "error", lambda r: number_of(r[1], "error"), ".2g"),
+    Column("± [%]", "error_percent", lambda r: number_of(r[1], "error_percent"), ".2g"),
+    Column("verdict", "verdict", lambda r: _word(r, "verdict"), text=_said, left=True),
 )
 MOST_ROWS = 25  # of a table that is open from the start
-
-
-def _said(bar: KeptBar) -> str:
-    return f"{bar.verdict}: {bar.advice}" if bar.advice else bar.verdict
-
-
-def find_bars(runs: Sequence[RunResults]) -> list[Verification | None]:
-    """The bars beside each run; None: no family is beside it. Raises InputError for a broken file."""
-    return [find_verification(run.folder, run.summary) for run in runs]
 
 
 def unknown(run: RunResults, label: str) -> str:
@@ -40,10 +42,11 @@ def unknown(run: RunResults, label: str) -> str:
 
 
 def add_error_bars(
-    page: "Report", runs: Sequence[RunResults], labels: Sequence[str], found: Sequence[Verification | None]
+    page: "Report", runs: Sequence[RunResults], labels: Sequence[str], found: Sequence[list[Bar] | None]
 ) -> None:
+    """`found`: the bars beside each run; None: no family is beside it."""
     page.section("Error bars")
-    rows = [(label, bar) for label, of_run in zip(labels, found) if of_run is not None for bar in of_run.bars]
+    rows = [(label, bar) for label, of_run in zip(labels, found) if of_run is not None for bar in of_run]
     if rows:
         table = Table("error_bars", "How far values may be from the exact ones", COLUMNS, rows)
         table.notes.append(

@@ -11,6 +11,7 @@ from ..base.options import Commands, add_command, add_usual
 from ..base.suggestions import hint
 from ..results.fields import MediumFields
 from ..results.run import open_run
+from .pressure import read_times
 from .vtu import write_pvd, write_vtu
 
 AS_VTK = [0, 3, 5, 1, 4, 2]  # xx, yy, zz, xy, yz, xz from xx, xy, xz, yy, yz, zz of symmetric tensors
@@ -45,7 +46,7 @@ def export(options: argparse.Namespace) -> int:
     if not media:
         raise InputError(options.folder, "", "holds no fields", "set output.every in the case and run it again")
     wanted = _wanted_fields(options.fields, media)
-    times = _read_times(options.times)
+    times = read_times(options.times) or None
     output = options.output or options.folder / "vtu"
     count = 0
     with together(output) as place:
@@ -63,7 +64,8 @@ def write_series(
 ) -> int:
     """NAME.pvd and a VTU file for each time, by default those that all of the fields were written at. Returns how many
     files. Raises InputError for a time outside of them."""
-    at = common_times(medium, fields) if times is None else times
+    common = set.intersection(*(set(medium.times_of(field).tolist()) for field in fields))
+    at = sorted(common) if times is None else times
     digits = max(4, len(str(len(at))))
     series: list[tuple[float, str]] = []
     for number, time in enumerate(at):
@@ -83,11 +85,6 @@ def write_series(
     return len(series) + 1
 
 
-def common_times(medium: MediumFields, fields: list[str]) -> list[float]:
-    """Times in ms that all of these fields were written at."""
-    return sorted(set.intersection(*(set(medium.times_of(field).tolist()) for field in fields)))
-
-
 def _wanted_fields(text: str | None, media: dict[str, MediumFields]) -> list[str] | None:
     if text is None:
         return None
@@ -97,16 +94,3 @@ def _wanted_fields(text: str | None, media: dict[str, MediumFields]) -> list[str
         if field not in known:
             raise InputError("", "--fields", f"'{field}' is not in this run", hint(field, known))
     return wanted
-
-
-def _read_times(text: str | None) -> list[float] | None:
-    """Increasing."""
-    if text is None:
-        return None
-    try:
-        times = [float(word) for word in text.split(",")]
-    except ValueError:
-        raise InputError("", "--times", f"'{text}' is no list of numbers", "give times in ms: 1,2.5,4") from None
-    if any(not b > a for a, b in zip(times, times[1:])) or not np.all(np.isfinite(times)):
-        raise InputError("", "--times", f"{text} do not increase", "give each time once, in order")
-    return times

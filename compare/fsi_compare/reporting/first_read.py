@@ -1,19 +1,19 @@
 """What a reader of a report is told first: what was computed, whether it can be trusted, flows and pressures of the
 openings, what it cost."""
 
-from typing import Any, Callable, Iterator, Mapping, NamedTuple, Sequence
+from typing import Any, Callable, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
 from ..base.errors import printable
 from ..base.numbers import is_number, number_of
 from ..results.openings import Opening
+from ..results.picture import PER_KPA
 from ..results.run import RunResults
 from ..runs.steadiness import cycle_change, period_of, sawtooth
 from .column import Column
 from .layout import Table
 
-PA_PER_KPA, MMHG_PER_KPA = 1000.0, 7.50062
 SUPPLIED = ("inlet_work", "load_work", "inlet_kinetic_inflow", "support_work")  # columns of energy.csv
 Labelled = tuple[str, RunResults]
 
@@ -23,8 +23,8 @@ def case_lines(runs: Sequence[RunResults], labels: Sequence[str]) -> list[str]:
     facts = {
         "case": [run.title for run in runs],
         "program": [run.program for run in runs],
-        "element": [_word(run.summary, "element") for run in runs],
-        "geometry": [_word(run.summary, "geometry") for run in runs],
+        "element": [word_of(run.summary, "element") for run in runs],
+        "geometry": [word_of(run.summary, "geometry") for run in runs],
         "mesh": [_mesh(run) for run in runs],
         "unknowns": [_count(run.summary.get("unknowns", {}), "coupled") for run in runs],
         "steps": [_steps(run) for run in runs],
@@ -47,7 +47,7 @@ def _count(entries: Mapping[str, Any], name: str, unit: str = "") -> str:
 def _mesh(run: RunResults) -> str:
     mesh = run.summary.get("mesh", {})
     cells = _count(mesh, "tetrahedra", " tetrahedra") or _count(mesh, "triangles", " triangles")
-    return ", ".join(part for part in (_word(mesh, "name"), _count(mesh, "nodes", " nodes"), cells) if part)
+    return ", ".join(part for part in (word_of(mesh, "name"), _count(mesh, "nodes", " nodes"), cells) if part)
 
 
 def _steps(run: RunResults) -> str:
@@ -64,7 +64,7 @@ def _steps(run: RunResults) -> str:
 def _choices(run: RunResults) -> str:
     found = run.summary.get("choices", {})
     choices = found.items() if isinstance(found, dict) else ()
-    return ", ".join(f"{printable(name)} = {_word(one, 'value')}" for name, one in choices if isinstance(one, dict))
+    return ", ".join(f"{printable(name)} = {word_of(one, 'value')}" for name, one in choices if isinstance(one, dict))
 
 
 def _total(run: RunResults, name: str) -> float | None:
@@ -163,78 +163,62 @@ def trust_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     return Table("trust", "Whether it can be trusted", TRUST, list(zip(labels, runs)), notes=notes)
 
 
-class Varying(NamedTuple):
-    """A constant of a layer that fields or regions let vary."""
-
-    run: str
-    layer: str
-    constant: str
-    unit: str
-    smallest: float | None
-    mean: float | None
-    largest: float | None
-    sources: str
+Entry = tuple[str, dict[str, Any]]  # a run's label, and an entry of a list in its summary
 
 
-CONSTANTS: Sequence[Column[Varying]] = (
-    Column("run", "run", lambda v: v.run, left=True),
-    Column("layer", "layer", lambda v: v.layer, left=True),
-    Column("constant", "constant", lambda v: v.constant, left=True),
-    Column("smallest", "smallest", lambda v: v.smallest, ".4g", group="over the layer"),
-    Column("mean", "mean", lambda v: v.mean, ".4g", group="over the layer"),
-    Column("largest", "largest", lambda v: v.largest, ".4g", group="over the layer"),
-    Column("unit", "unit", lambda v: v.unit, left=True),
-    Column("from", "sources", lambda v: v.sources, left=True),
+def _words_column(name: str) -> Column[Entry]:
+    return Column(name, name, lambda e: word_of(e[1], name), left=True)
+
+
+def _number_column(head: str, name: str, unit: str = "", group: str = "") -> Column[Entry]:
+    return Column(head, name, lambda e: number_of(e[1], name), ".4g", unit, group)
+
+
+def _place_column(name: str) -> Column[Entry]:
+    def shown(entry: Entry) -> str:
+        return ", ".join(f"{x:.4g}" for x in _list(entry[1], name) if is_number(x))
+
+    return Column("there, {unit}", name, shown, unit="mm", left=True)
+
+
+CONSTANTS: Sequence[Column[Entry]] = (
+    Column("run", "run", lambda e: e[0], left=True),
+    _words_column("layer"),
+    _words_column("constant"),
+    *(_number_column(name, name, group="over the layer") for name in ("smallest", "mean", "largest")),
+    _words_column("unit"),
+    Column("from", "sources", lambda e: ", ".join(printable(str(name)) for name in _list(e[1], "sources")), left=True),
 )
 
 
 def constants_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     """Constants of the wall that vary within a layer; empty where none does."""
-    records = []
-    for label, entry in _entries(runs, labels, "varying_constants"):
-        words = (_word(entry, name) for name in ("layer", "constant", "unit"))
-        numbers = (number_of(entry, name) for name in ("smallest", "mean", "largest"))
-        sources = ", ".join(printable(str(name)) for name in _list(entry, "sources"))
-        records.append(Varying(label, *words, *numbers, sources))  # type: ignore[call-arg,arg-type]
+    records = _entries(runs, labels, "varying_constants")
     note = "Over the layer's quadrature points; the mean is that over its volume."
     return Table("constants", "Constants of the wall that vary", CONSTANTS, records, notes=[note])
 
 
-class Thickness(NamedTuple):
-    """Thickness of a layer of the wall at rest, or of all of it."""
-
-    run: str
-    layer: str
-    smallest: float | None  # mm
-    smallest_at: str  # mm
-    largest: float | None
-    largest_at: str
-
-
-THICKNESS: Sequence[Column[Thickness]] = (
-    Column("run", "run", lambda t: t.run, left=True),
-    Column("layer", "layer", lambda t: t.layer, left=True),
-    Column("smallest, {unit}", "smallest", lambda t: t.smallest, ".4g", "mm"),
-    Column("there, {unit}", "smallest_at", lambda t: t.smallest_at, unit="mm", left=True),
-    Column("largest, {unit}", "largest", lambda t: t.largest, ".4g", "mm"),
-    Column("there, {unit}", "largest_at", lambda t: t.largest_at, unit="mm", left=True),
+THICKNESS: Sequence[Column[Entry]] = (
+    Column("run", "run", lambda e: e[0], left=True),
+    _words_column("layer"),
+    _number_column("smallest, {unit}", "smallest", "mm"),
+    _place_column("smallest_at"),
+    _number_column("largest, {unit}", "largest", "mm"),
+    _place_column("largest_at"),
 )
 
 
 def thickness_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     """Thickness of the walls; empty where no run has a wall with an inner and an outer face."""
-    records = []
-    for label, entry in _entries(runs, labels, "wall_thickness"):
-        least, most = ((number_of(entry, name), _place(entry, f"{name}_at")) for name in ("smallest", "largest"))
-        records.append(Thickness(label, _word(entry, "layer"), *least, *most))
+    records = _entries(runs, labels, "wall_thickness")
     note = "Of the mesh: distances of the outer face's vertices from the inner face, in mm."
     return Table("thickness", "Thickness of the wall", THICKNESS, records, notes=[note])
 
 
-def _entries(runs: Sequence[RunResults], labels: Sequence[str], name: str) -> Iterator[tuple[str, dict[str, Any]]]:
-    """(label, entry) of a list in the runs' summaries."""
-    for run, label in zip(runs, labels):
-        yield from ((label, entry) for entry in _list(run.summary, name) if isinstance(entry, dict))
+def _entries(runs: Sequence[RunResults], labels: Sequence[str], name: str) -> list[Entry]:
+    """Those of a list in the runs' summaries."""
+    pairs = [(label, entry) for run, label in zip(runs, labels) for entry in _list(run.summary, name)]
+    return [(label, entry) for label, entry in pairs if isinstance(entry, dict)]
 
 
 def _list(entries: Mapping[str, Any], name: str) -> list[Any]:
@@ -242,11 +226,8 @@ def _list(entries: Mapping[str, Any], name: str) -> list[Any]:
     return found if isinstance(found, list) else []
 
 
-def _place(entry: dict[str, Any], name: str) -> str:
-    return ", ".join(f"{x:.4g}" for x in _list(entry, name) if is_number(x))
-
-
-def _word(entry: Mapping[str, Any], name: str) -> str:
+def word_of(entry: Mapping[str, Any], name: str) -> str:
+    """An entry as text; empty where it is missing."""
     return printable(str(entry.get(name, "")))
 
 
@@ -257,13 +238,13 @@ class OfOpening(NamedTuple):
     window: np.ndarray  # levels that count
 
 
-def _pressure(head: str, kind: str, per_kpa: float, unit: str) -> Column[OfOpening]:
+def _pressure(kind: str, unit: str) -> Column[OfOpening]:
     def value(record: OfOpening) -> float:
-        levels = record.opening.mean_pressure[record.window] / PA_PER_KPA
-        return per_kpa * float({"minimum": levels.min, "mean": levels.mean, "maximum": levels.max}[kind]())
+        levels = record.opening.mean_pressure[record.window] / PER_KPA["Pa"]
+        return PER_KPA[unit] * float({"minimum": levels.min, "mean": levels.mean, "maximum": levels.max}[kind]())
 
     form, group = ".3f" if unit == "kPa" else ".2f", "mean pressure over the opening, {unit}"
-    return Column(head, f"{kind}_pressure", value, form, unit, group)
+    return Column(kind, f"{kind}_pressure", value, form, unit, group)
 
 
 def _flow(head: str, of: Callable[[np.ndarray], Any]) -> Column[OfOpening]:
@@ -279,8 +260,7 @@ OPENINGS: Sequence[Column[OfOpening]] = (
     Column("share of outflow", "share_of_outflow", lambda r: r.share, ".1%"),
     _flow("mean", lambda flow: flow.mean()),
     _flow("largest", lambda flow: np.abs(flow).max()),
-    *(_pressure(kind, kind, 1.0, "kPa") for kind in ("minimum", "mean", "maximum")),
-    *(_pressure(kind, kind, MMHG_PER_KPA, "mmHg") for kind in ("minimum", "mean", "maximum")),
+    *(_pressure(kind, unit) for unit in ("kPa", "mmHg") for kind in ("minimum", "mean", "maximum")),
 )
 
 
@@ -352,17 +332,15 @@ def _passes(run: RunResults) -> float | None:
     return _each_step(run, "outer_iterations") if run.program == "fsi-partitioned" else None
 
 
-def _newton(run: RunResults) -> float | None:
-    return _each_step(run, "newton_iterations")
-
-
 COST: Sequence[Column[Labelled]] = (
     Column("run", "run", lambda r: r[0], left=True),
     Column("program", "program", lambda r: r[1].program, left=True),
     Column("kind of coupling", "coupling_kind", lambda r: r[1].summary.get("coupling_kind"), left=True),
     Column("seconds", "wall", lambda r: _total(r[1], "wall_s"), ".1f", "s"),
     Column("coupling passes", "passes_per_step", lambda r: _passes(r[1]), ".1f", group="per step"),
-    Column("Newton iterations", "newton_per_step", lambda r: _newton(r[1]), ".1f", group="per step"),
+    Column(
+        "Newton iterations", "newton_per_step", lambda r: _each_step(r[1], "newton_iterations"), ".1f", group="per step"
+    ),
     Column("memory, {unit}", "peak_memory", lambda r: r[1].summary.get("peak_memory_MiB"), ".0f", "MiB"),
 )
 

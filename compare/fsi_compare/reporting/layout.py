@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from ..base.errors import printable
-from ..base.files import replacing, together
+from ..base.files import replacing, together, write_text
 from .column import Column, Facts
 
 
@@ -56,10 +56,6 @@ class Table:
         columns = self.columns if self.facts is None else self.facts.columns
         return sorted((column for column in columns if column.csv), key=lambda column: column.behind)
 
-    @property
-    def csv_columns(self) -> list[str]:
-        return [column.name for column in self._csv]
-
     @cached_property
     def csv_rows(self) -> list[list[Any]]:
         records = self.records if self.facts is None else self.facts.records
@@ -95,7 +91,7 @@ class Table:
         path = folder / f"{self.stem}.csv"
         with replacing(path) as temporary, open(temporary, "w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(self.csv_columns)
+            writer.writerow([column.name for column in self._csv])
             for row in self.csv_rows:
                 writer.writerow([_field(cell) for cell in row])
         return path
@@ -108,8 +104,7 @@ def _field(cell: Any) -> Any:
 
 def write_tables(folder: Path, tables: Sequence[Table], markdown: str, heading: str) -> list[Path]:
     """Writes each table as CSV, and all into one Markdown file of that name."""
-    with replacing(folder / markdown) as temporary:
-        temporary.write_text("\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]), encoding="utf-8")
+    write_text(folder / markdown, "\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]))
     return [*(table.write_csv(folder) for table in tables), folder / markdown]
 
 

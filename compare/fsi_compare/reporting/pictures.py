@@ -48,23 +48,11 @@ STYLE |= {"grid.color": "#dddddd", "grid.linewidth": 0.5, "legend.frameon": Fals
 STYLE |= {"lines.scale_dashes": True, "svg.fonttype": "none", "svg.hashsalt": "fsi-compare"}
 
 
-def write_pressure_waves(
-    folder: Path, waves: Sequence[PressureWaves], labels: Sequence[str], times: Sequence[float], title: str
-) -> list[Path]:
-    """Writes `pressure_waves.png` and `.svg`; each run is drawn at its own points."""
-    return write_figure(folder, "pressure_waves", lambda: pressure_figure(waves, labels, times, title))
-
-
 def write_figure(folder: Path, stem: str, draw: Callable[[], Figure]) -> list[Path]:
     """Writes `stem.png` and `.svg` of the figure that `draw` makes."""
     paths = [folder / f"{stem}.png", folder / f"{stem}.svg"]
     _save(paths, draw, DPI)
     return paths
-
-
-def write_picture(folder: Path, stem: str, draw: Callable[[], Figure]) -> Path:
-    """Writes `stem.png` alone: of what is made of pixels."""
-    return write_plot(folder / f"{stem}.png", draw)
 
 
 def write_plot(path: Path, draw: Callable[[], Figure]) -> Path:
@@ -119,11 +107,7 @@ def pressure_figure(
 
 
 def finish(
-    figure: Figure,
-    handles: Sequence[Artist],
-    labels: Sequence[str],
-    title: str,
-    panels: tuple[float, float] | None = None,
+    figure: Figure, handles: Sequence[Artist], labels: Sequence[str], title: str, panels: Sequence[float] = ()
 ) -> Figure:
     """The figure, done: puts the heading above the panels and the legend below them, each in a strip of its own so that
     it covers no curve, and sets the figure's size; `panels` are width and height of the panels together, in inches: the

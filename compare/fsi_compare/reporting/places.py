@@ -4,6 +4,7 @@ from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 
+from ..results.quantities import Quantity
 from .column import Column
 from .layout import Table
 from .scene import ReportScene, RunScene, words_of
@@ -15,8 +16,7 @@ class Place(NamedTuple):
     run: str
     number: int  # of the run in the scene
     key: str
-    words: str
-    unit: str
+    quantity: Quantity
     value: float
     time: float
     part: str
@@ -43,9 +43,9 @@ def _coordinate(i: int, axis: str) -> Column[Place]:
 
 PLACES: Sequence[Column[Place]] = (
     Column("run", "run", lambda r: r.run, left=True),
-    Column("quantity", "quantity", lambda r: r.words, left=True),
+    Column("quantity", "quantity", lambda r: r.quantity.words, left=True),
     Column("largest", "largest", lambda r: r.value, ".4g"),
-    Column("unit", "unit", lambda r: r.unit, left=True),
+    Column("unit", "unit", lambda r: r.quantity.shown_unit, left=True),
     Column("time, {unit}", "time", lambda r: r.time, ".4g", "ms"),
     Column("on", "surface", lambda r: r.part, left=True),
     *map(_coordinate, range(3), "xyz"),
@@ -80,15 +80,10 @@ def largest_of(run: RunScene, number: int, key: str) -> Place | None:
             node = int(np.nanargmax(numbers))
             if numbers[node] > (best.value if best else 0.0):
                 quantity, value = run.scene.quantities[key][part.surface.medium.name], float(numbers[node])
-                point = rounded(part.surface.points[node], float(np.ptp(part.surface.points)))
-                words, unit = quantity.words, quantity.shown_unit
-                best = Place(run.name, number, key, words, unit, value, float(time), part.name, point)
+                place, size = part.surface.points[node], float(np.ptp(part.surface.points))
+                point = np.where(np.abs(place) < 1e-9 * size, 0.0, place)  # without round-off of zeros
+                best = Place(run.name, number, key, quantity, value, float(time), part.name, point)
     return best
-
-
-def rounded(point: np.ndarray, size: float) -> np.ndarray:
-    """Coordinates without round-off of zeros."""
-    return np.where(np.abs(point) < 1e-9 * size, 0.0, point)
 
 
 def apart_table(scene: ReportScene) -> Table:

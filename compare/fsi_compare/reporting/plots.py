@@ -11,16 +11,13 @@ from ..results.line import Line
 from ..results.run import RunResults
 from .pictures import LINES
 
+Runs = Sequence[RunResults]
 OF_RUNS = ("centre_line", "wall_line")  # lines that are attributes of a run
 TITLES = {"flow": "flow outwards in mm^3/ms", "mean_pressure": "mean pressure in Pa"}
 
 
 def plot_line(
-    runs: Sequence[RunResults],
-    time: float,
-    line: str = "centre_line",
-    quantity: str = "pressure",
-    axes: Axes | None = None,
+    runs: Runs, time: float, line: str = "centre_line", quantity: str = "pressure", axes: Axes | None = None
 ) -> Axes:
     """A quantity along a line at one time in ms, a curve for each run that has the line: `line` is 'centre_line'
     ('pressure'), 'wall_line' ('radial', 'axial') or a line of the case. Raises InputError when no run has it."""
@@ -37,7 +34,7 @@ def plot_line(
     return _finished(axes, "z in mm" if line in OF_RUNS else f"mm along {line}")
 
 
-def plot_openings(runs: Sequence[RunResults], quantity: str = "flow", axes: Axes | None = None) -> Axes:
+def plot_openings(runs: Runs, quantity: str = "flow", axes: Axes | None = None) -> Axes:
     """'flow' (positive outwards) or 'mean_pressure' of all openings over time, a curve for each run and opening. Raises
     InputError when no run has openings."""
     axes = axes or pyplot.subplots()[1]

@@ -1,11 +1,12 @@
 """`fsi-compare pressure`: the pressure waves of finished runs along the centre line, side by side."""
 
 import argparse
+import functools
 import math
 from typing import Sequence
 
 from ..base.errors import InputError, say_warning
-from ..base.files import folder, together
+from ..base.files import together
 from ..base.options import Commands, add_command, add_folders, add_labels, add_output, add_times, add_usual
 from ..runs.labels import default_labels, read_labels, title_of
 from ..runs.run_folder import ALONG_AXIS, Run, pressure_file, read_run
@@ -61,7 +62,9 @@ def pressure(options: argparse.Namespace) -> int:
         comparison = tables.compare_pressure(runs, labels, times)
         written = [tables.waves_table(runs, labels, times).write_csv(place), place / "pressure_waves.json"]
         tables.write_json(written[1], comparison)
-        written += pictures.write_pressure_waves(place, [run.pressure for run in runs], labels, times, title)
+        waves = [run.pressure for run in runs]
+        figure = functools.partial(pictures.pressure_figure, waves, labels, times, title)
+        written += pictures.write_figure(place, "pressure_waves", figure)
     if not options.quiet:
         for warning in comparison.warnings:
             say_warning(warning)

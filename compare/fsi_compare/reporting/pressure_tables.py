@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from ..base.errors import printable
-from ..base.files import replacing
+from ..base.files import write_text
 from ..runs.conditions import Conditions, conditions, departures
 from ..runs.differences import Difference, OverTime, differences_at, largest_difference
 from ..runs.pressure_waves import SPEED_WINDOW_MS, Crest, crest_speed, peak
@@ -124,8 +124,7 @@ def write_json(path: Path, comparison: Comparison) -> None:
         runs.append(run)
     data = {"reference": comparison.labels[0], "speed_window_ms": SPEED_WINDOW_MS, "warnings": comparison.warnings}
     data["runs"] = runs
-    with replacing(path) as temporary:
-        temporary.write_text(json.dumps(data, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+    write_text(path, json.dumps(data, indent=2, ensure_ascii=False) + "\n")
 
 
 def _named(difference: Difference) -> dict:

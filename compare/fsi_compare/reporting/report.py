@@ -7,10 +7,10 @@ from typing import Any, Callable, Sequence
 
 from matplotlib.figure import Figure
 
-from ..base.files import replacing
+from ..base.files import write_text
 from .layout import Table
 from .coinciding import sentence_of_coinciding
-from .pictures import write_figure, write_picture
+from .pictures import write_figure, write_plot
 from .player import Player
 from .scene import ReportScene
 from .templating import render
@@ -83,7 +83,7 @@ class Report:
 
     def still(self, stem: str, draw: Callable[[], Figure], caption: str) -> None:
         """A picture that is made of pixels, PNG alone."""
-        png = write_picture(self.folder, stem, draw)
+        png = write_plot(self.folder / f"{stem}.png", draw)
         self.written.append(png)
         self.image(png, caption)
 
@@ -91,7 +91,7 @@ class Report:
         """The vessel in space, drawn in the browser, and stills (stem, figure, caption) of it for print and for
         browsers without JavaScript or WebGL."""
         self._add("scene", library=library(), **scene.values())
-        pictures = [(write_picture(self.folder, stem, draw), caption) for stem, draw, caption in stills]
+        pictures = [(write_plot(self.folder / f"{stem}.png", draw), caption) for stem, draw, caption in stills]
         self.written += [png for png, _ in pictures]
         self._add("stills", images=[_image(png, caption) for png, caption in pictures])
 
@@ -104,8 +104,7 @@ class Report:
         values: dict[str, Any] = {"title": self.title, "sections": self._sections, "blocks": self._blocks}
         values |= {"plays": "player" in kinds, "shows": "scene" in kinds}
         for name in ("report.md", "report.html"):
-            with replacing(self.folder / name) as temporary:
-                temporary.write_text(render(f"{name}.j2", **values).rstrip("\n") + "\n", encoding="utf-8")
+            write_text(self.folder / name, render(f"{name}.j2", **values).rstrip("\n") + "\n")
         self.written.append(self.folder / name)
         return self.folder / name
 

@@ -3,8 +3,8 @@
 import argparse
 from typing import TYPE_CHECKING, NamedTuple, Sequence
 
-from ..base.errors import InputError, printable, say_note
-from ..base.files import folder, together
+from ..base.errors import InputError, say_note
+from ..base.files import together
 from ..base.options import Commands, add_command, add_count, add_folders, add_labels, add_output, add_usual
 from ..results.comparison import difference
 from ..results.line import Line
@@ -13,16 +13,16 @@ from ..runs.differences import Difference
 from ..runs.coupling import with_coupling
 from ..runs.labels import folder_labels, read_labels, title_of
 from ..runs.samples import CENTRE_LINE
+from ..runs.verification import find_verification
 from ..runs.work_units import about_machines, notes_on_work, per_step
-from .column import Column, Facts
-from .error_bars import add_error_bars, find_bars
+from .column import Column, Facts, work_column
+from .error_bars import add_error_bars
 from .first_read import case_lines, constants_table, cost_table, cycles_table, openings_table, thickness_table
-from .first_read import trust_table
+from .first_read import trust_table, word_of
 from .layout import Table, say_written
 from .matplotlib_loader import load_matplotlib
 from .pressure import MOST_TIMES, read_times
 from .samples import sample_differences, sample_table
-from .work_column import work_column
 
 if TYPE_CHECKING:
     from .report import Report
@@ -67,7 +67,7 @@ def report(options: argparse.Namespace) -> int:
         pairs = zip(folder_labels(options.folders), runs)
         labels = [with_coupling(label, run.program, run.summary) for label, run in pairs]
     check_runs(runs, times)
-    bars = find_bars(runs)
+    bars = [find_verification(run.folder, run.summary) for run in runs]
     tables = [differences_table(runs, labels), sample_table(sample_differences(options.folders), labels)]
     title = title_of(options.title, [run.title for run in runs], "Runs beside each other")
     with together(options.output) as place:
@@ -127,8 +127,10 @@ RUNS: Sequence[Column[tuple[str, RunResults]]] = (
     Column("run", "run", lambda r: r[0], left=True),
     Column("program", "program", lambda r: r[1].program, left=True),
     Column("case", "title", lambda r: r[1].title, left=True),
-    Column("element", "element", lambda r: named(r[1], "element"), text=lambda r: element_of(r[1]), left=True),
-    Column(csv="geometry", value=lambda r: named(r[1], "geometry")),
+    Column(
+        "element", "element", lambda r: word_of(r[1].summary, "element"), text=lambda r: element_of(r[1]), left=True
+    ),
+    Column(csv="geometry", value=lambda r: word_of(r[1].summary, "geometry")),
     Column("nodes", "nodes", lambda r: r[1].summary.get("mesh", {}).get("nodes"), "d"),
     Column("processes", "processes", lambda r: r[1].processes, behind=True),
     Column("steps", "steps", lambda r: r[1].summary.get("totals", {}).get("steps"), "g"),
@@ -142,13 +144,8 @@ def runs_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     return Table("runs", "Runs", RUNS, list(zip(labels, runs)), notes=notes_on_work([run.summary for run in runs]))
 
 
-def named(run: RunResults, entry: str) -> str:
-    """An entry of the run's summary, as text."""
-    return printable(run.summary.get(entry, ""))
-
-
 def element_of(run: RunResults) -> str:
-    return ", ".join(part for part in (named(run, "element"), named(run, "geometry")) if part)
+    return ", ".join(part for part in (word_of(run.summary, name) for name in ("element", "geometry")) if part)
 
 
 def end_of(run: RunResults) -> float | None:

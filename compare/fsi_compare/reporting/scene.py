@@ -67,7 +67,9 @@ class ReportScene:
 
     def _choose_times(self, frames: int | None) -> None:
         """Chooses times: at most `frames`, and as many as the page may hold."""
-        a_time = sum(self._numbers(run) for run in self.runs)
+        parts = [part for run in self.runs for part in run.parts]
+        shown = [(part.surface, name) for part in parts for name in part.surface.names if part.shows(name)]
+        a_time = sum(len(surface.ends) * surface.medium.width(name) for surface, name in shown)  # 16-bit numbers
         most = max(FEWEST_FRAMES, min(frames or MOST_FRAMES, MOST_NUMBERS // max(a_time, 1)))
         for run in self.runs:
             times = np.unique(np.concatenate([medium.times for medium in run.scene.meshes.media.values()]))
@@ -75,11 +77,6 @@ class ReportScene:
             if len(run.times) < len(times):
                 asked = "" if frames and most >= frames else f" (a page holds {MOST_NUMBERS:,} numbers)"
                 self.notes.append(f"{run.name}: {len(run.times)} of {len(times)} times of fields.h5 are shown{asked}.")
-
-    def _numbers(self, run: RunScene) -> int:
-        """16-bit numbers of one time."""
-        shown = [(part.surface, name) for part in run.parts for name in part.surface.names if part.shows(name)]
-        return sum(len(surface.ends) * surface.medium.width(name) for surface, name in shown)
 
     def _read(self, run: RunScene) -> None:
         """Reads each field of a medium once, for all parts."""

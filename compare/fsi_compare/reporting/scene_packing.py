@@ -29,30 +29,21 @@ def short(numbers: np.ndarray) -> list[float]:
 def packed_numbers(values: np.ndarray) -> dict[str, Any]:
     """Rows of numbers, (rows, ...), in 16 bits each; see in_16_bits()."""
     low, step, numbers = in_16_bits(np.asarray(values, dtype=float).reshape(len(values), -1))
-    return {"low": low, "step": step, "rows": len(numbers), "data": _deflated(numbers)}
+    changes = numbers.copy()
+    changes[1:] -= numbers[:-1]  # from the row before, modulo 2^16: what changes slowly is small
+    return {"low": low, "step": step, "rows": len(numbers), "data": deflated(_planes(changes, 2))}
 
 
 def packed_counts(numbers: np.ndarray) -> dict[str, Any]:
     """Whole numbers from zero, one row."""
     row = np.asarray(numbers).ravel()
     before = np.concatenate([[0], row[:-1]]).astype(np.int64)
-    return {"count": len(row), "data": _text(_planes((row - before).astype(np.int32).view(np.uint32), 4))}
+    return {"count": len(row), "data": deflated(_planes((row - before).astype(np.int32).view(np.uint32), 4))}
 
 
 def plain_bytes(numbers: np.ndarray) -> str:
     """Small tables as they are."""
     return base64.b64encode(np.ascontiguousarray(numbers, dtype=np.uint8).tobytes()).decode("ascii")
-
-
-def deflated_text(text: str) -> str:
-    return _text(text.encode("utf-8"))
-
-
-def _deflated(numbers: np.ndarray) -> str:
-    """Rows as differences from the row before, modulo 2^16: what changes slowly is small."""
-    changes = numbers.copy()
-    changes[1:] -= numbers[:-1]
-    return _text(_planes(changes, 2))
 
 
 def _planes(numbers: np.ndarray, size: int) -> bytes:
@@ -61,5 +52,6 @@ def _planes(numbers: np.ndarray, size: int) -> bytes:
     return little.view(np.uint8).reshape(-1, size).T.tobytes()
 
 
-def _text(data: bytes) -> str:
+def deflated(data: bytes) -> str:
+    """In base64."""
     return base64.b64encode(zlib.compress(data, LEVEL)).decode("ascii")

@@ -47,10 +47,5 @@ def _merged(surface: Surface, side: float) -> Surface:
     alone = np.unique(np.sort(cells, axis=1), axis=0, return_index=True)[1]
     used, local = np.unique(cells[np.sort(alone)], return_inverse=True)
     nodes = kept[used]
-    return Surface(
-        surface.name,
-        surface.medium,
-        surface.ends[nodes],
-        surface.weight[nodes],
-        local.reshape(len(alone), surface.triangles.shape[1]),
-    )
+    triangles = local.reshape(len(alone), cells.shape[1])
+    return Surface(surface.name, surface.medium, surface.ends[nodes], surface.weight[nodes], triangles)

@@ -21,9 +21,8 @@ Still = tuple[str, Callable[[], Figure], str]
 
 
 class Vessel(NamedTuple):
-    """Runs that have fields: places among the report's runs, names, and what is shown of them."""
+    """Runs that have fields: names, and what is shown of them."""
 
-    places: list[int]
     names: list[str]
     scenes: list[Scene]
 
@@ -32,7 +31,7 @@ def vessel_of(runs: Sequence[RunResults], labels: Sequence[str]) -> Vessel:
     """Reads the meshes of the first few runs that have fields. Raises InputError for files that cannot be read."""
     places = [i for i, run in enumerate(runs) if run.fields][:MOST_RUNS]
     scenes = [Scene(runs[i].meshes, str(runs[i].folder / "fields.h5")) for i in places]
-    return Vessel(places, [labels[i] for i in places], scenes)
+    return Vessel([labels[i] for i in places], scenes)
 
 
 def add_vessel(

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 from typing import NamedTuple
 
-from .scene_packing import deflated_text
+from .scene_packing import deflated
 
 PACKAGE = "libjs-three"
 PROGRAM = Path("/usr/share/javascript/three/three.min.js")
@@ -28,7 +28,7 @@ def library() -> Library | None:
         program = PROGRAM.read_text(encoding="utf-8")
     except OSError:
         return None
-    return Library("three.js", _version(), "MIT", _licence(), deflated_text(program))
+    return Library("three.js", _version(), "MIT", _licence(), deflated(program.encode("utf-8")))
 
 
 def _version() -> str:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..base import interruption
 from ..base.errors import InputError
-from ..base.files import output_folder, replacing
+from ..base.files import output_folder, write_text
 from ..base.options import Commands, add_command, add_usual
 from .watched import BLOCKS, PLAIN, Curve, State, lines_of, state_of, thinned_to
 
@@ -98,8 +98,8 @@ def write_page(page: Path, state: State, every: float) -> None:
     curves: list[tuple[Curve, str]] = [(curve, _points(curve.values)) for curve in state.curves]
     refresh = None if state.over else max(1, round(every))
     text = render("watch.html.j2", state=state, curves=curves, refresh=refresh, width=PAGE_WIDTH, height=PAGE_HEIGHT)
-    with output_folder(page.parent) as place, replacing(place / page.name) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    with output_folder(page.parent) as place:
+        write_text(place / page.name, text)
 
 
 def _points(values: np.ndarray) -> str:

@@ -5,12 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-# Corners of the faces of a cell, outwards by the right hand, and the cell's corner opposite each; by the cell's
-# corners.
-FACES = {4: ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)), 3: ((0, 1), (1, 2), (2, 0))}
-# The node in the middle of each edge of a quadratic cell, in VTK's order.
-MIDDLES = {10: {(0, 1): 4, (1, 2): 5, (0, 2): 6, (0, 3): 7, (1, 3): 8, (2, 3): 9}, 6: {(0, 1): 3, (1, 2): 4, (0, 2): 5}}
-CORNERS = {3: 3, 6: 3, 4: 4, 10: 4}  # by the nodes of a cell
+from ..mesh_import.joining import first_of_cluster
+from ..mesh_import.raw_mesh import SIDES
+
+# By the nodes of a cell, which are in VTK's order.
+CORNERS = {3: 3, 6: 3, 4: 4, 10: 4}
+SIDES_OF = {3: SIDES["triangle"][1], 6: SIDES["triangle6"][1], 4: SIDES["tetra"][1], 10: SIDES["tetra10"][1]}
+IN_FOUR = [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]]  # straight parts of a quadratic triangle
+PARTS = {3: [[0, 1]], 6: [[0, 2], [2, 1]], 4: [[0, 1, 2]], 10: IN_FOUR}  # of a side, in its own numbers
 SMOOTH = 0.94  # cosine of the angle between faces of one piece, 20 degrees
 
 
@@ -32,10 +34,10 @@ class Boundary:
 
 def boundary_of(points: np.ndarray, cells: np.ndarray, up: np.ndarray) -> Boundary:
     """Boundary of cells with 3, 4, 6 or 10 nodes (see MediumFields.cells); `up`: see normals_of()."""
-    corners = CORNERS[cells.shape[1]]
-    local = FACES[corners]
-    faces = np.concatenate([cells[:, list(face)] for face in local])
-    parts = np.concatenate([cells[:, _parts(face, cells.shape[1])] for face in local])
+    nodes = cells.shape[1]
+    corners = CORNERS[nodes]
+    sides = np.concatenate([cells[:, list(side)] for side in SIDES_OF[nodes]])
+    faces, parts = sides[:, : corners - 1], sides[:, PARTS[nodes]]
     _, first, counts = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
     alone = np.sort(first[counts == 1])
     faces, parts, owners = faces[alone], parts[alone], cells[alone % len(cells)][:, :corners]
@@ -47,19 +49,7 @@ def boundary_of(points: np.ndarray, cells: np.ndarray, up: np.ndarray) -> Bounda
 
 def straight_cells(cells: np.ndarray) -> np.ndarray:
     """Triangles of a two-dimensional mesh with straight sides, (triangles, 3): four of each quadratic one."""
-    return cells if cells.shape[1] == 3 else cells[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]]].reshape(-1, 3)
-
-
-def _parts(face: tuple[int, ...], nodes: int) -> list[list[int]]:
-    """Straight parts of a face of a cell, in the cell's own numbers."""
-    if nodes not in MIDDLES:
-        return [list(face)]
-    middle = [MIDDLES[nodes][min(edge), max(edge)] for edge in zip(face, [*face[1:], face[0]])]
-    if len(face) == 2:
-        return [[face[0], middle[0]], [middle[0], face[1]]]
-    a, b, c = face
-    ab, bc, ca = middle
-    return [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+    return cells if cells.shape[1] == 3 else cells[:, IN_FOUR].reshape(-1, 3)
 
 
 def normals_of(points: np.ndarray, faces: np.ndarray, up: np.ndarray) -> np.ndarray:
@@ -80,18 +70,4 @@ def smooth_pieces(faces: np.ndarray, normals: np.ndarray) -> np.ndarray:
     same = np.all(sides[1:] == sides[:-1], axis=1)
     pairs = np.stack([owners[:-1][same], owners[1:][same]], axis=1)
     pairs = pairs[np.einsum("ij,ij->i", units[pairs[:, 0]], units[pairs[:, 1]]) > SMOOTH]
-    return components(len(faces), pairs)
-
-
-def components(count: int, pairs: np.ndarray) -> np.ndarray:
-    """Numbers 0, 1, ... of the connected parts of a graph with `count` nodes and these edges (edges, 2)."""
-    label = np.arange(count)
-    while True:
-        low = np.minimum(label[pairs[:, 0]], label[pairs[:, 1]])
-        found = label.copy()
-        for side in (0, 1):
-            np.minimum.at(found, label[pairs[:, side]], low)
-        found = found[found]
-        if np.array_equal(found, label):
-            return np.unique(label, return_inverse=True)[1]
-        label = found
+    return np.unique(first_of_cluster(len(faces), *pairs.T), return_inverse=True)[1]

@@ -39,17 +39,7 @@ def difference(
     for one, found in ((line, waves), (reference, base)):
         for time in asked:
             found.require(time, "", f"line {one.name}")
-    norms = differences_at(base, waves, asked)
-
-    def column(name: str) -> np.ndarray:
-        return np.array([np.nan if getattr(n, name) is None else getattr(n, name) for n in norms])
-
-    return LineDifference(
-        times=np.array(asked),
-        unit=reference.units[quantity],
-        max_norm=column("max_norm"),
-        max_relative=column("max_relative"),
-        l2_norm=column("l2_norm"),
-        l2_relative=column("l2_relative"),
-        largest=largest_difference(base, waves.on(base.z)),
-    )
+    rows = [(d.max_norm, d.max_relative, d.l2_norm, d.l2_relative) for d in differences_at(base, waves, asked)]
+    most, most_relative, l2, l2_relative = np.array(rows, dtype=float).reshape(-1, 4).T  # None becomes NaN
+    unit, largest = reference.units[quantity], largest_difference(base, waves.on(base.z))
+    return LineDifference(np.array(asked), unit, most, most_relative, l2, l2_relative, largest)

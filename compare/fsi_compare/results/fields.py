@@ -107,7 +107,8 @@ class MediumFields:
 
 def read_fields(folder: Path) -> dict[str, MediumFields]:
     """Media by name, without their values; empty when the run has written none. Raises InputError."""
-    parts = [path for path in [folder / FIRST, *sorted(folder.glob("fields-*.h5"), key=_number)] if path.is_file()]
+    later = sorted(folder.glob("fields-*.h5"), key=lambda path: (len(path.name), path.name))  # by their numbers
+    parts = [path for path in [folder / FIRST, *later] if path.is_file()]
     entries: dict[str, dict[str, list[_Entry]]] = {}
     units: dict[str, dict[str, str]] = {}
     for path in parts:
@@ -135,10 +136,6 @@ def _finished(path: Path, h5: h5py.File) -> list[tuple[str, str, str, _Entry]]:
             if flag:
                 found.append((unit, medium, field, _Entry(float(time), path, f"{number:08d}")))
     return found
-
-
-def _number(path: Path) -> tuple[int, str]:
-    return len(path.name), path.name
 
 
 def _opened(path: Path) -> h5py.File:

@@ -68,14 +68,9 @@ def line_of(name: str, path: Path, samples: Samples, position: str = "z_mm") -> 
         raise InputError(path, position, "does not increase along the line", "run it again")
     columns = {column: split_unit(column) for column in samples.values}
     points = [place for place in ("x_mm", "y_mm", "z_mm") if place in samples.places and place != position]
-    return Line(
-        name,
-        samples.times,
-        s,
-        {columns[column][0]: values for column, values in samples.values.items()},
-        dict(columns.values()),
-        np.stack([samples.places[place] for place in points], axis=1) if len(points) == 3 else None,
-    )
+    at = np.stack([samples.places[place] for place in points], axis=1) if len(points) == 3 else None
+    values = {columns[column][0]: found for column, found in samples.values.items()}
+    return Line(name, samples.times, s, values, dict(columns.values()), at)
 
 
 def lines_of(path: Path, finished: bool = True) -> dict[str, Line]:

@@ -12,13 +12,13 @@ from ..drawing.raster import Mesh, rendered
 from ..drawing.sweep import angles, swept, turned
 from ..runs.levels import thinned
 from .quantities import Quantity
-from .scene_parts import CutPlane, Part, camera_of, first_quantity, middle_plane, parts_of, scene_quantities, views_of
+from .scene_parts import FIRST, CutPlane, Part, camera_of, middle_plane, parts_of, scene_quantities, views_of
 from .surfaces import Surfaces, displaced
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-PIXELS = (900, 580)
+PIXELS, BORDER = (900, 580), 8  # of a picture, and around what it shows
 MOST_LEVELS = 40  # that the range of colours is found from
 UNITS = {"kPa": ("kPa", "Pa", "mmHg")}  # that a unit can be shown in
 PER_KPA = {"kPa": 1.0, "Pa": 1000.0, "mmHg": 7.50062}
@@ -41,7 +41,8 @@ class Scene:
 
     @property
     def first(self) -> str:
-        return first_quantity(list(self.quantities), self.meshes.flat)
+        """The quantity that a reader is shown first."""
+        return next(key for key in (*FIRST[self.meshes.flat], *self.quantities) if key in self.quantities)
 
     def check(self, key: str) -> None:
         if key not in self.quantities:
@@ -153,13 +154,13 @@ def picture(
     cut: bool | None = None,
     unit: str | None = None,
     span: tuple[float, float] | None = None,
-    camera: Camera | None = None,
+    view: str | None = None,
     title: str = "",
-    size: tuple[int, int] = PIXELS,
 ) -> "Figure":
     """The vessel at a time in ms (default: the last) coloured by a field, moved by `factor` times the displacement.
     `cut`: opened by a plane (default: for fields of the inside, as velocity). `span`: colours in `unit`. Raises
     InputError."""
+    eye = camera_named(scene, view)
     key = field or scene.first
     scene.check(key)
     quantity = scene.quantity(key)
@@ -168,9 +169,8 @@ def picture(
     shown_unit, times_unit = unit_of(quantity.unit, unit)
     scale = scale_in(scene.scale(key), span, times_unit)
     opened = quantity.field == "velocity" if cut is None else cut
-    eye = camera or camera_of(scene.meshes, swept=True)
     meshes = meshes_to_draw(scene, key, at, scale, factor, opened, eye.towards)
-    image, pixels = rendered(meshes, eye, size[0], size[1], table(scale.map))
+    image, _ = rendered(meshes, eye, *PIXELS, table(scale.map))
     bar_unit = "" if shown_unit == "1" else shown_unit
     words = quantity.words + (f" in {bar_unit}" if bar_unit else "")
     moves = any("displacement" in medium.names for medium in scene.meshes.media.values())
@@ -178,10 +178,10 @@ def picture(
     return framed(image, scale, times_unit, words, bar_unit, " · ".join(filter(None, notes)), span is None)
 
 
-def camera_named(scene: Scene, view: str | None) -> Camera | None:
-    """One of views_of(); None for none. Raises InputError."""
+def camera_named(scene: Scene, view: str | None) -> Camera:
+    """One of views_of(); without a name the usual one, from the open side. Raises InputError."""
     if view is None:
-        return None
+        return camera_of(scene.meshes, swept=True)
     views = {name: camera for name, camera, _ in views_of(scene.meshes)}
     if view not in views:
         raise InputError("", "view", f"'{view}' is unknown", hint(view, views))
@@ -242,10 +242,10 @@ def framed(
     return figure
 
 
-def cropped(image: np.ndarray, border: int = 8) -> np.ndarray:
+def cropped(image: np.ndarray) -> np.ndarray:
     """The image without the empty rows and columns around it."""
     rows, columns = np.flatnonzero((image < 255).any(axis=(1, 2))), np.flatnonzero((image < 255).any(axis=(0, 2)))
     if not len(rows):
         return image
-    top, left = max(rows[0] - border, 0), max(columns[0] - border, 0)
-    return image[top : rows[-1] + 1 + border, left : columns[-1] + 1 + border]
+    top, left = max(rows[0] - BORDER, 0), max(columns[0] - BORDER, 0)
+    return image[top : rows[-1] + 1 + BORDER, left : columns[-1] + 1 + BORDER]

@@ -7,7 +7,6 @@ import numpy as np
 
 from .fields import MediumFields
 
-COMPONENTS = ("x", "y", "z")
 WORDS = {"rrt": "relative residence time", "osi": "oscillatory shear index", "tawss": "time-averaged wall shear stress"}
 WORDS |= {"von_mises_stress": "von Mises stress", "thickness": "thickness of the wall at rest"}
 WORDS |= {"fibre_stress_1": "stress of the first fibres", "fibre_stress_2": "stress of the second fibres"}
@@ -28,10 +27,6 @@ class Quantity:
     def shown_unit(self) -> str:
         """The unit as people read it: that of a plain number is empty."""
         return "" if self.unit == "1" else self.unit
-
-
-def _component(i: int) -> Callable[[np.ndarray], np.ndarray]:
-    return lambda values: values[:, i]
 
 
 def _magnitude(values: np.ndarray) -> np.ndarray:
@@ -57,13 +52,12 @@ def quantities_of_field(medium: MediumFields, field: str) -> list[Quantity]:
     if width == 6:
         made = Quantity(field, field, f"von Mises stress of the {words}", unit, False, _von_mises)
         return [made] if "von_mises_stress" not in medium.names else []
+
+    def component(i: int, part: str, words: str) -> Quantity:
+        return Quantity(f"{field}:{part}", field, words, unit, True, lambda values: values[:, i])
+
     if field == "principal_stress":
         names = ("largest", "middle", "least")
-        return [
-            Quantity(f"{field}:{i + 1}", field, f"{name} principal stress", unit, True, _component(i))
-            for i, name in enumerate(names)
-        ]
-    found = [Quantity(field, field, words, unit, False, _magnitude)]
-    for i, c in enumerate(COMPONENTS):
-        found.append(Quantity(f"{field}:{c}", field, f"{words}, {c}", unit, True, _component(i)))
-    return found
+        return [component(i, str(i + 1), f"{name} principal stress") for i, name in enumerate(names)]
+    whole = Quantity(field, field, words, unit, False, _magnitude)
+    return [whole, *(component(i, c, f"{words}, {c}") for i, c in enumerate("xyz"))]

@@ -16,7 +16,7 @@ from ..runs.summary import AGAIN, FILE, FINISHED, PROGRAMS, checked
 from .fields import MediumFields, read_fields
 from .line import Line, line_of, lines_of
 from .openings import Opening, inlet_and_outlet, openings_of
-from .picture import Scene, camera_named, picture
+from .picture import Scene, picture
 from .surfaces import Surface, Surfaces
 from .table import Table, read_table
 
@@ -34,6 +34,7 @@ class RunResults:
         self.folder = folder
         #: summary.json as it stands: counts, totals, seconds of each phase, mesh
         self.summary: dict[str, Any] = summary
+        self._read: dict[str, Table] = {}
 
     def __repr__(self) -> str:
         return f"<RunResults {self.folder}: {self.program}, {self.status}, '{self.title}'>"
@@ -77,10 +78,6 @@ class RunResults:
                 raise InputError(self.folder, "", f"has no table '{file}'", remedy)
             self._read[file] = read_table(self.folder / file, finished=self.status == "done")
         return self._read[file]
-
-    @cached_property
-    def _read(self) -> dict[str, Table]:
-        return {}
 
     def _optional(self, name: str) -> Table | None:
         return self.table(name) if name in self.tables else None
@@ -190,7 +187,7 @@ class RunResults:
         """The vessel coloured by a field as a matplotlib figure: at a time in ms (default: the last), moved by `factor`
         times the displacement, `cut` open by a plane through its middle or not (default: for the velocity), in 'kPa',
         'Pa' or 'mmHg', with the range of colours `span`, seen from 'x', '-x', ... or an opening. Raises InputError."""
-        return picture(self.scene, field, time, factor, cut, unit, span, camera_named(self.scene, view), self.label)
+        return picture(self.scene, field, time, factor, cut, unit, span, view, self.label)
 
     @cached_property
     def meshes(self) -> Surfaces:

@@ -1,7 +1,6 @@
 """What of a run is shown together: its surfaces by group, and which fields each has."""
 
 from dataclasses import dataclass
-from typing import Sequence
 
 import numpy as np
 
@@ -61,26 +60,16 @@ def _main_medium(meshes: Surfaces) -> MediumFields:
     return meshes.media.get("fluid") or next(iter(meshes.media.values()))
 
 
-def key_of(medium: str, quantity: Quantity) -> str:
-    """Key of a quantity in a scene that has fluid and wall: their pressures are two."""
-    other = medium == "wall" and quantity.field == "pressure"
-    return f"wall_{quantity.key}" if other else quantity.key
-
-
 def scene_quantities(meshes: Surfaces) -> dict[str, dict[str, Quantity]]:
-    """Quantities by key, then by medium."""
+    """Quantities by key, then by medium. The pressures of fluid and wall are two."""
     found: dict[str, dict[str, Quantity]] = {}
     idle = ":y" if meshes.geometry == "axisymmetric" else ":z"  # what vectors of a two-dimensional scene do not have
     for name, medium in meshes.media.items():
         for quantity in quantities_of(medium):
             if not (meshes.flat and quantity.key.endswith(idle)):
-                found.setdefault(key_of(name, quantity), {})[name] = quantity
+                other = name == "wall" and quantity.field == "pressure"
+                found.setdefault(f"wall_{quantity.key}" if other else quantity.key, {})[name] = quantity
     return found
-
-
-def first_quantity(keys: Sequence[str], flat: bool) -> str:
-    """The quantity that a reader is shown first."""
-    return next((key for key in FIRST[flat] if key in keys), keys[0])
 
 
 def camera_of(meshes: Surfaces, swept: bool = False) -> Camera:

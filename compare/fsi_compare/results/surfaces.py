@@ -15,8 +15,6 @@ from .opening_faces import flat_pieces, named_openings
 from .openings import Opening
 from .plane_cut import cut_by_plane
 
-UPWARDS = {"axisymmetric": (0.0, -1.0, 0.0)}  # normal of the plane of a two-dimensional mesh, if it is not z
-PLANE = (0.0, 0.0, 1.0)
 NO_FIELDS = "the run has written no fields"
 ASK = "set output.fields and output.every (not 0) in the case, and run it again"
 
@@ -103,20 +101,20 @@ class Surfaces:
         if not fields:
             raise InputError(folder, "", NO_FIELDS, ASK)
         self._folder = folder
-        self._fields = fields
+        self.media = fields
         self._known_openings = openings
         self.geometry = geometry
-        self.up = np.array(UPWARDS.get(geometry, PLANE))
+        self.up = np.array((0.0, -1.0, 0.0) if geometry == "axisymmetric" else (0.0, 0.0, 1.0))  # normal of a flat mesh
 
     @property
     def flat(self) -> bool:
         """Whether the scene is two-dimensional."""
-        return CORNERS[next(iter(self._fields.values())).cells.shape[1]] == 3
+        return CORNERS[next(iter(self.media.values())).cells.shape[1]] == 3
 
     @property
     def names(self) -> list[str]:
         """Names that get() knows."""
-        return [*self._boundaries, *(f"{medium} section" for medium in self._fields if self.flat)]
+        return [*self._boundaries, *(f"{medium} section" for medium in self.media if self.flat)]
 
     @property
     def openings(self) -> list[str]:
@@ -128,20 +126,16 @@ class Surfaces:
         if name not in self.names:
             raise InputError(self._folder, "", f"has no surface '{name}'", hint(name, self.names))
         if name not in self._boundaries:
-            medium = self._fields[name.removesuffix(" section")]
+            medium = self.media[name.removesuffix(" section")]
             return made(name, medium, straight_cells(medium.cells))
         which, boundary = self._boundaries[name]
-        return made(name, self._fields[which], boundary.straight())
+        return made(name, self.media[which], boundary.straight())
 
     def cut(self, medium: str, origin: np.ndarray, normal: np.ndarray) -> Surface:
         """The cut of a three-dimensional medium by a plane, in the reference configuration."""
-        of = self._fields[medium]
+        of = self.media[medium]
         found = cut_by_plane(of.points, of.cells, np.asarray(origin, float), np.asarray(normal, float))
         return Surface(f"{medium} cut", of, found.ends, found.weight, found.triangles)
-
-    @property
-    def media(self) -> Mapping[str, MediumFields]:
-        return self._fields
 
     def faces(self, name: str) -> np.ndarray:
         """Corners of the faces of a boundary, by the nodes of its medium, (faces, dimension)."""
@@ -150,7 +144,7 @@ class Surfaces:
     @cached_property
     def _boundaries(self) -> dict[str, tuple[str, Boundary]]:
         found: dict[str, tuple[str, Boundary]] = {}
-        if "fluid" in self._fields:
+        if "fluid" in self.media:
             whole, openings, interface = self._parts_of_fluid
             closed = np.ones(len(whole.faces), dtype=bool)
             for faces in openings.values():
@@ -162,7 +156,7 @@ class Surfaces:
                 found["openings"] = ("fluid", whole.some(np.concatenate(list(openings.values()))))
             for name, faces in openings.items():
                 found.setdefault(name, ("fluid", whole.some(faces)))
-        if "wall" in self._fields:
+        if "wall" in self.media:
             whole, inner = self._wholes["wall"], self._shared["wall"]
             if inner.any():
                 found["inner"] = ("wall", whole.some(inner))
@@ -172,7 +166,7 @@ class Surfaces:
     @cached_property
     def _parts_of_fluid(self) -> tuple[Boundary, dict[str, np.ndarray], np.ndarray]:
         """The fluid's boundary without the axis; its faces of each opening; whether each is on the wall."""
-        fluid = self._fields["fluid"]
+        fluid = self.media["fluid"]
         whole, interface = self._wholes["fluid"], self._shared["fluid"]
         free = np.flatnonzero(~interface)
         pieces = [free[piece] for piece in flat_pieces(fluid.points, whole.some(free), self.up)]
@@ -183,7 +177,7 @@ class Surfaces:
     def _wholes(self) -> dict[str, Boundary]:
         """Boundary of each medium, without the axis of an axisymmetric scene."""
         found = {}
-        for name, medium in self._fields.items():
+        for name, medium in self.media.items():
             whole = boundary_of(medium.points, medium.cells, self.up)
             if self.geometry == "axisymmetric":
                 radius = np.abs(medium.points[whole.faces][:, :, 0])
@@ -194,12 +188,12 @@ class Surfaces:
     @cached_property
     def _shared(self) -> dict[str, np.ndarray]:
         """Whether each face of a medium is also one of the other. Nodes there have the same places, to the bit."""
-        points = [medium.points for medium in self._fields.values()]
+        points = [medium.points for medium in self.media.values()]
         numbers = np.unique(np.concatenate(points), axis=0, return_inverse=True)[1]
-        places = dict(zip(self._fields, np.split(numbers, np.cumsum([len(each) for each in points])[:-1])))
+        places = dict(zip(self.media, np.split(numbers, np.cumsum([len(each) for each in points])[:-1])))
         keys = [np.sort(places[name][whole.faces], axis=1) for name, whole in self._wholes.items()]
         of, counts = np.unique(np.concatenate(keys), axis=0, return_inverse=True, return_counts=True)[1:]
-        return dict(zip(self._fields, np.split(counts[of] == 2, np.cumsum([len(each) for each in keys])[:-1])))
+        return dict(zip(self.media, np.split(counts[of] == 2, np.cumsum([len(each) for each in keys])[:-1])))
 
 
 def made(name: str, medium: MediumFields, parts: np.ndarray) -> Surface:
@@ -213,11 +207,3 @@ def displaced(surface: Surface, time: float, factor: float = 1.0) -> np.ndarray:
     if "displacement" not in surface.names or factor == 0:
         return surface.points
     return surface.points + factor * surface.at(time, "displacement")
-
-
-def largest_at(surface: Surface, values: np.ndarray) -> tuple[float, np.ndarray | None]:
-    """The largest of these values at its points, and where that is, mm; None without points."""
-    if not len(values):
-        return float("nan"), None
-    place = int(np.nanargmax(values))
-    return float(values[place]), surface.points[place]

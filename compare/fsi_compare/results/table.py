@@ -94,13 +94,8 @@ def read_table(path: Path, finished: bool = True) -> Table:
 
 def _column(path: Path, name: str, fields: Sequence[str]) -> np.ndarray:
     """One whose first field says a word holds words."""
-    first = next((field for field in fields if field), "0")
-    return numbers(path, name, fields) if _is_number(first) else np.array(fields)
-
-
-def _is_number(field: str) -> bool:
     try:
-        number(field)
+        number(next((field for field in fields if field), "0"))
     except ValueError:
-        return False
-    return True
+        return np.array(fields)
+    return numbers(path, name, fields)

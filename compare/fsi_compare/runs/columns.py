@@ -10,7 +10,6 @@ from ..base.errors import InputError
 from ..base.files import read_text
 from .summary import FINISHED
 
-
 ITERATIONS = "iterations.csv"
 LARGEST = 1e100  # whose square, and sums of them, are still numbers
 AGAIN = "run it again"

@@ -23,15 +23,11 @@ def chosen_scheme(summary: Mapping[str, Any]) -> str | None:
 
 def coupling_words(program: str, summary: Mapping[str, Any]) -> str:
     """Words for legends and tables: `monolithic`, `partitioned (interface, iqn-ils)`, as far as the summary says it."""
-    return PROGRAMS.get(program, program) + _in_brackets(program, summary)
+    return with_coupling(PROGRAMS.get(program, program), program, summary)
 
 
 def with_coupling(label: str, program: str, summary: Mapping[str, Any]) -> str:
     """`label`, which tells no kind of coupling, with kind and scheme behind it: `results (interface, iqn-ils)`. A
     monolithic run has one kind, and keeps its label."""
-    return label + _in_brackets(program, summary)
-
-
-def _in_brackets(program: str, summary: Mapping[str, Any]) -> str:
     known = [word for word in (coupling_kind(summary), chosen_scheme(summary)) if word]
-    return f" ({', '.join(known)})" if known and program == "fsi-partitioned" else ""
+    return f"{label} ({', '.join(known)})" if known and program == "fsi-partitioned" else label

@@ -13,12 +13,12 @@ def read_labels(text: str | None, runs: int) -> list[str] | None:
     if text is None:
         return None
     labels = [printable(label.strip()) for label in text.split(",")]
+    remedy = "give one per run, separated by commas"
     if len(labels) != runs:
-        remedy = "give one per run, separated by commas"
         raise InputError("", "--labels", f"{len(labels)} labels for {runs} runs", remedy)
     for label in labels:
         if not label:
-            raise InputError("", "--labels", "a label is empty", "give one per run, separated by commas")
+            raise InputError("", "--labels", "a label is empty", remedy)
         if labels.count(label) > 1:
             raise InputError("", "--labels", f"'{label}' is given twice", "give each run its own")
     return labels

@@ -7,7 +7,7 @@ from typing import Any
 from ..base.errors import InputError, printable
 from ..base.files import read_object
 from ..base.numbers import is_number
-from .waves import QUANTITIES, Quantity, Waves, read_waves
+from .waves import QUANTITIES, Waves, read_waves
 
 FILE = "reference.json"
 REMEDY = "make it with scripts/evidence/reference_waves.py"
@@ -23,9 +23,6 @@ class WaveReference:
     waves: dict[str, Waves]  # by quantity's column
     case: dict[str, Any]  # the physical entries of the case that it solves, by dotted key; empty: not recorded
     step: float | None = None  # ms; None: extrapolated to zero
-
-    def of(self, quantity: Quantity) -> Waves:
-        return self.waves[quantity.column]
 
 
 def read_reference(folder: Path) -> WaveReference:

@@ -11,9 +11,8 @@ from ..base.errors import InputError, printable
 from ..base.files import exists, is_file, is_folder
 from .levels import read_levels
 from .pressure_waves import PressureWaves
-from .samples import CENTRE_LINE, LINES, requested_line, waves_along
+from .samples import CENTRE_LINE, LINES, waves_along
 from .summary import FILE, read_summary
-
 
 ALONG_AXIS = "centerline_pressure.csv"
 
@@ -61,22 +60,6 @@ def pressure_file(folder: Path) -> Path:
     """The table with the pressure along the centre line; where there is none, that which ought to be there."""
     found = is_file(folder / LINES) and not exists(folder / ALONG_AXIS)
     return folder / (LINES if found else ALONG_AXIS)
-
-
-def has_pressure(folder: Path) -> bool:
-    """Whether there is a line to read the pressure along. Raises InputError."""
-    lines = folder / LINES
-    return is_file(folder / ALONG_AXIS) or (is_file(lines) and requested_line(lines) is not None)
-
-
-def read_pressure_line(folder: Path) -> PressureWaves:
-    """The pressure along the centre line; of a vessel without one along the line of `lines.csv` that stands for it
-    (runs/samples.py), its arc length in place of z. Raises InputError."""
-    file = pressure_file(folder)
-    if file.name == ALONG_AXIS:
-        return read_pressure(file)
-    name = requested_line(file)
-    return waves_along(file, CENTRE_LINE if name is None else name)
 
 
 def read_pressure(path: Path) -> PressureWaves:

@@ -80,12 +80,8 @@ def read_summary(path: Path) -> dict[str, Any]:
     return checked(path, summary)
 
 
-def checked(path: Path, summary: dict[str, Any]) -> dict[str, Any]:
-    """The entries without nulls. Raises InputError for an entry of another kind."""
-    return _checked(path, "", summary, SHAPE)
-
-
-def _checked(path: Path, key: str, value: Any, shape: Shape) -> Any:
+def checked(path: Path, value: Any, key: str = "", shape: Shape = SHAPE) -> Any:
+    """The entries without nulls. Raises InputError, which names the key, for an entry of another kind than `shape`."""
     if not isinstance(shape, Mapping):
         problem = shape(value)
         if problem:
@@ -97,7 +93,7 @@ def _checked(path: Path, key: str, value: Any, shape: Shape) -> Any:
     for name, entry in value.items():
         part = shape["entry"] if isinstance(shape, _Each) else shape.get(name)
         if entry is not None:
-            kept[name] = entry if part is None else _checked(path, f"{key}.{name}".lstrip("."), entry, part)
+            kept[name] = entry if part is None else checked(path, entry, f"{key}.{name}".lstrip("."), part)
     return kept
 
 

@@ -1,47 +1,26 @@
 """`verification.json`, the bars that `fsi-compare verify` left: read, and found beside an ordinary run."""
 
 import hashlib
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Iterator, Mapping
 
-from ..base.numbers import number_of
 from ..base.files import is_file, listed, read_object
 from .columns import ITERATIONS, read_fields
 
 FILE = "verification.json"
 AGAIN = "verify the case again"
 STEP_COLUMNS = ("time_ms", "outer_iterations", "newton_iterations", "linear_iterations")
+Bar = dict[str, Any]  # a quantity, as fsi-compare verify has written it
 
 
-@dataclass(frozen=True)
-class KeptBar:
-    """The bar of a quantity, as it was found."""
-
-    quantity: str
-    unit: str
-    value: float
-    error: float | None  # None: not in the range where one can be given
-    error_percent: float | None
-    verdict: str
-    advice: str
-
-
-@dataclass(frozen=True)
-class Verification:
-    path: Path
-    driver: str
-    bars: list[KeptBar]
-
-
-def find_verification(folder: Path, summary: Mapping[str, Any]) -> Verification | None:
+def find_verification(folder: Path, summary: Mapping[str, Any]) -> list[Bar] | None:
     """The bars for a run of the same `identity`, looked for in the run's own folder and in those around it. None where
     there are none. Raises InputError for a broken file."""
     mine: dict[str, str | None] | None = None
     for path in _candidates(folder):
         data = read_object(path, AGAIN, AGAIN)
         mine = mine or identity(folder, summary)
-        found = _fitting(path, data, mine)
+        found = _fitting(data, mine)
         if found is not None:
             return found
     return None
@@ -59,12 +38,12 @@ def _candidates(folder: Path) -> Iterator[Path]:
             yield candidate / FILE
 
 
-def _fitting(path: Path, data: dict[str, Any], mine: Mapping[str, Any]) -> Verification | None:
+def _fitting(data: dict[str, Any], mine: Mapping[str, Any]) -> list[Bar] | None:
     sets = data.get("sets")
     for one in sets if isinstance(sets, list) else []:
         if isinstance(one, dict) and isinstance(one.get("run"), dict) and _same(mine, one["run"]):
-            entries = [entry for entry in one.get("quantities") or [] if isinstance(entry, dict)]
-            return Verification(path, str(one.get("driver") or ""), [_bar(entry) for entry in entries])
+            found = one.get("quantities")
+            return [entry for entry in found if isinstance(entry, dict)] if isinstance(found, list) else []
     return None
 
 
@@ -89,9 +68,3 @@ def _steps_hash(table: Path) -> str | None:
 def _same(mine: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
     """Whether both agree; what is not known of either does not."""
     return all(value is not None and value == other.get(name) for name, value in mine.items())
-
-
-def _bar(entry: Mapping[str, Any]) -> KeptBar:
-    quantity, unit, verdict, advice = (str(entry.get(n) or "") for n in ("quantity", "unit", "verdict", "advice"))
-    value, error, percent = (number_of(entry, name) for name in ("value", "error", "error_percent"))
-    return KeptBar(quantity, unit, value or 0.0, error, percent, verdict, advice)

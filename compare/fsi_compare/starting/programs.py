@@ -29,7 +29,7 @@ class Program:
 
 def find_program(name: str, named: Path | None = None, option: str = "--program") -> Program:
     """The program `named`, else the one of this name beside fsi-compare, else the one on the path. It must answer."""
-    path = named if named is not None else _beside(Path(sys.argv[0]), name)
+    path = named if named is not None else find_beside(Path(sys.argv[0]), name)
     if path is None:
         raise InputError(name, option, "is neither beside fsi-compare nor on the path", BUILD)
     if not exists(path):
@@ -59,7 +59,7 @@ def _executable(path: Path, level: str | None) -> Path:
 
 
 def find_mesh_maker(monolithic: Program) -> Path | None:
-    return find_beside(monolithic, "fsi-mesh")
+    return find_beside(monolithic.path, "fsi-mesh")
 
 
 def need_mesh_maker(driver: Program) -> Path:
@@ -74,12 +74,8 @@ def no_mesh_maker() -> InputError:
     return InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
 
 
-def find_beside(program: Program, name: str) -> Path | None:
+def find_beside(program: Path, name: str) -> Path | None:
     """The program of this name beside another one, else the one on the path."""
-    return _beside(program.path, name)
-
-
-def _beside(program: Path, name: str) -> Path | None:
     for folder in (program.parent, absolute(program).parent):
         if is_file(folder / name):
             return folder / name

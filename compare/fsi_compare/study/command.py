@@ -71,7 +71,7 @@ def study(options: argparse.Namespace) -> int:
         raise InputError(asked.path, "runs", problem, remedy)
     kind = catalogue.kind(asked.kind)
     kind.check(asked)
-    programs = find_programs(options)
+    programs = find_drivers(options, PROGRAMS)
     if options.list:
         lines = [f"{request.group}: {request.label}" for request in asked.requests]
         print("\n".join(map(printable, [*lines, *getattr(kind, "also_runs", lambda study: [])(asked)])))
@@ -120,7 +120,7 @@ def list_ready(options: argparse.Namespace, catalogue: Catalogue) -> int:
     if options.output is not None:
         raise InputError("", "--output", "is of one study, and --list without STUDY is of all", "name the study")
     try:
-        programs: dict[str, Program] | None = find_programs(options)
+        programs: dict[str, Program] | None = find_drivers(options, PROGRAMS)
     except InputError as error:
         if options.monolithic or options.partitioned:
             raise
@@ -129,11 +129,6 @@ def list_ready(options: argparse.Namespace, catalogue: Catalogue) -> int:
     maker = find_mesh_maker(programs["fsi-monolithic"]) if programs else None
     print("\n".join(overview(catalogue, options.quick, programs, options.threads, maker)))
     return 0
-
-
-def find_programs(options: argparse.Namespace) -> dict[str, Program]:
-    """Both drivers by name."""
-    return find_drivers(options, PROGRAMS)
 
 
 def about(report: "Report", asked: Study, runner: Runner, programs: dict[str, Program]) -> None:

@@ -1,11 +1,10 @@
 """The ready studies, and what each still has to run: `fsi-compare study --list` without a name."""
 
 from pathlib import Path
-from typing import Sequence
 
 from ..starting.programs import Program
 from .catalogue import Catalogue
-from .runner import Runner, Standing
+from .runner import Runner
 from .study_file import read_study
 
 OUTPUTS = Path("results/studies")
@@ -17,11 +16,7 @@ def default_output(path: Path, quick: bool) -> Path:
 
 
 def overview(
-    catalogue: Catalogue,
-    quick: bool,
-    programs: dict[str, Program] | None,
-    threads: int | None = None,
-    mesh_maker: Path | None = None,
+    catalogue: Catalogue, quick: bool, programs: dict[str, Program] | None, threads: int | None, mesh_maker: Path | None
 ) -> list[str]:
     """A line for each ready study: name, title, and how its default output folder stands. `programs`: by name; None:
     they are not built, and nothing is known of finished runs. Makes nothing."""
@@ -41,12 +36,8 @@ def overview(
             also = getattr(catalogue.kind(study.kind), "also_standing", None)
             if also is not None:
                 standings.append(also(study, runner))
-            state = f"{output}: {_state(standings)}"
+            asked, finished, failed = (sum(numbers) for numbers in zip(*standings))
+            bad = f" ({failed} failed)" if failed else ""
+            state = f"{output}: {finished} of {asked} runs finished{bad}, {asked - finished} to run"
         lines.append(f"{path.stem:<{width}}  {study.title} ({state})")
     return lines
-
-
-def _state(standings: Sequence[Standing]) -> str:
-    asked, finished, failed = (sum(getattr(s, name) for s in standings) for name in ("asked", "finished", "failed"))
-    bad = f" ({failed} failed)" if failed else ""
-    return f"{finished} of {asked} runs finished{bad}, {asked - finished} to run"

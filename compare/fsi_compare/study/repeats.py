@@ -13,11 +13,6 @@ RESULTS = ("centerline_pressure.csv", "wall_displacement.csv", "lines.csv")
 NOT_THE_SAME = "its results were not the same when it was repeated"
 
 
-def place_of(folder: Path, repetition: int) -> Path:
-    """Where repetition 2, 3, ... of the run in `folder` is made."""
-    return folder.with_name(f"{folder.name}-{repetition}")
-
-
 def step_seconds(folder: Path) -> float:
     """Seconds of the time steps, from summary.json; NaN when there is none."""
     try:
@@ -45,8 +40,3 @@ def keep_median(folder: Path, repetitions: Sequence[Path]) -> list[float]:
     for place in repetitions:
         remove_tree(place)
     return sorted(seconds.values())
-
-
-def spread(timings: Sequence[float]) -> float | None:
-    """Slowest over fastest; None: timed once."""
-    return max(timings) / min(timings) if len(timings) > 1 and min(timings) > 0 else None

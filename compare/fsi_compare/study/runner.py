@@ -6,14 +6,14 @@ import os
 import re
 import shlex
 import time
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, Mapping, Sequence
+from typing import Any, Mapping, NamedTuple, Sequence
 
 from ..base import interruption
 from ..base.errors import InputError, ProgramError
 from ..base.files import TEMPORARY, absolute, is_file, listed, make_folder, read_bytes, read_json, read_object
-from ..base.files import remove_tree, replacing
+from ..base.files import remove_tree, write_text
 from ..base.toml import toml_value
 from ..starting.launch import launched
 from ..gallery.mesh_chain import contents, make_mesh
@@ -36,8 +36,7 @@ OWN_PLACE = re.compile(r".+-[0-9a-f]{12}(-\d+)?")  # of a run in `runs`, or of a
 NOT_A_NUMBER = re.compile(r"(?:^|,)\s*[-+]?(?:nan|inf(?:inity)?)\s*(?=$|,)", re.IGNORECASE | re.MULTILINE)
 
 
-@dataclass(frozen=True)
-class Standing:
+class Standing(NamedTuple):
     """Number of runs that a study lists, and of those that are there."""
 
     asked: int
@@ -72,7 +71,7 @@ class Runner:
     def run(self, requests: Sequence[Request]) -> list[StudyRun]:
         """Makes runs, and returns them in the order of the requests. The same run asked for twice is made once."""
         make_folder(self.folder / "runs")
-        keys = [fingerprint(*self._what_decides(r)) for r in requests]
+        keys = list(map(self._fingerprint, requests))
         progress = StudyProgress(self.quiet, self.jobs)
         jobs: list[Job] = []
         wanted: dict[str, Request] = {}
@@ -113,7 +112,7 @@ class Runner:
 
         short = {k: request for k, request in requests.items() if study.repeats > 1 and is_short(self._known[k])}
         rounds = range(2, study.repeats + 1)
-        again = [(k, r, repeats.place_of(self._place(k, r), n)) for n in rounds for k, r in short.items()]
+        again = [(k, r, self._place(k, r, f"-{n}")) for n in rounds for k, r in short.items()]
         places: dict[str, list[Path]] = {key: [] for key in short}
         progress.repeat([request for _, request, _ in again])
         for _, _, place in again:
@@ -157,9 +156,9 @@ class Runner:
         self._known[key] = run
         self.seconds += max(run.seconds, sum(run.timings))
 
-    def _what_decides(self, request: Request) -> tuple[Request, Program, Path | None, int, int]:
-        mesh_file = self.mesh_file(request.mesh)
-        return request, self._program(request), mesh_file, self.threads, self.processes_of(request)
+    def _fingerprint(self, request: Request) -> str:
+        mesh = self.mesh_file(request.mesh)
+        return fingerprint(request, self._program(request), mesh, self.threads, self.processes_of(request))
 
     def processes_of(self, request: Request) -> int:
         return request.processes or self.processes
@@ -183,8 +182,7 @@ class Runner:
         if end.code:
             raise ProgramError(self.study.path, f"meshes.{mesh.name}", end.message, "change its options")
         os.replace(unfinished, path)
-        with replacing(path.with_suffix(".options.json")) as temporary:
-            temporary.write_text(json.dumps(recipe(mesh)), encoding="utf-8")
+        write_text(path.with_suffix(".options.json"), json.dumps(recipe(mesh)))
         return path
 
     def _mesh_path(self, mesh: StudyMesh) -> Path:
@@ -207,14 +205,15 @@ class Runner:
                 words = [str(request.case_file), request.method.name, mesh.name, *map(str, request.settings.items())]
                 found["; ".join(words)] = None
             else:
-                key = fingerprint(*self._what_decides(request))
+                key = self._fingerprint(request)
                 found[key] = self._finished(key, request)
         there = [run for run in found.values() if run is not None]
         return Standing(len(found), len(there), sum(not run.done for run in there))
 
-    def _place(self, key: str, request: Request) -> Path:
+    def _place(self, key: str, request: Request, repetition: str = "") -> Path:
+        """The run's folder; `repetition`: -2, -3, ... of one that is timed again."""
         name = re.sub(r"[^A-Za-z0-9.+-]+", "-", f"{request.case}-{request.method.name}").strip("-")[:LONGEST_NAME]
-        return self.folder / "runs" / f"{name}-{key[:12]}"
+        return self.folder / "runs" / f"{name}-{key[:12]}{repetition}"
 
     def _command(self, request: Request, folder: Path) -> list[str]:
         words = [str(self._program(request).path), str(request.case_file), "-o", str(folder), "-q"]
@@ -254,13 +253,10 @@ class Runner:
         record = {"fingerprint": key, "status": status, "message": message, "seconds": end.seconds, "command": command}
         record |= {"run": request.label, "ended": time.strftime("%Y-%m-%d %H:%M:%S")}
         record |= {"executable": self._program(request).digest}
-        write_record(folder, {**record, "interrupted": is_interrupted(end.code) and not end.out_of_time})
+        # Ended from outside: that says nothing about the run, so that the next call makes it anew.
+        interrupted = any(end.code in (-number, 128 + number) for number in interruption.WATCHED)
+        write_record(folder, {**record, "interrupted": interrupted and not end.out_of_time})
         return StudyRun(request, folder, status, message, end.seconds, command)
-
-
-def is_interrupted(code: int) -> bool:
-    """Whether the run was ended from outside: that says nothing about it, so that the next call makes it anew."""
-    return any(code in (-number, 128 + number) for number in interruption.WATCHED)
 
 
 def recipe(mesh: StudyMesh) -> list[str]:
@@ -269,8 +265,7 @@ def recipe(mesh: StudyMesh) -> list[str]:
 
 
 def write_record(folder: Path, record: dict[str, Any]) -> None:
-    with replacing(folder / RECORD) as temporary:
-        temporary.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    write_text(folder / RECORD, json.dumps(record, indent=1) + "\n")
 
 
 def remove_runs(folder: Path) -> None:

@@ -3,12 +3,10 @@
 from typing import Sequence
 
 from ..starting.duration import duration
-from ..reporting.column import Column
+from ..reporting.column import Column, work_column
 from ..reporting.layout import Table
 from .study_file import show
 from .study_run import StudyRun, known
-from ..reporting.work_column import work_column
-
 
 RUNS: Sequence[Column[StudyRun]] = (
     Column("group", "group", lambda run: run.request.group, left=True),

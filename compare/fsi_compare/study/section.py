@@ -5,7 +5,7 @@ from typing import Any, Iterator, Mapping, Sequence
 
 from ..base.errors import InputError
 from ..base.numbers import is_number
-from ..base.suggestions import check_keys, nearest
+from ..base.suggestions import check_keys
 
 LARGEST_COUNT = 10_000  # threads, processes, runs at once, repetitions
 LARGEST_NUMBER = 10**15
@@ -27,13 +27,6 @@ class Section:
 
     def key_of(self, name: str) -> str:
         return f"{self.key}.{name}".lstrip(".")
-
-    def __contains__(self, name: str) -> bool:
-        return name in self.entries
-
-    def section(self, name: str, known: Sequence[str]) -> "Section":
-        """The section of this name, empty where it is missing."""
-        return Section(self.path, self.key_of(name), self.entries.get(name, {}), known)
 
     def table(self, name: str, needed: bool = False) -> Mapping[str, Any]:
         """Entries of names that only the study knows; empty where it is missing."""
@@ -68,32 +61,6 @@ class Section:
             problem = "is missing" if value is None else f"{value} is not a positive number"
             raise self.wrong(name, problem, "give a number" if default is None else f"leave it out for {default:g}")
         return float(value)
-
-    def numbers(self, name: str, default: Sequence[float] | None = None) -> list[float]:
-        values = self.entries.get(name, default and list(default))
-        if not isinstance(values, list) or not values or not all(map(is_positive, values)):
-            problem = "is missing" if values is None else "is not a list of positive numbers"
-            raise self.wrong(name, problem, "write [a, b, ...]" if default is None else f"write {list(default)}")
-        return [float(value) for value in values]
-
-    def one_of(self, name: str, known: Sequence[str], what: str) -> str:
-        value = self.entries.get(name)
-        self._require_known(name, value, known, what)
-        return str(value)
-
-    def names(self, name: str, known: Sequence[str], default: Sequence[str], what: str) -> list[str]:
-        """`what` they are, e.g. "method of the study"."""
-        values = self.entries.get(name, list(default))
-        if not isinstance(values, list):
-            raise self.wrong(name, "is not a list", f"write [a, b, ...], each a {what}")
-        for value in values:
-            self._require_known(name, value, known, what)
-        return values
-
-    def _require_known(self, name: str, value: Any, known: Sequence[str], what: str) -> None:
-        if not isinstance(value, str) or value not in known:
-            problem = "is missing" if value is None else f"'{value}' is no {what}"
-            raise self.wrong(name, problem, f"did you mean '{nearest(str(value), list(known))}'?")
 
 
 def is_positive(value: Any) -> bool:

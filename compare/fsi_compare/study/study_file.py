@@ -94,15 +94,6 @@ class Study:
     processes: int = 1  # of each run whose group does not say
     scenes: Mapping[str, Scene] = field(default_factory=dict)  # of the cases that are scenes of the gallery
 
-    def request(
-        self, group: str, case: str, method: str, values: Entries, settings: Entries, mesh: str | None = None
-    ) -> Request:
-        """One more run, for kinds that decide on the next run from the last."""
-        chosen = self.methods[method]
-        merged = {**self.settings, **self.case_settings.get(case, {}), **chosen.settings, **settings}
-        made = self.meshes[mesh] if mesh else mesh_of_scene(self.scenes.get(case), self.quick)
-        return Request(group, case, chosen, dict(values), self.cases[case], made, merged, self.time_limit)
-
 
 def method_of(driver: str) -> Method:
     """A driver as it is: `monolithic` or `partitioned`."""
@@ -181,8 +172,9 @@ class _Reader:
         kind = self.one_of("kind", kind, kinds)
         entries = top.table("cases", True)
         cases = {name: self.case(name, entry) for name, entry in entries.items()}
+        short = {name: scene.quick for name, scene in self.scenes.items()} if self.quick else {}
         of_case = {
-            name: {**self.of_scene(name), **self.section(f"cases.{name}", entry, CASE_KEYS).settings("set")}
+            name: {**short.get(name, {}), **self.section(f"cases.{name}", entry, CASE_KEYS).settings("set")}
             for name, entry in entries.items()
             if isinstance(entry, dict)
         }
@@ -235,10 +227,6 @@ class _Reader:
             raise self.wrong(key, "has a file beside it", "give one of the two")
         self.scenes[name] = read_scene(READY / self.one_of(key, entry["scene"], ready_scenes()))
         return self.scenes[name].case
-
-    def of_scene(self, name: str) -> dict[str, Any]:
-        """Settings of a scene's short form, where that is asked for."""
-        return dict(self.scenes[name].quick) if self.quick and name in self.scenes else {}
 
     def method(self, name: str, entry: Any) -> Method:
         section = self.section(f"methods.{name}", entry, METHOD_KEYS)

@@ -9,9 +9,10 @@ from ..base.files import is_file, read_object
 from ..runs.coupling import chosen_scheme, coupling_kind
 from ..runs.columns import Columns, read_columns
 from ..runs.pressure_waves import PressureWaves
-from ..runs.run_folder import read_pressure_line
+from ..runs.run_folder import ALONG_AXIS, pressure_file, read_pressure
+from ..runs.samples import CENTRE_LINE, requested_line, waves_along
 from ..runs.summary import FILE, checked
-from ..runs.work_units import in_all, per_step
+from ..runs.work_units import per_step
 from .study_file import Request
 
 DONE = "done"
@@ -57,15 +58,17 @@ class StudyRun:
 
     @functools.cached_property
     def pressure(self) -> PressureWaves:
-        """Along the centre line, or the line that the case asks for. Raises InputError."""
-        return read_pressure_line(self.folder)
+        """Along the centre line; of a vessel without one along the line of `lines.csv` that stands for it, its arc
+        length in place of z. Raises InputError."""
+        file = pressure_file(self.folder)
+        if file.name == ALONG_AXIS:
+            return read_pressure(file)
+        name = requested_line(file)
+        return waves_along(file, CENTRE_LINE if name is None else name)
 
     def columns(self, file: str) -> Columns:
         """All columns of a CSV of the run, e.g. `iterations.csv`. Raises InputError when it is missing or broken."""
         return read_columns(self.folder / file)
-
-    def has(self, file: str) -> bool:
-        return is_file(self.folder / file)
 
     @property
     def method_label(self) -> str:
@@ -90,11 +93,6 @@ class StudyRun:
     def work_units_per_step(self) -> float | None:
         """Work units per step; None: the run did not measure the unit."""
         return per_step(self.summary)
-
-    @property
-    def work_units(self) -> float | None:
-        """Work units of all time steps."""
-        return in_all(self.summary)
 
     @property
     def passes(self) -> float:

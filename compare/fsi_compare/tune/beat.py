@@ -15,7 +15,7 @@ from .vessel import Vessel
 def given_ends(scene: Scene, curves: Curves, phases: int) -> dict[str, End]:
     """Ends of all openings, with the laws of the case; what the case gives there, as a run shows it."""
     found: dict[str, End] = {}
-    for name in curves.names:
+    for name in curves.flow:
         kind = scene.kind(name)
         if kind in ("resistance", "windkessel"):
             found[name] = scene.law(name)
@@ -65,10 +65,7 @@ def outlets_of(ends: Mapping[str, End]) -> list[str]:
 
 
 def _shown(
-    targets: Sequence[Target],
-    pressure: Mapping[str, np.ndarray],
-    means: Mapping[str, float],
-    flows: Mapping[str, float],
+    targets: Sequence[Target], pressure: Mapping[str, np.ndarray], means: Mapping[str, float], flows: dict[str, float]
 ) -> np.ndarray:
     total = sum(flows.values())
     of_kind: dict[str, Callable[[str], float]] = {

@@ -7,7 +7,8 @@ from typing import Any, Mapping
 
 from ..base.errors import InputError, ProgramError, printable, say_note, say_warning
 from ..base.files import absolute, is_file, output_folder, read_toml, remove_tree, together
-from ..base.options import Commands, add_case, add_command, add_drivers, add_time_limit, add_usual, share
+from ..base.options import DRIVERS, Commands, add_case, add_command, add_drivers, add_time_limit, add_usual, share
+from ..reporting.layout import say_written
 from ..results.run import open_run
 from ..gallery.mesh_chain import with_places
 from ..gallery.scene import read_scene as read_gallery_scene
@@ -20,11 +21,10 @@ from ..verify.mesh_family import find_recipe
 from .curves import curves_of
 from .scene import Scene, checked_targets, read_scene
 from .solving import Rule
-from .tables import show, write_results
+from .tables import write_results
 from .targets import read_targets
 from .tuning import BeatFailed, Demand, Outcome, Ran, tune
 
-DRIVERS = ("monolithic", "partitioned")
 ONE_BEAT, TUNED = "one-beat.toml", "tuned.toml"
 GIVE = "give a case file that a driver runs"
 MOST_BEATS = 10
@@ -160,9 +160,6 @@ class Beats:
             raise ProgramError(self.scene.path, f"beat {number}", message, "mend the case first")
         return Ran(curves_of(open_run(done.folder).openings), done.seconds)
 
-    def mesh_file(self) -> Path | None:
-        return self.runner.mesh_file(self.mesh)
-
 
 def _mesh(scene: Scene, words: str | None, mesh_maker: Path | None, place: Path) -> StudyMesh | None:
     """The mesh of the beats; None: the case's own file or level."""
@@ -189,7 +186,8 @@ def _write(options: argparse.Namespace, scene: Scene, demand: Demand, outcome: O
     if not outcome.reached:
         remove_tree(beats.place / TUNED)  # of an earlier call
     if not options.quiet:
-        show(tables, outcome, beats.place, written)
+        print("\n".join([*(table.text() for table in tables[:2]), *map(printable, outcome.lines)]))
+        say_written(beats.place, written)
     return 0 if outcome.reached else 2
 
 
@@ -200,7 +198,7 @@ def _write_tuned(inside: Path, scene: Scene, outcome: Outcome, beats: Beats) -> 
     entries["opening"] = [_tuned(one, last.values, last.starts) for one in scene.entries["opening"]]
     if last.starts and "start" in entries["time"]:
         entries["time"] = {**entries["time"], "start": "given"}
-    mesh = beats.mesh_file()
+    mesh = beats.runner.mesh_file(beats.mesh)
     if mesh is not None:
         entries["mesh"] = {"file": str(absolute(mesh))}
     words = f"{printable(str(scene.path))} with the Windkessels that fsi-compare tune has found:"

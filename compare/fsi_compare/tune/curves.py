@@ -20,10 +20,6 @@ class Curves:
     flow: Mapping[str, np.ndarray]  # mm^3/ms, outwards
     stored: Mapping[str, np.ndarray]  # kPa, of the Windkessels
 
-    @property
-    def names(self) -> list[str]:
-        return list(self.flow)
-
     def after(self, time: float) -> "Curves":
         """The levels from `time` on."""
         kept = self.time >= time - 1e-9 * self.time[-1]

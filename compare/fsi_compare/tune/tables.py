@@ -6,10 +6,9 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from ..base.errors import printable
-from ..base.files import absolute, replacing
+from ..base.files import absolute, write_text
 from ..reporting.column import Column
-from ..reporting.layout import Table, say_written, write_tables
-from .circuit import Windkessel
+from ..reporting.layout import Table, write_tables
 from .scene import Scene
 from .targets import KPA, Target
 from .tuning import Beat, Demand, Outcome
@@ -29,13 +28,7 @@ class Found:
         return 100 * (self.got / self.target.value - 1)
 
 
-@dataclass(frozen=True)
-class Value:
-    """An outlet in one beat."""
-
-    beat: Beat
-    outlet: str
-    law: Windkessel
+OfBeat = tuple[Beat, str]  # with an opening
 
 
 def _shown(found: Found, value: float) -> str:
@@ -56,30 +49,26 @@ TARGETS: Sequence[Column[Found]] = (
     Column("difference [%]", "difference_percent", lambda f: f.percent, "+.2f"),
     Column(csv="foreseen", value=lambda f: f.foreseen),
 )
-VALUES: Sequence[Column[Value]] = (
-    Column("beat", "beat", lambda v: v.beat.number),
-    Column("outlet", "outlet", lambda v: v.outlet, left=True),
-    Column("proximal [{unit}]", "proximal", lambda v: v.law.proximal, ".4g", unit="kPa ms/mm^3"),
-    Column("compliance [{unit}]", "compliance", lambda v: v.law.compliance, ".4g", unit="mm^3/kPa"),
-    Column("distal [{unit}]", "distal", lambda v: v.law.distal, ".4g", unit="kPa ms/mm^3"),
-    Column("starts from [{unit}]", "start", lambda v: v.beat.repeats[v.outlet].begin, ".4g", unit="kPa"),
-    Column("ends with [{unit}]", "end", lambda v: v.beat.repeats[v.outlet].end, ".4g", unit="kPa"),
-    Column("periodic [{unit}]", "periodic", lambda v: v.beat.repeats[v.outlet].periodic, ".4g", unit="kPa"),
+VALUES: Sequence[Column[OfBeat]] = (
+    Column("beat", "beat", lambda v: v[0].number),
+    Column("outlet", "outlet", lambda v: v[1], left=True),
+    Column("proximal [{unit}]", "proximal", lambda v: v[0].values[v[1]].proximal, ".4g", unit="kPa ms/mm^3"),
+    Column("compliance [{unit}]", "compliance", lambda v: v[0].values[v[1]].compliance, ".4g", unit="mm^3/kPa"),
+    Column("distal [{unit}]", "distal", lambda v: v[0].values[v[1]].distal, ".4g", unit="kPa ms/mm^3"),
+    Column("starts from [{unit}]", "start", lambda v: v[0].repeats[v[1]].begin, ".4g", unit="kPa"),
+    Column("ends with [{unit}]", "end", lambda v: v[0].repeats[v[1]].end, ".4g", unit="kPa"),
+    Column("periodic [{unit}]", "periodic", lambda v: v[0].repeats[v[1]].periodic, ".4g", unit="kPa"),
 )
-
-
-def _left(of: str, head: str, csv: str) -> Column[tuple[Beat, str]]:
-    return Column(head, csv, lambda v: 100 * getattr(v[0].vessel, f"unexplained_{of}"), ".1f")
-
-
-VESSEL: Sequence[Column[tuple[Beat, str]]] = (
+VESSEL: Sequence[Column[OfBeat]] = (
     Column("beat", "beat", lambda v: v[0].number),
     Column("opening", "opening", lambda v: v[1], left=True),
     Column("resistance [{unit}]", "resistance", lambda v: v[0].vessel.resistance[v[1]], ".4g", unit="kPa ms/mm^3"),
     Column("inertance [{unit}]", "inertance", lambda v: v[0].vessel.inertance[v[1]], ".4g", unit="kPa ms^2/mm^3"),
     Column("compliance [{unit}]", "compliance", lambda v: v[0].vessel.compliance, ".4g", unit="mm^3/kPa"),
-    _left("pressure", "left of pressures [%]", "left_of_pressures_percent"),
-    _left("volume", "left of volume [%]", "left_of_volume_percent"),
+    Column(
+        "left of pressures [%]", "left_of_pressures_percent", lambda v: 100 * v[0].vessel.unexplained_pressure, ".1f"
+    ),
+    Column("left of volume [%]", "left_of_volume_percent", lambda v: 100 * v[0].vessel.unexplained_volume, ".1f"),
 )
 
 
@@ -88,7 +77,7 @@ def tables_of(demand: Demand, outcome: Outcome) -> list[Table]:
     for beat in outcome.beats:
         foreseen = [None] * len(demand.targets) if beat.foreseen is None else map(float, beat.foreseen)
         found += [Found(beat.number, *one) for one in zip(demand.targets, map(float, beat.got), foreseen)]
-    values = [Value(beat, name, law) for beat in outcome.beats for name, law in beat.values.items()]
+    values = [(beat, name) for beat in outcome.beats for name in beat.values]
     vessels = [(beat, name) for beat in outcome.beats for name in beat.vessel.resistance]
     return [
         Table("targets", "What is asked for, and what each beat shows", TARGETS, found),
@@ -114,13 +103,5 @@ def write_results(
         "beats": [one.about for one in outcome.beats],
     }
     path = folder / "tune.json"
-    with replacing(path) as temporary:
-        temporary.write_text(json.dumps(said, indent=1) + "\n", encoding="utf-8")
+    write_text(path, json.dumps(said, indent=1) + "\n")
     return tables, [*written, path]
-
-
-def show(tables: Sequence[Table], outcome: Outcome, place: Path, written: Sequence[Path]) -> None:
-    for table in tables[:2]:
-        print(table.text())
-    print("\n".join(map(printable, outcome.lines)))
-    say_written(place, written)

@@ -17,7 +17,6 @@ from .vessel import Vessel, fitted_vessel
 NEAR = 0.01  # of the pressure: beats that begin further from periodic say nothing of the model's error
 FEWEST_LEVELS = 16  # behind the lead of a beat
 
-
 Laws = Mapping[str, Windkessel]  # by outlet
 Starts = Mapping[str, float]  # pressures in kPa, by outlet
 
@@ -92,8 +91,8 @@ def tune(scene: Scene, demand: Demand, run_beat: RunBeat, tell: Callable[[str], 
         try:
             ran = run_beat(number, settings)
         except BeatFailed as failure:
-            said = [f"{key} = {value:g}" for key, value in settings.items() if isinstance(value, float)]
-            outcome.lines += [f"Beat {number} did not come to its end: {failure}", f"It had {', '.join(said)}."]
+            had = [f"{key} = {value:g}" for key, value in settings.items() if isinstance(value, float)]
+            outcome.lines += [f"Beat {number} did not come to its end: {failure}", f"It had {', '.join(had)}."]
             return outcome
         beat = _beat(scene, demand, number, ran, values, starts, foreseen)
         outcome.beats.append(beat)
@@ -104,9 +103,10 @@ def tune(scene: Scene, demand: Demand, run_beat: RunBeat, tell: Callable[[str], 
             outcome.lines.append(f"Beat {number} shows all that is asked for within {100 * demand.tolerance:g} %.")
             return outcome
         model = Model(beat.vessel, given_ends(scene, ran.curves, PHASES), case, scene.period)
-        problem = _no_flow(model)
-        if problem:
-            outcome.lines.append(problem)
+        entering = _entering(model)
+        if entering is not None and not entering > 0:
+            said = f"the mean flow into the vessel is {entering:.3g} mm^3/ms"
+            outcome.lines.append(f"Nothing can be found: {said}. Give a table with a positive mean.")
             return outcome
         state = model.state(values)
         near = beat.period_share <= NEAR
@@ -171,15 +171,6 @@ def _entering(model: Model) -> float | None:
     if not all(isinstance(end, (GivenFlow, Windkessel)) for end in model.ends.values()):
         return None
     return -sum(float(end.flow.mean()) for end in model.ends.values() if isinstance(end, GivenFlow))
-
-
-def _no_flow(model: Model) -> str:
-    """Why no resistances can give a pressure; empty: they can."""
-    entering = _entering(model)
-    if entering is None or entering > 0:
-        return ""
-    said = f"the mean flow into the vessel is {entering:.3g} mm^3/ms"
-    return f"Nothing can be found: {said}. Give a table with a positive mean."
 
 
 def _limits(model: Model, demand: Demand, foreseen: np.ndarray, pulse: tuple[float, float] | None) -> list[str]:

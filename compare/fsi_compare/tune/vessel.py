@@ -35,7 +35,7 @@ def fitted_vessel(curves: Curves, elastic: bool) -> Vessel:
     step = np.diff(curves.time)
     slope = {name: np.diff(q) / step for name, q in curves.flow.items()}
     pressure = {name: 0.5 * (p[1:] + p[:-1]) for name, p in curves.pressure.items()}
-    first, *others = names = curves.names
+    first, *others = names = list(curves.flow)
     count = len(step)
     matrix = np.zeros((len(others) * count, 2 * len(names)))
     right = np.zeros(len(others) * count)

@@ -18,7 +18,6 @@ RECOMMENDED = re.compile(
 CELLS = ("--lumen-cells", "--media-cells", "--adventitia-cells", "--around", "--axial-cells")
 SIZE_OPTIONS = ("--size", "--axial-size")
 SHORT_STEP = 0.1  # ms, as common/case/case_reader.cpp has it: second order keeps waves that longer steps let die
-FIRST_ORDER = ("euler",)
 # mm across and along, as common/mesher/artery/options.cpp has them: fsi-mesh says them nowhere
 LEVELS = {"coarse": (0.75, 0.78), "intermediate": (0.375, 0.34), "fine": (0.1875, 0.168)}
 
@@ -26,7 +25,7 @@ LEVELS = {"coarse": (0.75, 0.78), "intermediate": (0.375, 0.34), "fine": (0.1875
 def keeps_short_waves(entries: Mapping[str, Any]) -> bool:
     """Whether the drivers take mesh.error of a case for resolved waves."""
     time = entries.get("time", {})
-    if "static" in entries or time.get("scheme") in FIRST_ORDER:
+    if "static" in entries or time.get("scheme") == "euler":  # of first order
         return False
     step = time.get("step", 1.0)
     return bool(step == "adaptive" or (is_number(step) and step <= SHORT_STEP))

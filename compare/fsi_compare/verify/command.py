@@ -7,7 +7,7 @@ from typing import Any, Sequence
 from ..base.errors import InputError, printable
 from ..base.files import absolute, output_folder, together
 from ..base.options import Commands, add_case, add_command, add_drivers, add_time_limit, add_usual
-from ..base.options import positive_number, share
+from ..base.options import DRIVERS, positive_number, share
 from ..reporting.layout import say_written
 from ..reporting.matplotlib_loader import load_matplotlib
 from ..reporting.pressure import read_times
@@ -26,7 +26,6 @@ from .results import BarsOfRun, Judged, bands, judge
 from .search import Demand, Search, by_each_driver, write_found
 from .tables import bars_table, counts, write_json
 
-DRIVERS = ("monolithic", "partitioned")
 MOST_LEVELS = 6
 
 DESCRIPTION = """\

@@ -12,6 +12,28 @@ import numpy as np
 
 LEAST_LEVELS = 1 / 8  # of the own levels that another member must have; else its curve is interpolated
 SAME_LEVEL = 1e-6  # of a step
+AT_REST = 0.01  # of the largest value: an error of a line that is below this at a time is relative to that
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A column of a sample over time; of lines at several points."""
+
+    name: str  # "tip: displacement y"
+    unit: str
+    times: np.ndarray  # ms, (levels,)
+    values: np.ndarray  # (levels, points)
+    s: np.ndarray  # mm along the line, (points,)
+    derived: bool = False  # of a field that is made of gradients of what is solved for
+
+    @property
+    def largest(self) -> float:
+        return float(np.nanmax(np.abs(self.values))) if self.values.size else 0.0
+
+    @property
+    def is_pressure(self) -> bool:
+        """Whether it is a pressure or of its order: stresses, forces, gradients of what is solved for."""
+        return self.derived or any(word in self.name.rpartition(": ")[2] for word in ("pressure", "stress", "force"))
 
 
 @dataclass(frozen=True)
@@ -53,21 +75,20 @@ def trapezoidal(x: np.ndarray) -> np.ndarray:
     return np.append(half, 0.0) + np.append(0.0, half)
 
 
-def norm_on(times: np.ndarray, s: np.ndarray, stretch: Stretch) -> CurveNorm:
-    in_time = trapezoidal(times) if stretch.time is None else np.ones(1)
-    return CurveNorm(np.outer(in_time, trapezoidal(s)).ravel(), stretch.largest)
+def norm_of(curve: Curve, stretch: Stretch) -> CurveNorm:
+    """Norm of differences from this curve, the user's own."""
+    in_time = trapezoidal(curve.times) if stretch.time is None else np.ones(1)
+    return CurveNorm(np.outer(in_time, trapezoidal(curve.s)).ravel(), stretch.largest)
 
 
-def stretch_of(
-    times: np.ndarray, s: np.ndarray, values: np.ndarray, of: tuple[np.ndarray, np.ndarray], at: Stretch
-) -> np.ndarray:
-    """`values`, (levels, points), at the levels and points `of` another curve, (levels * points,). Levels that lie
-    between this curve's own stay NaN: straight lines between them would be an error of their own."""
-    levels, points = of
-    if at.time is not None:
-        row = np.array([np.interp(at.time, times, column) for column in values.T])
-        return _on_points(s, row[None, :], points).ravel()
-    values = _on_points(s, values, points)
+def on(grid: Curve, curve: Curve, stretch: Stretch) -> np.ndarray:
+    """A member's curve at the levels and points of the user's own, `grid`, (levels * points,). Levels that lie between
+    this curve's own stay NaN: straight lines between them would be an error of their own."""
+    times, levels = curve.times, grid.times
+    if stretch.time is not None:
+        row = np.array([np.interp(stretch.time, times, column) for column in curve.values.T])
+        return _on_points(curve.s, row[None, :], grid.s).ravel()
+    values = _on_points(curve.s, curve.values, grid.s)
     nearest = np.clip(np.searchsorted(times, levels), 1, max(len(times) - 1, 1))
     if len(times) > 1:
         nearest = nearest - (levels - times[nearest - 1] < times[nearest] - levels)
@@ -80,6 +101,11 @@ def stretch_of(
     found = np.full((len(levels), values.shape[1]), np.nan)
     found[there] = values[nearest[there]]
     return found.ravel()
+
+
+def size_of(curve: Curve, stretch: Stretch) -> float:
+    """The size that the curve's error is relative to."""
+    return max(norm_of(curve, stretch)(on(curve, curve, stretch)), AT_REST * curve.largest)
 
 
 def _on_points(s: np.ndarray, values: np.ndarray, points: np.ndarray) -> np.ndarray:

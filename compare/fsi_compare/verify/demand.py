@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Sequence
 
 from .cost import Costs
-from .quantities import Curve
+from .curve_norms import Curve
 from .results import Judged
 from .verdict import Bar
 

@@ -5,8 +5,9 @@ from typing import Mapping, Sequence
 
 import numpy as np
 
+from .curve_norms import Curve
 from .family import CaseFacts, Member
-from .quantities import Curve, Quantity
+from .quantities import Quantity
 
 SAME_LENGTH = 0.02  # of a line's length: what members may differ by
 WITHIN = 0.25  # of the distance of two points: what one of them may differ by in members

@@ -162,12 +162,7 @@ def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: 
     found = [Member(m, 1.0) for m in meshes] + [Member(1.0, s) for s in steps if s != 1]
     corner = (min(meshes), min(steps)) if finer else (meshes[-2], steps[1])
     found += [Member(1.0, 1.0, True) if finer else Member(1.0, steps[0], True), Member(*corner), *beside]
-    return sorted(dict.fromkeys(found), key=lambda member: (work(member, 2.0), member.looser))
-
-
-def work(member: Member, dimensions: float) -> float:
-    """Work of a member relative to the user's own, about."""
-    return float(member.mesh**-dimensions / member.step)
+    return sorted(dict.fromkeys(found), key=lambda m: (m.mesh**-2.0 / m.step, m.looser))  # by their work, about
 
 
 class Requests:

@@ -3,15 +3,14 @@
 from pathlib import Path
 from typing import Any, Mapping
 
-from ..base.files import absolute, replacing
+from ..base.files import absolute, write_text
 from ..base.toml import toml_key, toml_lines
 
 
 def write_case(path: Path, entries: Mapping[str, Any], home: Path, comments: list[str]) -> None:
     """`home`: the folder that names of files in `entries` are relative to."""
     lines = [f"# {comment}" for comment in comments] + _section("", _with_full_names(entries, home))
-    with replacing(path) as temporary:
-        temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_text(path, "\n".join(lines) + "\n")
 
 
 def _with_full_names(entry: Any, home: Path) -> Any:

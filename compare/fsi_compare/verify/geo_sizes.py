@@ -50,7 +50,8 @@ class GeoSizes:
 
 def read_sizes(script: Path) -> GeoSizes:
     """Reads a script. Raises InputError where it has no constant that says how fine it is."""
-    text = without_comments(read_text(script, "give a gmsh script that is there", "give a gmsh script"))
+    text = read_text(script, "give a gmsh script that is there", "give a gmsh script")
+    text = re.sub(r"/\*.*?\*/", " ", re.sub(r"//[^\n]*", "", text), flags=re.DOTALL)  # without comments
     constants = {n: float(value) for block in CONSTANTS.findall(text) for n, value in CONSTANT.findall(block)}
     sizes, counts = (_used(text, constants, patterns) for patterns in (SIZES, COUNTS))
     both = sorted(set(sizes) & set(counts))
@@ -73,16 +74,11 @@ def _used(text: str, constants: dict[str, float], patterns: Sequence["re.Pattern
     return {name: value for name, value in constants.items() if name in words}
 
 
-def without_comments(text: str) -> str:
-    return re.sub(r"/\*.*?\*/", " ", re.sub(r"//[^\n]*", "", text), flags=re.DOTALL)
-
-
-def graded_text(script: Path, factor: float) -> tuple[str, bool]:
-    """The script with its ratios of neighbouring cells for so many times the cells; whether it has any."""
+def graded_text(script: Path, factor: float) -> str:
+    """The script with its ratios of neighbouring cells for so many times the cells."""
     text = read_text(script, "give a gmsh script that is there", "give a gmsh script")
 
     def softer(match: "re.Match[str]") -> str:
         return f"Using Progression {float(match[1]) ** (1 / factor):.12g}"
 
-    changed = PROGRESSION.sub(softer, text)
-    return changed, changed != text
+    return PROGRESSION.sub(softer, text)

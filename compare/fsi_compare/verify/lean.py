@@ -9,7 +9,6 @@ from typing import Callable, Sequence
 from .family import STEP_RATIO, Member
 from .mesh_family import Recipe
 
-
 Nodes = Callable[[float], int | None]  # of the mesh of a size
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, Mapping, Sequence
 
 from ..base.errors import InputError
-from ..base.files import is_file, replacing
+from ..base.files import is_file, write_text
 from ..gallery.mesh_chain import MARK, READ, SCRIPT, commands_of, links, with_places
 from ..gallery.scene import Scene, read_scene
 from ..study.study_file import StudyMesh
@@ -61,7 +61,8 @@ class Recipe:
     def mesh(self, factor: float, folder: Path, case: str) -> StudyMesh | None:
         """The mesh finer by `factor`; None: the case's own file as it stands."""
         if self.chain:
-            command, *words = chained([command.finer(factor, folder) for command in self.chain])
+            marked = [word for one in self.chain for word in (MARK, *one.finer(factor, folder))]
+            _, command, *words = marked
         elif self.command == "geo":
             command, words = "geo", self.geo_words(factor, folder)
         elif self.command == "refine" and factor == 1:
@@ -82,11 +83,10 @@ class Recipe:
         assert self.geo is not None
         script = self.geo.script
         if self.geo.graded and factor != 1:
-            text, _ = graded_text(script, factor)
+            text = graded_text(script, factor)
             script = folder / "meshes" / f"{self.geo.script.stem}-x{factor:.4g}.geo"
             script.parent.mkdir(parents=True, exist_ok=True)
-            with replacing(script) as temporary:
-                temporary.write_text(text, encoding="utf-8")
+            write_text(script, text)
         settings = self.geo.settings(factor, dict(self.given)).items()
         words = [word for name, value in settings for word in ("--set", f"{name}={value:.10g}")]
         return [str(script), *without(self.words, ("--set",)), *words]
@@ -104,11 +104,6 @@ class Script(Command):
 
     def finer(self, factor: float, folder: Path) -> list[str]:
         return ["geo", *self.recipe.geo_words(factor, folder)]
-
-
-def chained(commands: Sequence[Sequence[str]]) -> list[str]:
-    """Their words, with marks between."""
-    return [word for number, words in enumerate(commands) for word in ([MARK] if number else []) + list(words)]
 
 
 def ratio_for(counts: Sequence[float], levels: Sequence[int]) -> float:

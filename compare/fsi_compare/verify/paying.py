@@ -14,9 +14,10 @@ from typing import Mapping, Sequence
 import numpy as np
 
 from .adapting import RATIO
+from .curve_norms import Curve, norm_of, on, size_of
 from .doubt import on_common_points
 from .family import CaseFacts, Member
-from .quantities import Curve, chosen, norm_of, on, quantities_of, size_of
+from .quantities import chosen, quantities_of
 from .verdict import NEGLIGIBLE
 
 KINDS = ("velocity", "displacement", "pressure")  # of fsi-mesh adapt

@@ -2,10 +2,13 @@
 
 import argparse
 from pathlib import Path
-from typing import Sequence
+from typing import Any, Sequence
+
+import numpy as np
 
 from ..base.errors import InputError
 from ..gallery.mesh_chain import READ
+from ..results.fields import read_fields
 from ..starting.duration import duration
 from .adapting import Adapted, about_adapted
 from .artery_sizes import keeps_short_waves
@@ -15,7 +18,6 @@ from .mesh_family import Recipe
 from .quantities import curves_of
 from .direction import OUTSIDE
 from .results import FamilyRuns, Judged
-from .standard import standard_points
 
 STAYS = (
     "Curved surfaces stay where the mesh file has them, however fine the elements become: what the vessel's shape is off by is in "
@@ -25,6 +27,8 @@ SHAPE = STAYS + '--mesh "geo SCRIPT.geo".'
 ADAPTED = STAYS + "by the commands of --mesh, without --adapt."
 SURFACE = "The vessel is the smoothed surface: what that is off by, and what its smoothing and its triangles leave, is in no bar."
 TRIED = 0.25  # of the budget, that a member may take before the family is known to fit
+# Of standard samples: fields by medium, and significant digits of a coordinate, as a case file has them.
+FIELDS, DIGITS = {"wall": "displacement", "fluid": "velocity"}, 9
 PRINTED = (SHAPE, ADAPTED, SURFACE)  # with the bars, not only in the report
 
 
@@ -59,6 +63,24 @@ def sample(maker: Maker, start: Member = OWN) -> Member:
     places = "; ".join(f"{key.rpartition('.')[2]} = {value}" for key, value in points.items())
     maker.note(f"the case samples nothing; points are taken where most happens at its end: {places}")
     return start
+
+
+def standard_points(folder: Path) -> dict[str, Any]:
+    """Entries of a case by their full keys, from the fields of its own run; empty where it has written none. A point
+    lies in the middle of the element whose nodes move most together, so that finer meshes have it inside, too."""
+    found: dict[str, Any] = {}
+    for medium, fields in read_fields(folder).items():
+        field = FIELDS.get(medium, "")
+        if field not in fields.names:
+            continue
+        times = fields.times_of(field)
+        values = np.asarray(fields.at(float(times[-1]), field), dtype=float)
+        corners = fields.cells[:, : 3 if fields.cells.shape[1] in (3, 6) else 4]
+        sizes = np.linalg.norm(values.reshape(len(values), -1), axis=1)
+        cell = int(np.argmax(np.mean(sizes[corners], axis=1)))
+        middle = np.mean(fields.points[corners[cell]], axis=0)
+        found[f"output.points.{medium}_most"] = [float(f"{x:.{DIGITS}g}") for x in middle]
+    return found
 
 
 def samples_nothing(facts: CaseFacts) -> InputError:

@@ -24,38 +24,14 @@ from ..results.fields import read_fields
 from ..results.units import split_unit
 from ..runs.levels import integral
 from ..runs.samples import LINES, PLANES, POINTS, Samples, read_samples
-from .curve_norms import CurveNorm, Stretch, norm_on, stretch_of
+from .curve_norms import Curve, Stretch, norm_of, on, size_of
 
 TABLES = (POINTS, LINES, PLANES, "openings.csv", "surfaces.csv", "centerline_pressure.csv", "wall_displacement.csv")
 WITHOUT_NAMES = {"centerline_pressure.csv": "centre line", "wall_displacement.csv": "inner wall", "flow.csv": "tube"}
-SKIPPED = ("step",)  # columns that are no results
 PRIMARY = ("displacement", "velocity", "pressure")  # fields that are solved for: samples have them, at any place
 SEEN = 2e-5  # relative to the largest of all curves with the unit: what is smaller is zero but for round-off
 ONE_SIDED = 0.02  # an extreme that is smaller than this part of the other is none
 SMOOTH = 2.5  # times the bend one level beside over that at the largest, which is 0.41 at least of 8 levels a period
-AT_REST = 0.01  # of the largest value: an error of a line that is below this at a time is relative to that
-
-
-@dataclass(frozen=True)
-class Curve:
-    """A column of a sample over time; of lines at several points."""
-
-    name: str  # "tip: displacement y"
-    unit: str
-    times: np.ndarray  # ms, (levels,)
-    values: np.ndarray  # (levels, points)
-    s: np.ndarray  # mm along the line, (points,)
-    derived: bool = False  # of a field that is made of gradients of what is solved for
-
-    @property
-    def largest(self) -> float:
-        return float(np.nanmax(np.abs(self.values))) if self.values.size else 0.0
-
-    @property
-    def is_pressure(self) -> bool:
-        """Whether it is a pressure or of its order: stresses, forces, gradients of what is solved for."""
-        return self.derived or any(word in self.name.rpartition(": ")[2] for word in ("pressure", "stress", "force"))
-
 
 Reading = Callable[[Curve], float]
 
@@ -100,10 +76,8 @@ def curves_of(folder: Path) -> dict[str, Curve]:
 
 def _curves(sample: str, samples: Samples) -> Iterator[Curve]:
     for column, values in samples.values.items():
-        if column in SKIPPED:
-            continue
         points = ~np.isnan(values).any(axis=0)
-        if not points.any():
+        if column == "step" or not points.any():
             continue
         name, unit = split_unit(column)
         s = samples.places.get("s_mm", samples.places.get("z_mm", np.zeros(values.shape[1])))
@@ -138,16 +112,6 @@ def quantities_of(curves: Mapping[str, Curve], asked: Asked) -> list[Quantity]:
     return found
 
 
-def norm_of(curve: Curve, stretch: Stretch) -> CurveNorm:
-    """Norm of differences from this curve, the user's own."""
-    return norm_on(curve.times, curve.s, stretch)
-
-
-def on(grid: Curve, curve: Curve, stretch: Stretch) -> np.ndarray:
-    """A member's curve at the levels and points of the user's own, (levels * points,)."""
-    return stretch_of(curve.times, curve.s, curve.values, (grid.times, grid.s), stretch)
-
-
 def _of_curve(curve: Curve, asked: Asked) -> list[Quantity]:
     line = curve.values.shape[1] > 1
     end = float(curve.times[-1])
@@ -175,11 +139,6 @@ def _number(
 ) -> Quantity:
     name = f"{curve.name}, {what}"
     return Quantity(name, curve.name, curve.unit, curve.is_pressure, curve.largest, of, extreme, None, held_by, is_norm)
-
-
-def size_of(curve: Curve, stretch: Stretch) -> float:
-    """The size that the curve's error is relative to."""
-    return max(norm_of(curve, stretch)(on(curve, curve, stretch)), AT_REST * curve.largest)
 
 
 def _whole(curve: Curve, time: float | None = None, when: str = "") -> list[Quantity]:
@@ -211,7 +170,8 @@ def _at_end(curve: Curve) -> list[Quantity]:
     end = float(curve.times[-1])
     if curve.values.shape[1] > 1:
         norm = _number(curve, "L2 norm at the end", lambda c: _at(c, end), Stretch(False, end), True)
-        return [norm, _number(curve, "largest at the end", _largest_at_end, Stretch(True, end))]
+        largest: Reading = lambda c: float(c.values[-1][np.argmax(np.abs(c.values[-1]))])
+        return [norm, _number(curve, "largest at the end", largest, Stretch(True, end))]
     return [_number(curve, "at the end", lambda c: _at(c, float(c.times[-1])), Stretch(True))]
 
 
@@ -247,11 +207,6 @@ def _at(curve: Curve, time: float) -> float:
     """The value of a point, or the L2 norm along a line."""
     row = np.array([np.interp(time, curve.times, column) for column in curve.values.T])
     return float(row[0]) if len(row) == 1 else _norm(curve.s, row)
-
-
-def _largest_at_end(curve: Curve) -> float:
-    row = curve.values[-1]
-    return float(row[int(np.argmax(np.abs(row)))])
 
 
 def _norm(x: np.ndarray, y: np.ndarray) -> float:

@@ -6,13 +6,12 @@ from typing import Any, Callable, Mapping, Sequence
 import numpy as np
 
 from ..study.study_run import StudyRun
-from .curve_norms import Stretch
+from .curve_norms import Curve, Stretch, norm_of, on, size_of
 from .direction import FACTOR, LEAST_ORDER, WIDENED, Part
 from .doubt import doubt, on_common_points
 from .family import CaseFacts, Member
-from .quantities import Curve, Quantity, chosen, curves_of, norm_of, on, quantities_of, size_of
+from .quantities import Quantity, chosen, curves_of, quantities_of
 from .verdict import NOT_IN_RANGE, Bar, Value, bar_of, inherited
-
 
 Curves = Mapping[Member, Mapping[str, Curve]]  # of each member, by name
 Size = Callable[[Member], float]

@@ -14,13 +14,14 @@ from ..study.study_run import StudyRun
 from ..starting.duration import duration
 from .adapting import Adapted
 from .cost import Costs, learn
-from .demand import Settings, cheapest, direction_of, outside, reached, refinable, shown_by, tolerance_factor, widest
+from .curve_norms import Curve
+from .demand import cheapest, direction_of, outside, reached, refinable, shown_by, tolerance_factor, widest
 from .doubt import step_within
 from .family import INDICATOR, STEP_RATIO, Member, members, with_settings
 from .found_case import write_case
 from .lean import between, cross, lean
 from .making import Maker
-from .quantities import Curve, curves_of
+from .quantities import curves_of
 from .results import BarsOfRun, FamilyRuns, Judged, about, judge, relative, same_size
 
 FOUND, MESH = "found.toml", "found.msh"
@@ -137,7 +138,8 @@ class Search:
         family = about(self._kept(), centre)
         curves = {relative(member, centre): of for member, of in self.curves.items()}
         found = judge(family, curves, self.maker.requests.facts, self.demand.times, self.demand.names, additive)
-        self._keep(family.own, found)
+        if (own := family.own) is not None:  # the last family to have a run tells most of it
+            self.sets[own.folder] = BarsOfRun(self.driver, own, found)
         return found
 
     def _proved(self, judged: list[Judged]) -> list[Judged]:
@@ -148,17 +150,6 @@ class Search:
             return judged
         self.maker.run([self.centre])
         return self._family()
-
-    def _keep(self, run: StudyRun | None, judged: Sequence[Judged]) -> None:
-        """The last family to have a run tells most of it."""
-        if run is not None:
-            self.sets[run.folder] = BarsOfRun(self.driver, run, judged)
-
-    def _best(self, judged: Sequence[Judged], demand: float) -> Settings | None:
-        costs, requests = self._costs(self.centre), self.maker.requests
-        if costs is None:
-            return None
-        return cheapest(judged, costs, demand, self.ratio, requests.facts.static, requests.recipe.coarsens)
 
     def _costs(self, centre: Member) -> Costs | None:
         family = about(self.maker.families[self.driver], centre)
@@ -190,7 +181,9 @@ class Search:
     def _towards(self, asked: Sequence[Judged]) -> Member | None:
         """The cheapest settings that are predicted to reach the demand, but no further from the centre than FURTHEST
         ratios: the family's orders tell little beyond."""
-        best = self._best(asked, self.demand.error)
+        costs, facts, recipe = self._costs(self.centre), self.maker.requests.facts, self.maker.requests.recipe
+        how = self.demand.error, self.ratio, facts.static, recipe.coarsens
+        best = None if costs is None else cheapest(asked, costs, *how)
         if best is None:
             return self._finer("both")
         mesh = max(best.mesh, self.ratio**-FURTHEST)
@@ -258,16 +251,11 @@ class Search:
         words = self._words(final.mesh / self.centre.mesh, final.step / self.centre.step)
         if not run.done:
             return Outcome(list(asked), False, [f"The run with {words} is missing: {run.status}, {run.message}."])
-        judged = _shown(asked, run)
-        self._keep(run, judged)
+        curves = curves_of(run.folder)
+        judged = [shown_by(one, curves[one.quantity.curve]) for one in asked if one.quantity.curve in curves]
+        self.sets[run.folder] = BarsOfRun(self.driver, run, judged)
         line = f"{words.capitalize()} leave {100 * widest(judged):.2g} %, in {duration(run.seconds)}."
         return Outcome(judged, reached(judged, self.demand.error), [line], final, settings)
-
-
-def _shown(asked: Sequence[Judged], run: StudyRun) -> list[Judged]:
-    """Bars of a run by those of another."""
-    curves = curves_of(run.folder)
-    return [shown_by(one, curves[one.quantity.curve]) for one in asked if one.quantity.curve in curves]
 
 
 def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[str, StudyRun]) -> list[Path]:

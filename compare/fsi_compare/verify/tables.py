@@ -4,19 +4,14 @@ import json
 from pathlib import Path
 from typing import Any, Sequence
 
-from ..base.files import replacing
+from ..base.files import write_text
 from ..reporting.column import Column
 from ..reporting.layout import Table
 from ..runs.verification import FILE, identity
 from ..starting.duration import duration
-from .direction import Part
 from .family import Member
 from .results import BarsOfRun, FamilyRuns, Judged
 from .verdict import BAR_WIDENED, CONVERGES, NOT_IN_RANGE
-
-
-def _part(judged: Judged, part: Part) -> float | None:
-    return part.bar if judged.bar.given else None
 
 
 def _said(judged: Judged) -> str:
@@ -30,8 +25,8 @@ BARS: Sequence[Column[Judged]] = (
     Column("value", "value", lambda j: j.bar.value, ".6g"),
     Column("±", "error", lambda j: j.bar.total if j.bar.given else None, ".2g"),
     Column("± [%]", "error_percent", lambda j: 100 * j.bar.relative if j.bar.given else None, ".2g"),
-    Column("mesh", "error_mesh", lambda j: _part(j, j.bar.mesh), ".1e", group="of this"),
-    Column("step", "error_step", lambda j: _part(j, j.bar.step), ".1e", group="of this"),
+    Column("mesh", "error_mesh", lambda j: j.bar.mesh.bar if j.bar.given else None, ".1e", group="of this"),
+    Column("step", "error_step", lambda j: j.bar.step.bar if j.bar.given else None, ".1e", group="of this"),
     Column("both", "error_both", lambda j: j.bar.together if j.bar.given else None, ".1e", group="of this"),
     Column("solver", "error_solver", lambda j: j.bar.solver if j.bar.given else None, ".1e", group="of this"),
     Column("mesh", "order_mesh", lambda j: j.bar.mesh.order, ".2f", group="order"),
@@ -103,8 +98,7 @@ def write_json(folder: Path, about: dict[str, Any], sets: Sequence[BarsOfRun], f
     """`verification.json`: about the case, all bars with what tells the run that they are of, all members."""
     members = [dict(_fields(MEMBERS, row)) for row in members_table(families).records]
     data = {**about, "sets": [_set(one) for one in sets], "members": members}
-    with replacing(folder / FILE) as temporary:
-        temporary.write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    write_text(folder / FILE, json.dumps(data, indent=1, ensure_ascii=False) + "\n")
     return folder / FILE
 
 

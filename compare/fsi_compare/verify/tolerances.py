@@ -41,7 +41,8 @@ def governing(program: str, entries: Mapping[str, Any], chosen: str | None = Non
     else:
         scheme = ""
     found = _demanded("newton", newton, "error_tolerance")
-    if not found and not {"error_tolerance", "tolerance"} & set(newton) and _has_fixed_steps(entries):
+    has_fixed_steps = "time" in entries and _section(entries, "time").get("step") != "adaptive"
+    if not found and not {"error_tolerance", "tolerance"} & set(newton) and has_fixed_steps:
         found = {"newton.error_tolerance": ERROR_TOLERANCE if "fluid" in entries else WALL_ERROR_TOLERANCE}
     if not found:
         found = {"newton.tolerance": float(newton.get("tolerance", NEWTON_TOLERANCE))}
@@ -53,10 +54,6 @@ def _beside(program: str, scheme: str, coupling: Mapping[str, Any], newton: Mapp
     if program == "fsi-partitioned" and scheme == DEFAULT_SCHEME:
         return _demanded("partitioned", coupling, "force_tolerance")
     return _demanded("newton", newton, "residual_tolerance")
-
-
-def _has_fixed_steps(entries: Mapping[str, Any]) -> bool:
-    return "time" in entries and _section(entries, "time").get("step") != "adaptive"
 
 
 def _section(entries: Mapping[str, Any], name: str) -> Mapping[str, Any]:

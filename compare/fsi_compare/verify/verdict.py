@@ -24,7 +24,6 @@ SMALL = 0.1  # share of the bar below which a part does not decide the verdict
 NEGLIGIBLE = 1e-3  # of the largest of the curve: so small a part without order widens the bar, and does not forbid it
 DETECTED = 1e-7  # relative to the curve's largest: differences below are round-off
 
-
 Table = Mapping[tuple[float, float], Any]  # values by mesh and step
 Measure = Callable[[Any], float]  # norm of a value
 
@@ -90,7 +89,7 @@ def bar_of(
     `additive`: that member may be missing; the value is then made of column and row, y(1, column) + y(row, 1) - y(row,
     column), which leaves out c (1 - row^p) (1 - column^q). `norm`: of values that are curves. `curve`: the bar of the
     curve that the values are norms of."""
-    measured = norm or _size
+    measured: Measure = norm or abs
     table = {(v.mesh, v.step): v.value for v in values if not (v.looser or v.other)}
     column, row = _most_varied((step, mesh) for mesh, step in table), _most_varied(table)
     own = table.get((1.0, 1.0))
@@ -116,10 +115,6 @@ def bar_of(
     value, best = (own, own - error) if norm is None else (norm(own), norm(own - error))
     verdict, advice = _judged(mesh, step, together, solver, NEGLIGIBLE * scale)
     return Bar(value, scale, mesh, step, together, solver, verdict, advice, best, measured(error + 0.0 * own))
-
-
-def _size(number: Any) -> float:
-    return float(abs(number))
 
 
 def _along(

@@ -111,7 +111,7 @@ class Stand:
             (base / f"{name}.toml").write_text('title = "A tube"\n')
         known = {name: Program(programs / name, "0.1.0", "00") for name in fake_drivers.DRIVERS}
         single = Program(programs / fake_drivers.LINEAR_STUDY, "0.1.0", "00")
-        study_command.find_programs = lambda options: known
+        study_command.find_drivers = lambda options, names: known
         study_command.find_mesh_maker = lambda program: programs / "fsi-mesh"
         linear_command.find_linear_study = lambda named: single
         paper_linear.linear_study_beside = lambda monolithic: single

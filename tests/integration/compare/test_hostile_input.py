@@ -6,6 +6,7 @@ import unittest
 import fake_drivers
 from study_case import STUDY, StudyCase
 from folder_case import FolderCase
+from fsi_compare.runs.verification import find_verification, identity
 
 
 class Summaries(FolderCase):
@@ -44,6 +45,14 @@ class Summaries(FolderCase):
         for key in ("mesh", "phases", "unknowns", "threads", "peak_memory_MiB", "restarted_from_step", "totals"):
             (self.run / "summary.json").write_text(json.dumps({**self.summary, key: None}))
             self.assertEqual(self.cost()[0], 0, key)
+
+    def test_bars_that_are_no_list_count_as_none(self):
+        summary = {**self.summary, "case_hash": "1", "mesh": {"hash": "2"}}
+        run = identity(self.run, summary)
+        for quantities in (5, "many", {"a": 1}, None, [7]):
+            text = json.dumps({"sets": [{"run": run, "quantities": quantities}]})
+            (self.run / "verification.json").write_text(text)
+            self.assertEqual(find_verification(self.run, summary), [])
 
     def test_tables(self):
         lines = (self.run / "iterations.csv").read_text().splitlines()

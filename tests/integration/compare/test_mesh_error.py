@@ -23,7 +23,7 @@ class MeshErrors(FolderCase):
         folder = self.base / f"run-{len(list(self.base.iterdir()))}"
         folder.mkdir()
         for quantity, factor in zip(WRITTEN, factors):
-            waves = references()["neo-hookean"].of(quantity)
+            waves = references()["neo-hookean"].waves[quantity.column]
             lines = [f"time_ms,z_mm,{quantity.column}"]
             lines += [
                 f"{t!r},{z!r},{factor * value!r}"

@@ -82,7 +82,7 @@ class Overview(StudyCase):
         self.assertFalse((self.base / "results").exists())
 
     def test_without_programs(self):
-        with mock.patch("fsi_compare.starting.programs._beside", return_value=None):
+        with mock.patch("fsi_compare.starting.programs.find_beside", return_value=None):
             code, out, err = FolderCase.call(self, "study", "--list")
         self.assertEqual(code, 0)
         self.assertIn("two  Two runs (2 runs asked for)", out)

@@ -17,7 +17,7 @@ from fsi_compare.reporting.coinciding import coinciding, labels_that_say_so, sen
 from fsi_research.drawing.coinciding import note_coinciding
 from fsi_research.drawing.log_axes import log_axes, plain_number
 from fsi_research.drawing.point_names import name_points
-from fsi_compare.reporting.pictures import LINES, pressure_figure, time_text, write_pressure_waves
+from fsi_compare.reporting.pictures import LINES, pressure_figure, time_text, write_figure
 from fsi_compare.runs.pressure_waves import PressureWaves
 
 PAPER = [1.5, 3.0, 4.5, 6.0, 7.5, 9.0]
@@ -35,7 +35,8 @@ def lightness(color):
 
 class Files(unittest.TestCase):
     def write(self, folder, labels=("monolithic", "partitioned"), title="Rabbit carotid artery"):
-        return write_pressure_waves(folder, [waves(0.66), waves(0.7)], labels, PAPER, title)
+        runs = [waves(0.66), waves(0.7)]
+        return write_figure(folder, "pressure_waves", lambda: pressure_figure(runs, labels, PAPER, title))
 
     def test_png_and_svg(self):
         with tempfile.TemporaryDirectory() as folder:

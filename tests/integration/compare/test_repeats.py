@@ -7,8 +7,8 @@ from pathlib import Path
 from fake_drivers import behave, calls
 from study_case import STUDY, StudyCase
 
-from fsi_compare.study.repeats import spread
 from fsi_research.accuracy.timing import timing_words
+from fsi_research.evidence.timings import spread
 from fsi_compare.study.runner import RECORD
 from fsi_compare.study.study_run import DONE, StudyRun
 

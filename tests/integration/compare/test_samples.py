@@ -13,9 +13,10 @@ from folder_case import FolderCase
 from fsi_compare.base.errors import InputError
 from fsi_compare.reporting.pressure import check_comparable
 from fsi_compare.results.line import lines_of
-from fsi_compare.runs.run_folder import has_pressure, read_run
+from fsi_compare.runs.run_folder import read_run
 from fsi_compare.runs.samples import differences_of_tables, read_samples
 from fsi_compare.study.study_run import StudyRun
+from fsi_research.evidence.cross_check import has_pressure
 
 LINE = """time_ms,line,s_mm,x_mm,y_mm,z_mm,pressure_Pa,velocity_x_mm_per_ms
 0.5,a,0,1,0,0,10,0.5

@@ -12,13 +12,13 @@ from fsi_compare.base.errors import InputError
 from fsi_compare.runs.pressure_waves import PressureWaves
 from fsi_research.stability import study as stability
 from fsi_compare.study.context import Context
+from fsi_research.catalogue.report_section import ReportSection
 from fsi_research.evidence.cross_check import AGREES, DEVIATES, FAR, UNCHECKED, WRONG, Cell, difference_of
 from fsi_research.stability.beyond_limit_load import Inflated, limit_load_table
 from fsi_research.stability.limit_load import TUBE_KEYS, Inflation, apart, read_wall
 from fsi_research.stability.settings import Settings
 from fsi_compare.reporting.report import Report
 from fsi_research.stability.messages import distinct, without_folder
-from fsi_compare.study.section import Section
 from fsi_compare.study.study_file import Method, Request, read_study
 from fsi_compare.study.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
 from fsi_compare.study.study_run import WRONG as NOT_FINITE
@@ -71,7 +71,7 @@ ENDS = {
 
 
 def artery_wall():
-    return read_wall(Section(Path("x.toml"), "report.tube", tomllib.loads(STUDY)["report"]["tube"], TUBE_KEYS))
+    return read_wall(ReportSection(Path("x.toml"), "report.tube", tomllib.loads(STUDY)["report"]["tube"], TUBE_KEYS))
 
 
 class StabilityCase(FolderCase):

@@ -108,8 +108,8 @@ class Export(FolderTest):
         for words, said in (
             ((folder, "--fields", "presure"), "'presure' is not in this run; did you mean 'pressure'?"),
             ((folder, "--times", "0.125,9"), "9 ms is outside what was written"),
-            ((folder, "--times", "1,1"), "do not increase"),
-            ((folder, "--times", "soon"), "is no list of numbers"),
+            ((folder, "--times", "1,1"), "1 is given twice"),
+            ((folder, "--times", "soon"), "'soon' is not a number"),
             ((folder, "--to", "exodus"), "invalid choice: 'exodus'"),
             ((bare,), "holds no fields; set output.every"),
             ((self.base / "none",), "no such folder"),

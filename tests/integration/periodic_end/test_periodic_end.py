@@ -223,12 +223,12 @@ class Shared(FolderTest):
     def test_several_processes_see_the_same_changes(self):
         settings = (f"mesh.file={make_mesh(self.base / 'small.msh', *SECTION)}",)
         for program, processes in zip(DRIVERS, (3, 2)):
-            alone = run(program, CASE, self.base / "alone", *settings)
+            alone = run(program, CASE, self.base / Path(program).name, *settings)
             together = run(program, CASE, self.base / "together", *settings, processes=processes)
             self.assert_same_changes(alone, together)
         begun = run(MONOLITHIC, CASE, self.base / "begun", *settings, "time.end=37", processes=2)
         restart(MONOLITHIC, CASE, begun, *settings)
-        self.assert_same_changes(run(MONOLITHIC, CASE, self.base / "whole", *settings), begun)
+        self.assert_same_changes(self.base / Path(MONOLITHIC).name, begun)
 
     def assert_same_changes(self, one, other):
         a, b = (summary(folder)["periodicity"]["changes"] for folder in (one, other))

@@ -6,6 +6,7 @@ from typing import Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 from fsi_compare.base.case_names import short_name
 from fsi_compare.runs.coupling import coupling_kind
 from fsi_compare.runs.waves import AVERAGED, DISPLACEMENT, QUANTITIES, Waves, read_run, relative_difference
+from fsi_compare.runs.work_units import in_all
 from fsi_compare.study.study_file import Request, show
 from fsi_compare.study.study_run import StudyRun
 from .plan import Plan
@@ -42,7 +43,7 @@ class Measured:
 
     @property
     def work_units(self) -> Optional[float]:
-        return self.run.work_units
+        return in_all(self.run.summary)
 
     @property
     def step(self) -> float:  # ms
@@ -136,7 +137,10 @@ def measure(runs: Iterable[StudyRun], plan: Plan) -> List[Measured]:
             Measured(
                 run,
                 own,
-                {q.column: relative_difference(own[q.column], plan.references[case].of(q), times) for q in QUANTITIES},
+                {
+                    q.column: relative_difference(own[q.column], plan.references[case].waves[q.column], times)
+                    for q in QUANTITIES
+                },
                 _against(own, exact, times) if run.request.method.name != plan.tight else {},
             )
         )

@@ -3,7 +3,7 @@
 from typing import Callable, List, NamedTuple, Optional, Sequence
 
 from fsi_compare.starting.duration import duration
-from fsi_compare.reporting.column import Column, Facts
+from fsi_compare.reporting.column import Column, Facts, work_column
 from fsi_compare.reporting.layout import Table
 from fsi_compare.runs.work_units import NOTE_IN_ALL
 from fsi_compare.runs.waves import QUANTITIES, Quantity
@@ -12,7 +12,6 @@ from .advice import percent
 from .convergence import SPACE, Series
 from .frontier import frontier
 from .measured import GAIN, Measured
-from fsi_compare.reporting.work_column import work_column
 
 SHORT = ("pressure", "averaged pressure", "displacement")  # of QUANTITIES, as heads of columns
 CSV = ("pressure", "averaged_pressure", "displacement")

@@ -2,8 +2,8 @@
 
 from typing import Iterable
 
-from fsi_compare.study.repeats import spread
 from fsi_compare.study.study_run import StudyRun
+from ..evidence.timings import spread
 
 
 def timing_words(runs: Iterable[StudyRun]) -> str:

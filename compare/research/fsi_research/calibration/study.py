@@ -11,9 +11,8 @@ from fsi_compare.reporting.column import Column
 from fsi_compare.reporting.layout import Table
 from ..drawing.log_axes import log_axes
 from fsi_compare.study.context import Context
-from fsi_compare.study.section import Section
 from fsi_compare.study.study_file import Study
-from ..catalogue.report_section import report_of
+from ..catalogue.report_section import ReportSection, report_of
 from fsi_compare.study.study_run import StudyRun
 from fsi_compare.verify.family import STEP_RATIO, CaseFacts, Member, members
 from fsi_compare.verify.mesh_family import Recipe, ratio_for
@@ -56,7 +55,7 @@ def plans(study: Study) -> List[Plan]:
     for case in study.cases:
         if case not in section:
             raise InputError(study.path, f"report.scenes.{case}", "is missing", "say reference = [MESH, STEP] there")
-        entry = Section(study.path, f"report.scenes.{case}", section[case], SCENE_KEYS)
+        entry = ReportSection(study.path, f"report.scenes.{case}", section[case], SCENE_KEYS)
         sizes = entry.numbers("reference")
         if len(sizes) != 2 or not all(0 < size <= 0.5 for size in sizes):
             remedy = "give two parts of the scene's own sizes, of elements and steps, of at most 0.5"
@@ -111,7 +110,9 @@ def _scene(context: Context, plan: Plan) -> Tuple[List[Record], List[str]]:
     about = families(of_scene.recipe, facts, plan.levels)
     reference = Member(plan.reference[0], 1.0 if facts.static else plan.reference[1])
     wanted = list(dict.fromkeys([m for family in about for m in family.members] + [reference]))
-    runs: Mapping[Member, StudyRun] = dict(zip(wanted, context.run([requests.of(m, "monolithic") for m in wanted])))
+    runs: Mapping[Member, StudyRun] = dict(
+        zip(wanted, context.runner.run([requests.of(m, "monolithic") for m in wanted]))
+    )
     lacks = [f"{plan.case}, {member.name}: {run.status}, {run.message}" for member, run in runs.items() if not run.done]
     if not runs[reference].done:
         return [], lacks

@@ -14,9 +14,9 @@ from fsi_compare.base.errors import ProgramError
 from fsi_compare.reporting.column import Column
 from fsi_compare.reporting.layout import Table
 from fsi_compare.study.context import Context
-from fsi_compare.study.section import Section
-from fsi_compare.study.study_file import Study
+from fsi_compare.study.study_file import Request, Study, mesh_of_scene
 from fsi_compare.study.study_run import DONE, NOT_CONVERGED, StudyRun
+from ..catalogue.report_section import ReportSection
 from .added_mass import AddedMass
 from .bisection import Bracket, bisect
 
@@ -50,7 +50,7 @@ def sections(study: Study) -> Mapping[str, Search]:
 
 
 def _search(study: Study, name: str) -> Search:
-    entry = Section(study.path, f"report.{name}", study.report[name], KEYS)
+    entry = ReportSection(study.path, f"report.{name}", study.report[name], KEYS)
     found = Search(
         entry.one_of("method", list(study.methods), "method of the study"),
         entry.one_of("case", list(study.cases), "case of the study"),
@@ -77,6 +77,14 @@ def report(context: Context) -> int:
     return sum(bracket.runs for bracket in brackets)
 
 
+def _request(study: Study, group: str, entry: Search, values: Mapping[str, Any], own: Mapping[str, Any]) -> Request:
+    """One more run. `own`: its settings, over those of the study."""
+    method = study.methods[entry.method]
+    settings = {**study.settings, **study.case_settings.get(entry.case, {}), **method.settings, **own}
+    mesh = mesh_of_scene(study.scenes.get(entry.case), study.quick)
+    return Request(group, entry.case, method, values, study.cases[entry.case], mesh, settings, study.time_limit)
+
+
 def search(context: Context, name: str, entry: Search, step: float, stabilisation: float) -> Bracket:
     quantity = QUANTITIES[name]
 
@@ -89,7 +97,7 @@ def search(context: Context, name: str, entry: Search, step: float, stabilisatio
             quantity: value,
         }
         values = {quantity: value, "time.step": step, "structure.stabilisation": stabilisation}
-        (run,) = context.run([context.study.request(name, entry.case, entry.method, values, own)])
+        (run,) = context.runner.run([_request(context.study, name, entry, values, own)])
         if run.status not in (DONE, NOT_CONVERGED):
             raise ProgramError(
                 context.study.path, f"report.{name}", f"{run.status}: {run.message}", f"see {run.folder}"

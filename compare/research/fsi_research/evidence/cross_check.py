@@ -1,14 +1,17 @@
 """How each run ended, and whether what it says it solved is what the other driver finds."""
 
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
 from fsi_compare.base.errors import InputError
+from fsi_compare.base.files import is_file
 from fsi_compare.runs.differences import largest_difference
 from fsi_compare.runs.pressure_waves import PressureWaves
-from fsi_compare.runs.run_folder import has_pressure
+from fsi_compare.runs.run_folder import ALONG_AXIS
+from fsi_compare.runs.samples import LINES, requested_line
 from fsi_compare.study.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
 from fsi_compare.study.study_run import WRONG as NOT_FINITE
 
@@ -66,6 +69,12 @@ def quantity(run: StudyRun) -> str:
 def point_of(run: StudyRun) -> Point:
     name = quantity(run)
     return run.request.case, name, run.request.values[name]
+
+
+def has_pressure(folder: Path) -> bool:
+    """Whether there is a line to read the pressure along. Raises InputError."""
+    lines = folder / LINES
+    return is_file(folder / ALONG_AXIS) or (is_file(lines) and requested_line(lines) is not None)
 
 
 def waves_of(run: StudyRun) -> Optional[PressureWaves]:

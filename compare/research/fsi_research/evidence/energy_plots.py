@@ -6,6 +6,7 @@ from typing import List, Optional, Sequence, Tuple
 import numpy as np
 from matplotlib.figure import Figure
 
+from fsi_compare.base.files import is_file
 from fsi_compare.reporting.column import Column
 from fsi_compare.reporting.layout import Table
 from ..drawing.log_axes import plain_log_axis
@@ -68,7 +69,7 @@ class Balance:
 
 def balance(run: StudyRun) -> Optional[Balance]:
     """A run's balance; None: it wrote none."""
-    if not run.has(FILE):
+    if not is_file(run.folder / FILE):
         return None
     columns = run.columns(FILE)
     zero = np.zeros(len(columns["time_ms"]))

@@ -101,7 +101,7 @@ def mesh_error(run: StudyRun) -> MeshError:
             waves = read_waves(run.folder / quantity.file, quantity.column)
         except InputError:
             return MeshError(None, None, f"{quantity.file} is missing or incomplete")
-        kept = reference.of(quantity)
+        kept = reference.waves[quantity.column]
         if not (waves.covers(kept.times[0]) and waves.covers(kept.times[-1])):
             return MeshError(
                 None,

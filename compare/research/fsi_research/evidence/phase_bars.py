@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from fsi_compare.base.errors import InputError
+from fsi_compare.base.files import is_file
 from fsi_compare.reporting.column import Column
 from fsi_compare.reporting.layout import Table
 from fsi_compare.reporting.pictures import finish
@@ -34,7 +35,7 @@ def phase_seconds(run: StudyRun) -> Dict[str, float]:
     parts = dict.fromkeys(PARTS, 0.0)
     for name, phase in run.summary.get("phases", {}).items():
         parts[_part(name)] += float(phase["seconds"])
-    if run.has("coupling.csv"):
+    if is_file(run.folder / "coupling.csv"):
         try:
             parts["coupling"] += float(run.columns("coupling.csv")["coupling_s"].sum())
         except (InputError, KeyError):

@@ -15,7 +15,7 @@ def find_linear_study(named: Optional[Path]) -> Program:
 
 def linear_study_beside(monolithic: Program) -> Program:
     """The one beside fsi-monolithic, else the one on the path. It must answer."""
-    return find_program(NAME, find_beside(monolithic, NAME))
+    return find_program(NAME, find_beside(monolithic.path, NAME))
 
 
 def has_petsc(program: Program) -> bool:

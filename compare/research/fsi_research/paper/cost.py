@@ -9,15 +9,14 @@ from ..catalogue.names import MATERIALS
 from fsi_compare.study.mesh_levels import MESHES
 from ..linear.grid import Grid
 from fsi_compare.reporting.cost import COUPLED, FLUID, WALL, calls
-from fsi_compare.reporting.column import Column
+from fsi_compare.reporting.column import Column, work_column
 from fsi_compare.reporting.layout import Table
 from fsi_compare.runs.work_units import NOTE
-from fsi_compare.study.repeats import spread
 from fsi_compare.study.study_run import OUT_OF_TIME, StudyRun
+from ..evidence.timings import spread
 from .claims import NOT_COMPARABLE, Claim, unexamined, verdict
 from .linear import FIRST_SYSTEM
 from .runs import COST, FIXED_POINT, NEWTON, WAVES, PaperRuns, mesh_of
-from fsi_compare.reporting.work_column import work_column
 
 PAPER_MONOLITHIC, FAST_MONOLITHIC, PAPER_PARTITIONED = "paper-monolithic", "monolithic", "fixed-point"
 RIVALS = (PAPER_PARTITIONED, "iqn-ils", "robin-neumann-iqn")

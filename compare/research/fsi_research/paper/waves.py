@@ -7,6 +7,7 @@ from typing import Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 import numpy as np
 from matplotlib.figure import Figure
 
+from fsi_compare.base.files import is_file
 from ..catalogue.names import MATERIALS
 from fsi_compare.study.mesh_levels import MESHES
 from fsi_compare.reporting.column import Column, Facts
@@ -273,7 +274,7 @@ def tube_picture(report: Report, runs: PaperRuns, errors: Mapping[Path, MeshErro
     media, names, own = [], [], []
     for material in runs.materials:
         run = runs.wave(material, runs.finest)
-        if run and run.has(fields.FILE):
+        if run and is_file(run.folder / fields.FILE):
             media.append(fields.read_fields(run.folder, PICTURE_TIME))
             names.append(MATERIALS[material])
             own.append((MATERIALS[material], errors[run.folder]))

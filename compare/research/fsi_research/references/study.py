@@ -72,7 +72,7 @@ def _scene(context: Context, plan: Plan) -> Tuple[List[Record], List[str]]:
     done: Dict[str, Dict[Member, StudyRun]] = {}
     lacks: List[str] = []
     for name in requests.methods:
-        runs = dict(zip(wanted, context.run([requests.of(member, name) for member in wanted])))
+        runs = dict(zip(wanted, context.runner.run([requests.of(member, name) for member in wanted])))
         lacks += [f"{plan.case}, {name}, {m.name}: {r.status}, {r.message}" for m, r in runs.items() if not r.done]
         done[requests.methods[name].program] = {member: run for member, run in runs.items() if run.done}
     try:

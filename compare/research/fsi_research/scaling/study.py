@@ -12,9 +12,8 @@ from fsi_compare.base.errors import InputError
 from fsi_compare.starting.launch import usable_cores
 from fsi_compare.study.runs_table import runs_table
 from fsi_compare.study.context import Context
-from fsi_compare.study.section import Section
 from fsi_compare.study.study_file import Study
-from ..catalogue.report_section import report_of
+from ..catalogue.report_section import ReportSection, report_of
 from fsi_compare.study.study_run import StudyRun
 from .measured import Measured, measure
 from .model import Counted, Machine, Step, assumptions, counted, step
@@ -78,7 +77,7 @@ def asked(study: Study) -> Asked:
     )
 
 
-def _whole(section: Section, name: str, default: Sequence[int]) -> List[int]:
+def _whole(section: ReportSection, name: str, default: Sequence[int]) -> List[int]:
     values = section.numbers(name, [float(value) for value in default])
     for value in values:
         if value != int(value) or value < 1:

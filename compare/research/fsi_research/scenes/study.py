@@ -79,7 +79,7 @@ def evaluate(context: Context) -> int:
 
 
 def _runs_of(context: Context, case: str) -> Dict[str, StudyRun]:
-    return {run.request.method.program: run for run in context.select(case=case)}
+    return {run.request.method.program: run for run in context.runs if run.request.case == case}
 
 
 def _measure(scene: Scene, runs: Mapping[str, StudyRun], quick: bool) -> Measured:
@@ -202,7 +202,7 @@ def scenes_table(measured: Sequence[Measured]) -> Table:
         Facts(NUMBERS, [(m, number) for m in measured for number in m.numbers]),
         [
             "Codes differ by: the spread of published amplitudes, where one is known. Off by: of the value; of a mean, of "
-            "the amplitude where that is larger; (!): by more than asked.",
+            "the amplitude where that is larger; of the lift of FSI1, of its drag; (!): by more than asked.",
             "Seconds of the whole program with the threads of the study; other runs at the same time lengthen them. Where "
             "there is one medium, nothing is coupled and both programs do the same.",
         ],

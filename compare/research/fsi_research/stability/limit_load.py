@@ -18,9 +18,9 @@ from matplotlib.figure import Figure
 
 from fsi_compare.base.errors import InputError
 from fsi_compare.reporting.pictures import LINES, finish
-from ..evidence.tube import Layer
-from fsi_compare.study.section import Section
 from fsi_compare.study.study_run import StudyRun
+from ..catalogue.report_section import ReportSection
+from ..evidence.tube import Layer
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(20)
 LABEL = (0.1, 0.055)  # width and height of a label, of the picture's: nearer ones would cover each other
@@ -100,7 +100,7 @@ class Wall:
 TUBE_KEYS = ("radii", "shear_moduli")
 
 
-def read_wall(settings: Section) -> Wall:
+def read_wall(settings: ReportSection) -> Wall:
     """Reads [report.tube]: radii of the faces in mm and shear moduli of the layers in kPa, from the inside outward."""
     radii, moduli = settings.numbers("radii"), settings.numbers("shear_moduli")
     if len(radii) != len(moduli) + 1 or sorted(set(radii)) != radii:
