@@ -14,7 +14,7 @@ from typing import List
 from keep_study import TOP, fail
 
 PAGE = TOP / "docs/guide/tutorial.md"
-SECTION, PICTURE = '<a id="bend"></a>', "bend.png"
+SECTION, PICTURE = '<a id="your-mesh"></a>', "bend.png"
 KEPT = TOP / "docs/pictures/tutorial-bend.png"
 
 
