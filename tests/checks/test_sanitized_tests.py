@@ -49,6 +49,9 @@ FILES = {
 
 
 class SanitizedTests(unittest.TestCase):
+    root: Path
+    build: Path
+
     @classmethod
     def setUpClass(cls) -> None:
         cls.root = Path(tempfile.mkdtemp()).resolve()
