@@ -29,6 +29,7 @@ What follows from them: [solvers.md](../guide/solvers.md). The fine mesh: [paper
 | "difference: to direct" | of the solution from that of the factorisation, relative |
 | - | not run |
 """
+HEADING, DEEPER = "## ", "### "  # of tables, which stand below a part
 PARTS = (
     ("Three materials, coarse and intermediate mesh", "tables/solvers.md"),
     ("A later system on the fine mesh, three methods", "later/solvers.md"),
@@ -47,7 +48,7 @@ def main(words: List[str]) -> int:
             heading, _, tables = (Path(words[0]) / file).read_text(encoding="utf-8").partition("\n")
             if not heading.startswith("# ") or "| --- |" not in tables:
                 fail(f"{words[0]}/{file} is no page of tables; run fsi-compare solvers anew")
-            parts.append(f"## {title}\n\n{tables.strip()}\n")
+            parts.append(f"## {title}\n\n{tables.strip().replace(HEADING, DEEPER)}\n")
         page.write_text("\n".join(parts), encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         fail(f"{error}; run fsi-compare solvers first")
