@@ -58,7 +58,7 @@ constexpr GmshType types[] = {
 
 using EntityGroups = std::map<std::pair<int, int>, std::vector<int>>;  // (dimension, tag) -> physical tags
 
-/// Physical tags carry the sign of the entity's orientation, which elements show themselves.
+/// A physical tag is negative where the group turns the entity round. Which way facets face, their cells tell.
 int unsigned_tag(GmshScanner& in, int tag) {
   if (tag == -2147483647 - 1) in.fail("physical tag out of range");
   return std::abs(tag);

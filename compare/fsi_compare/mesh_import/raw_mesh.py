@@ -90,17 +90,21 @@ def of_meshio(mesh: Any) -> RawMesh:
 
 
 def _name_physical_groups(mesh: RawMesh, field_data: dict[str, Any]) -> None:
-    """$PhysicalNames of a gmsh file: name -> number and dimension. Of format 4 meshio makes sets of cells of them; of
-    format 2.2 the numbers alone stand with the cells."""
-    numbers = mesh.cell_data.get("gmsh:physical")
+    """$PhysicalNames of a gmsh file: name -> number and dimension. Of format 4 meshio makes sets of cells of them, without the
+    entities that a group names by a minus; of format 2.2 the numbers alone stand with the cells."""
+    signed = mesh.cell_data.get("gmsh:physical")
     for name, data in field_data.items():
         pair = np.asarray(data).ravel()
-        if numbers is None or len(pair) != 2 or str(name) in mesh.cell_sets or not np.all(pair == np.round(pair)):
+        if signed is None or len(pair) != 2 or not np.all(pair == np.round(pair)):
             continue
         number, dimension = int(pair[0]), int(pair[1])
-        places = [
-            np.flatnonzero((values == number) & (kind in KINDS and KINDS[kind][0] == dimension))
-            for values, (kind, _) in zip(numbers, mesh.blocks)
-        ]
+        known = mesh.cell_sets.get(str(name))
+        places = []
+        for i, (values, (kind, _)) in enumerate(zip(signed, mesh.blocks)):
+            fitting = (values == -number) | ((values == number) if known is None else False)
+            own = np.flatnonzero(fitting & (kind in KINDS and KINDS[kind][0] == dimension))
+            places.append(own if known is None else np.union1d(known[i], own))
         if any(len(p) for p in places):
             mesh.cell_sets[str(name)] = places
+    if signed is not None:
+        mesh.cell_data["gmsh:physical"] = [np.abs(values) for values in signed]

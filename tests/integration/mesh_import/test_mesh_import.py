@@ -12,6 +12,43 @@ import numpy as np
 
 from programs import MESH, MONOLITHIC, FolderTest, execute
 
+# A tetrahedron of which two sides are an inlet, one of them turned round.
+TURNED = """$MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+2 2 "inlet"
+3 1 "fluid"
+$EndPhysicalNames
+$Entities
+0 0 2 1
+1 0 0 0 1 1 0 1 -2 0
+2 0 0 0 1 0 1 1 2 0
+1 0 0 0 1 1 1 1 1 0
+$EndEntities
+$Nodes
+1 4 1 4
+3 1 0 4
+1
+2
+3
+4
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+$EndNodes
+$Elements
+3 3 1 3
+2 1 2 1
+1 1 3 2
+2 2 2 1
+2 1 2 4
+3 1 4 1
+3 1 2 3 4
+$EndElements
+"""
 TUBE = """
 SetFactory("OpenCASCADE");
 Cylinder(1) = {0, 0, 0, 0, 0, 3, 1};
@@ -245,6 +282,14 @@ class MeshImport(FolderTest):
             self.assertEqual(process.returncode, 0, process.stderr)
             text = (self.base / "out.msh").read_text()
             self.assertEqual(set(re.findall(r'^\d \d+ "(\w+)"', text, re.MULTILINE)), {"fluid", "inlet", "outlet"})
+
+    def test_surfaces_that_a_group_of_gmsh_turns_round_belong_to_it(self):
+        """Physical Surface("inlet") = {-1, 2}: format 4.1 keeps the minus, and a reader that compares numbers has half an inlet."""
+        (self.base / "turned.msh").write_text(TURNED)
+        listed = execute(MESH, "import", self.base / "turned.msh", "--list")
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        self.assertRegex(listed.stdout, r"(?m)^inlet +2 triangles +area 1 ")
+        self.assertRegex(listed.stdout, r"(?m)^gmsh:physical:2 +2 triangles ")
 
     def test_vtu_with_numbered_cells_of_both_orders_packed_or_not(self):
         for order, packing in ((1, "zlib"), (2, "lzma"), (1, None)):
