@@ -72,29 +72,38 @@ def fewest_passes(all_series: Sequence[Series]) -> List[int]:
 
 
 def _name_ends(axes: Axes, lines: Sequence[Line2D], labels: Sequence[str]) -> None:
-    """Right of the axes, apart from each other; lines that lie on each other have one name, which says so."""
+    """Right of the axes, apart from each other; lines that lie on each other have their names below each other."""
     on = {i: group for group in coinciding([lines]) for i in group}
     texts = []
     for i, line in enumerate(lines):
         group = on.get(i, [i])
         points = [(x, y) for x, y in zip(line.get_xdata(), line.get_ydata()) if y == y]
         if points and i == group[0]:
-            words = " = ".join(labels[k] for k in group) + (" (on each other)" if len(group) > 1 else "")
+            words = "\n= ".join(labels[k] for k in group)
             place = (axes.transScale + axes.transLimits).transform([points[-1]])[0]
             texts.append((float(place[1]), float(place[0]), words, line.get_color()))
     below = 2.0
     for height, across, words, color in sorted(texts, reverse=True):
-        below = min(height, below - NAME_LINE)
+        half = NAME_LINE * (words.count("\n") + 1) / 2
+        middle = min(height, below - half)
+        below = middle - half
         shade = "#606060" if color == REST["color"] else color
         name = axes.annotate(
             words,
             (across, height),
-            (1.01, below),
+            (1.01, middle),
             xycoords="axes fraction",
             textcoords="axes fraction",
             fontsize=NAME_SIZE,
             color=shade,
             va="center",
-            arrowprops={"arrowstyle": "-", "color": "#bbbbbb", "linewidth": 0.5, "shrinkA": 0, "shrinkB": 3},
+            arrowprops={
+                "arrowstyle": "-",
+                "color": "#bbbbbb",
+                "linewidth": 0.5,
+                "shrinkA": 0,
+                "shrinkB": 3,
+                "relpos": (0, 0.5),
+            },
         )
         name.set_in_layout(False)
