@@ -86,7 +86,7 @@ all)
   ;;
 sanitized)
   echo "== unit tests with sanitizers, by clang, and without MPI"
-  state=$(committed)
+  state=$(committed) || true
   sanitized_tests
   if [ -n "$state" ] && [ "$state" = "$(committed)" ]; then
     rest=$(tail -n +2 "$sanitized_clean")

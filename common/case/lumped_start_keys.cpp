@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <vector>
 
 #include "case/openings.hpp"
@@ -12,7 +13,13 @@ namespace fsi {
 
 namespace {
 
-constexpr const char* kept_pressure = "initial_pressure";
+/// Keys of what a law keeps, in its order (OpeningLaw::start).
+std::vector<std::string> initial_keys(const OpeningLawData& law) {
+  std::vector<std::string> keys;
+  for (const auto& parameter : opening_laws().at(law.name).parameters)
+    if (parameter.name.rfind("initial_", 0) == 0) keys.push_back(parameter.name);
+  return keys;
+}
 
 }  // namespace
 
@@ -24,7 +31,7 @@ void set_lumped_start(const CaseEntry& whole_case, Case& scene) {
   const std::vector<OpeningData> openings = openings_of(scene);
   const PressureTable none;
   std::vector<const PressureTable*> pressures, flows;
-  std::vector<std::string> keeping;  // surfaces whose laws keep a pressure
+  std::vector<std::string> keeping;  // surfaces whose laws keep something
   std::vector<std::size_t> numbers;  // and the indices of these laws
   for (const OpeningData& opening : openings) {
     if (opening.pressure) pressures.push_back(&*opening.pressure);
@@ -34,8 +41,8 @@ void set_lumped_start(const CaseEntry& whole_case, Case& scene) {
     vessel.laws.push_back(opening.law->make());
     if (vessel.laws.back()->start().empty()) continue;
     const CaseEntry law = whole_case.child("opening").child(opening.surface).child(opening.law->name);
-    if (law.has(kept_pressure))
-      law.child(kept_pressure).refuse("is found by time.start = \"lumped\"", "leave one of the two out");
+    for (const std::string& key : initial_keys(*opening.law))
+      if (law.has(key)) law.child(key).refuse("is found by time.start = \"lumped\"", "leave one of the two out");
     keeping.push_back(opening.surface);
     numbers.push_back(vessel.laws.size() - 1);
   }
@@ -54,10 +61,12 @@ void set_lumped_start(const CaseEntry& whole_case, Case& scene) {
     };
   const auto found = periodic_start(vessel);
   for (std::size_t i = 0; i < keeping.size(); ++i) {
-    const double pressure = found[numbers[i]].front();
-    scene.openings.at(keeping[i]).law->values[kept_pressure] = pressure;
+    const std::vector<double>& kept = found[numbers[i]];
+    OpeningLawData& law = *scene.openings.at(keeping[i]).law;
+    const std::vector<std::string> keys = initial_keys(law);
+    for (std::size_t k = 0; k < keys.size(); ++k) law.values[keys[k]] = kept[k];
     start.remark(fmt::format("{} starts from {:.6g} kPa behind it, of the periodic state of the openings alone",
-                             keeping[i], pressure));
+                             keeping[i], law.make()->pressure_behind(kept.data())));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,7 +64,7 @@ class FourElementWindkessel : public OpeningLaw {
   }
 
   double pressure_behind(const double* kept) const override { return kept[0]; }
-  double time_constant() const override { return distal * compliance; }
+  double time_constant() const override { return std::max(distal * compliance, inertance / proximal); }
   std::string description(const std::string& volume) const override {
     std::string text = fmt::format(
         "Windkessel of four elements: proximal {:g}, distal {:g} kPa ms/{}, inertance {:g} kPa ms^2/{}, compliance "

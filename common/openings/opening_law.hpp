@@ -15,7 +15,7 @@ class OpeningLaw {
  public:
   virtual ~OpeningLaw() = default;
 
-  /// y at the start, m numbers.
+  /// y at the start, m numbers: the parameters whose names begin with "initial_", in their order.
   virtual std::vector<double> start() const = 0;
   /// y at a balance. \param k  1/ms \param reference  r, m numbers \param flow  Q
   virtual std::vector<double> kept(double k, const double* reference, double flow) const = 0;
@@ -28,7 +28,7 @@ class OpeningLaw {
 
   /// The pressure that tables show as that behind the opening, kPa.
   virtual double pressure_behind(const double* kept) const = 0;
-  /// How long it remembers, ms: distal resistance times compliance; 0: nothing is kept.
+  /// How long it remembers, ms: distal resistance times compliance, or a longer time of its; 0: nothing is kept.
   virtual double time_constant() const = 0;
   /// In words. \param volume  the unit of what flows, with which units are made: of a plane scene an area
   virtual std::string description(const std::string& volume) const = 0;

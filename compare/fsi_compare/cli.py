@@ -52,14 +52,12 @@ def parser(version: str, modules: Mapping[str, str], catalogue: Catalogue = OWN)
     return top
 
 
-def run(
-    arguments: Sequence[str], version: str, catalogue: Catalogue = OWN, more: Mapping[str, str] | None = None
-) -> int:
+def run(arguments: Sequence[str], version: str, catalogue: Catalogue = OWN, more: Mapping[str, str] = {}) -> int:
     """The exit code. `more`: commands that the source tree adds. Raises InputError for wrong use and bad input."""
     called = arguments[0] if arguments else ""
     if not more and called in source_tree.COMMANDS:
         raise source_tree.refusal("", "", f"the command {called}")
-    modules = {**OF_RESULTS, **(more or {}), **OF_RUNS, **OF_IMPORT}
+    modules = {**OF_RESULTS, **more, **OF_RUNS, **OF_IMPORT}
     if called in modules or called == "--version":
         modules = {name: module for name, module in modules.items() if name == called}
     top = parser(version, modules, catalogue)

@@ -56,6 +56,8 @@ def read_scene(path: Path, entries: Mapping[str, Any]) -> Scene:
     if "static" in entries or not isinstance(entries.get("time"), dict):
         raise InputError(path, "time", "is missing, and a beat takes some", "give a case with a section [time]")
     scene = Scene(path, entries, openings, _period(path, entries, openings))
+    for name in (name for name, one in openings.items() if "windkessel4" in one):
+        raise InputError(path, f"opening.{name}.windkessel4", "is not tuned", "take a windkessel without inertance there")
     if not scene.windkessels:
         remedy = "give one: windkessel = { proximal = ..., compliance = ..., distal = ... }"
         raise InputError(path, "opening", "none has a Windkessel, so that nothing can be tuned", remedy)

@@ -141,6 +141,25 @@ class PeriodicEnd(FolderTest):
             float(last["windkessel_pressure_Pa"]) / 1000, float(said[1]), delta=0.01 * float(said[1])
         )
 
+    def test_a_lumped_start_finds_all_that_a_law_keeps(self):
+        """With the flow through an inertance, too, every period is the same: L/R_p is longer than two of them."""
+        four = self.base / "four.toml"
+        four.write_text(
+            RIGID.replace("windkessel = { proximal = 0.5,", "windkessel4 = { proximal = 0.5, inertance = 15,").replace(
+                'periods = "until 1%"\n', 'start = "lumped"\n'
+            )
+        )
+        folder = run(MONOLITHIC, four, self.base / "four", *self.settings, "time.end=24")
+        with (folder / "openings.csv").open() as file:
+            rows = [row for row in csv.DictReader(file) if row["opening"] == "outlet"]
+        for column in ("mean_pressure_Pa", "windkessel_pressure_Pa"):
+            first, second = (np.array([float(row[column]) for row in rows[at : at + 48]]) for at in (0, 48))
+            np.testing.assert_allclose(first[1:], second[1:], rtol=0.01)
+        settings = [*self.settings, "opening.outlet.windkessel4.initial_flow=1"]
+        refused = attempt(MONOLITHIC, four, folder=self.base / "refused", settings=settings)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn('initial_flow: is found by time.start = "lumped"', refused.stderr)
+
     def test_behind_a_slow_windkessel_the_limit_is_as_near_as_asked_for(self):
         """Its pressure obeys C dp/dt = Q - p/R_d: in the periodic state its mean is R_d times that of the flow."""
         rigid = self.base / "slow.toml"

@@ -158,6 +158,19 @@ TEST(OpeningLaws, KeepWhatTheirRatesSay) {
   }
 }
 
+TEST(OpeningLaws, StartFromTheirInitialValues) {
+  for (const auto& [name, kind] : opening_laws().rows()) {
+    SCOPED_TRACE(name);
+    ParameterValues values;
+    std::vector<double> initial;
+    for (const auto& parameter : kind.parameters) {
+      values[parameter.name] = 0.7 + 0.3 * static_cast<double>(values.size());
+      if (parameter.name.rfind("initial_", 0) == 0) initial.push_back(values[parameter.name]);
+    }
+    EXPECT_EQ(kind.make(values)->start(), initial);
+  }
+}
+
 TEST(OpeningLaws, AnswerTheFlowWithTheirSlope) {
   for (const auto& [name, behind] : all_laws())
     for (const double k : {0.0, 1.7}) {
