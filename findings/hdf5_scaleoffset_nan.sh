@@ -30,6 +30,7 @@ def numbers(data):
 
 
 if "write" in sys.argv:
+    print("HDF5", h5py.version.hdf5_version)
     with h5py.File("/root/fields.h5", "w") as file:
         for name, values in FIELDS.items():
             data = file.create_dataset(name, data=values, chunks=(4,), scaleoffset=2)
@@ -47,10 +48,12 @@ within "$scratch/13" python3 /root/fields.py >>"$scratch/said"
 cat "$scratch/said"
 # By 1.10.8, by 1.14.5, and of 1.10.8's file by 1.14.5.
 diff "$scratch/said" - <<'END' || fail "what is read"
+HDF5 1.10.8
 NaN at once: [10.1234, nan, 13.5, 12.0]
 1e20 at once: [10.1234, 11.0, 1e+20, 12.0]
 NaN reopened: [10.1234, 10.1234, 13.5034, 12.0034]
 1e20 reopened: [10.1234, 11.0, 1e+20, 12.0]
+HDF5 1.14.5
 NaN at once: [10.1234, nan, 13.5, 12.0]
 1e20 at once: [10.1234, 11.0, 1e+20, 12.0]
 NaN reopened: [10.1234, 10.1234, 13.5034, 12.0034]

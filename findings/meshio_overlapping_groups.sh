@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# gmsh writes an entity into as many physical groups as it belongs to. meshio 7.0.0 (Debian 12) reads both groups of such a
+# gmsh writes an entity into as many physical groups as it belongs to. meshio 5.0.0 (Debian 12) reads both groups of such a
 # surface as cell_sets, while its array gmsh:physical holds the first one alone. Written again as .msh the second group keeps its
 # name and loses its cells; in VTU one array for all sets holds the last set's number. A reader that trusts gmsh:physical, or a
 # file that went through meshio, has the group empty, without an error: read groups from cell_sets, and from gmsh's own file.

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Asked for a time between two steps of a file, ParaView's reader of XDMF gives the step before it, that of PVD the one behind
+# Asked for a time between two steps of a file, ParaView's reader of XDMF gives the step before it, that of PVD the one after
 # it; neither interpolates. ParaView asks all files of a scene for the same time, so fluid and wall from files of the two
 # kinds, or a PVD with fewer steps than its neighbour, are shown a whole step apart. Nor need the times differ by more than
 # rounding: just below a step XDMF gives the one before, just above it PVD gives the next.

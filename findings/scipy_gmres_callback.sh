@@ -6,7 +6,7 @@
 # A guess would be that a callback only looks on, and that a solver that stops early gives the best that it has.
 # Seen with SciPy 1.10.1 (Debian 12): a tridiagonal matrix of 400 rows, restart = 20, products by the matrix counted.
 # Output seen: maxiter 20: 421 products, with callback 23; maxiter 15: 316 products, with callback 17 and a solution of zeros;
-# with callback_type "pr_norm" 316.
+# with callback_type "pr_norm" 316. A DeprecationWarning asks for callback_type; of other iterations it says nothing.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 . ./support.sh

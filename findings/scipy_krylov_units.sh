@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Whether Krylov solvers of SciPy 1.10 solve a system hangs on the unit of the right side, unless atol is given. Where the
+# Whether Krylov solvers of SciPy 1.10 solve a system depends on the unit of the right side, unless atol is given. Where the
 # right side's norm is below tol itself, cg, bicgstab and gmres return zeros with status 0, which says success. lgmres takes
 # tol for an absolute bound altogether: the smaller the right side, the fewer digits are right, with status 0. So a
 # system is solved with forces in N, and not with the same in MN. A DeprecationWarning of a default that will change is all that
