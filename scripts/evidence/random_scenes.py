@@ -17,12 +17,15 @@ KINDS: Dict[str, List[str]] = {"interface": [], "block": ["--scheme", "block-new
 ORIGIN = f"""made by scripts/evidence/random_scenes.py BIN WORK: tests/faults/run.py scenes --seed {SEED} --scenes {SCENES}
 six steps of scenes drawn at random, no step halved; solved: all steps, and the displacements of the drivers agree to 1e-4"""
 UNSOLVED = re.compile(r"(?m)^(fsi-[a-z]+): (\d+) of \d+ scenes unsolved$")
+WITHOUT = re.compile(r"\b(\d+) without solution\b")
 WRONG = re.compile(r"(\d+) ([a-z][a-z ]*) \(WRONG\)")
 
 
 def solved_by(told: str) -> Dict[str, int]:
-    """By program, what the harness says."""
-    return {program: SCENES - int(number) for program, number in UNSOLVED.findall(told)}
+    """By program, what the harness says: neither unsolved nor without a solution."""
+    none = WITHOUT.search(told)
+    without = int(none[1]) if none else 0
+    return {program: SCENES - without - int(number) for program, number in UNSOLVED.findall(told)}
 
 
 def wrong_of(told: str) -> int:

@@ -57,7 +57,7 @@ def read_scene(path: Path, entries: Mapping[str, Any]) -> Scene:
         raise InputError(path, "time", "is missing, and a beat takes some", "give a case with a section [time]")
     scene = Scene(path, entries, openings, _period(path, entries, openings))
     for name in (name for name, one in openings.items() if "windkessel4" in one):
-        raise InputError(path, f"opening.{name}.windkessel4", "is not tuned", "take a windkessel without inertance there")
+        raise InputError(path, f"opening.{name}.windkessel4", "is not tuned", "take a windkessel there")
     if not scene.windkessels:
         remedy = "give one: windkessel = { proximal = ..., compliance = ..., distal = ... }"
         raise InputError(path, "opening", "none has a Windkessel, so that nothing can be tuned", remedy)

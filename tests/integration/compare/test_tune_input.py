@@ -116,7 +116,9 @@ class TuneInput(FolderCase):
                 self.assertIn(old, CASE)
                 self.refused(["--pressure", PRESSURE], message, CASE.replace(old, new, 1 if "left" in message else -1))
         self.refused(["--pressure", PRESSURE], "not a network", CASE + "[network]\n")
-        self.refused(["--pressure", PRESSURE], "windkessel4: is not tuned", CASE.replace("windkessel =", "windkessel4 ="))
+        self.refused(
+            ["--pressure", PRESSURE], "windkessel4: is not tuned", CASE.replace("windkessel =", "windkessel4 =")
+        )
         missing = ["--pressure", PRESSURE, "--monolithic", Path("nowhere", "fsi-monolithic")]
         path = self.base / "fork.toml"
         path.write_text(CASE)
