@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
+#include "algebra/entry_count.hpp"
 #include "algebra/vector_operations.hpp"
 #include "host/parallel_for.hpp"
 
@@ -153,10 +155,8 @@ BlockMatrix<R, C> block_product(const BlockMatrix<R, M>& a, const BlockMatrix<M,
         ++graph->offsets[row + 1];
       });
   }
-  for (int row = 0; row < rows; ++row) {
-    graph->offsets[row + 1] += graph->offsets[row];
-    assert(graph->offsets[row + 1] >= 0);  // blocks are counted in 32 bits
-  }
+  for (int row = 0; row < rows; ++row)
+    graph->offsets[row + 1] = entry_count(std::int64_t{graph->offsets[row]} + graph->offsets[row + 1]);
   graph->columns.resize(graph->offsets[rows]);
   BlockMatrix<R, C> c;
   c.values.assign(graph->columns.size() * R * C, 0.0);

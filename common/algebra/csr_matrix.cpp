@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
+
+#include "algebra/entry_count.hpp"
 
 namespace fsi {
 
@@ -26,10 +29,8 @@ CsrMatrix<double> product(const CsrMatrix<double>& a, const CsrMatrix<double>& b
       c.offsets[row + 1] = count;
     }
   }
-  for (int row = 0; row < rows; ++row) {
-    c.offsets[row + 1] += c.offsets[row];
-    assert(c.offsets[row + 1] >= 0);  // entries are counted in 32 bits
-  }
+  for (int row = 0; row < rows; ++row)
+    c.offsets[row + 1] = entry_count(std::int64_t{c.offsets[row]} + c.offsets[row + 1]);
   c.indices.resize(c.offsets[rows]);
   c.values.resize(c.offsets[rows]);
 #pragma omp parallel

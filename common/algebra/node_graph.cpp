@@ -1,6 +1,9 @@
 #include "algebra/node_graph.hpp"
 
 #include <algorithm>
+#include <cstdint>
+
+#include "algebra/entry_count.hpp"
 
 namespace fsi {
 
@@ -29,7 +32,7 @@ NodeGraph graph_of_cells(int nodes, const std::vector<int>& cell_nodes, int node
     std::sort(row.begin(), row.end());
     row.erase(std::unique(row.begin(), row.end()), row.end());
     graph.columns.insert(graph.columns.end(), row.begin(), row.end());
-    graph.offsets.push_back(static_cast<int>(graph.columns.size()));
+    graph.offsets.push_back(entry_count(static_cast<std::int64_t>(graph.columns.size())));
   }
   return graph;
 }

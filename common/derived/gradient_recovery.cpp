@@ -1,11 +1,13 @@
 #include "derived/gradient_recovery.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
+#include "base/error.hpp"
 #include "derived/gradient_fit.hpp"
 #include "derived/surface_shape.hpp"
 #include "mesh/point_math.hpp"
@@ -52,6 +54,15 @@ void keep_linear_fields(const std::vector<PatchPoint>& patch, const std::vector<
 }
 
 /// Finds weights for one node after another.
+/// The nodes of a single cell determine the element's polynomial, unless rounding hides its thickness.
+InputError too_flat(const Point& x) {
+  return {"", "mesh",
+          fmt::format("all cells around the node at ({:.6g}, {:.6g}, {:.6g}) mm are too flat for gradients there", x[0],
+                      x[1], x[2]),
+          "give fewer layers of cells there, or ask for no shear stress, wall stress, forces, statistics or error "
+          "indicator"};
+}
+
 class WeightSearch {
  public:
   explicit WeightSearch(const RecoveryCells& cells)
@@ -66,7 +77,7 @@ class WeightSearch {
     if (!full && !find_reduced(node, shape)) {  // the first ring reaches the centre of curvature
       shape = nullptr;
       full = find_full(node, shape);
-      if (!full && !find_reduced(node, shape)) assert(!"the nodes of a single cell determine the element's polynomial");
+      if (!full && !find_reduced(node, shape)) throw too_flat(patches_.points().front().position);
     }
     if (shape) keep_linear_fields(patches_.points(), axes_, weights_);
     return full;

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cstdint>
 
 #include "algebra/csr_matrix.hpp"
+#include "algebra/entry_count.hpp"
+#include "base/error.hpp"
 #include "support/random.hpp"
 
 namespace fsi::test {
@@ -73,5 +76,17 @@ TEST(CsrMatrix, ProductsOfStretchesOfRows) {
 }
 
 }  // namespace
+
+TEST(CountsOfEntries, AreRefusedBeyondThePositionsOfAMatrix) {
+  EXPECT_EQ(entry_count(0x7fffffff), 0x7fffffff);
+  try {
+    entry_count(std::int64_t{1} << 31);
+    FAIL() << "no message";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "mesh: a matrix has 2147483648 entries, and a process holds at most 2147483647; "
+                 "use more processes, or a coarser mesh");
+  }
+}
 
 }  // namespace fsi::test

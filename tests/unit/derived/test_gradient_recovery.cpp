@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "base/error.hpp"
 #include "derived/gradient_recovery.hpp"
 #include "derived/surface_shape.hpp"
 #include "fem/elements.hpp"
@@ -132,6 +134,30 @@ TEST(RecoveredGradientsOfThinLayers, KeepTheElementsOrder) {
     std::printf("thin layer: largest error %.2e, %.2e\n", errors[0], errors[1]);
     EXPECT_LT(errors[0], 0.11);
     EXPECT_LT(errors[1], 0.055);
+  }
+}
+
+// A layer whose thickness rounding hides from second moments: a message, no weights of noise.
+TEST(RecoveredGradientsOfThinLayers, AreRefusedWhereRoundingHidesTheThickness) {
+  const auto layer = [](double thickness) {
+    const auto mesh = triangle_grid(
+        {1, 4}, {"wall"},
+        [&](int i, int j) {
+          return Point{1 + i * thickness, 0, 0.25 * j};
+        },
+        [](int, int) { return 0; });
+    RecoveryCells cells{mesh.nodes, {}, 3, 1, {0, 2}};
+    for (const auto& cell : mesh.cells) cells.nodes.insert(cells.nodes.end(), cell.begin(), cell.end());
+    GradientRecovery(cells, {0});
+  };
+  EXPECT_NO_THROW(layer(1e-4));
+  try {
+    layer(1e-8);
+    FAIL() << "no message";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("mesh: all cells around the node at (1, 0, 0) mm are too flat"),
+              std::string::npos)
+        << error.what();
   }
 }
 
