@@ -31,7 +31,7 @@ endif()
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME fsi-duo-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "cmake, pkg-config, libeigen3-dev, libfmt-dev, libspdlog-dev, libcli11-dev, nlohmann-json3-dev, libtomlplusplus-dev, zlib1g-dev, "
+  "cmake, pkg-config, libeigen3-dev, libfmt-dev, libspdlog-dev, libcli11-dev, nlohmann-json3-dev, libtomlplusplus-dev, zlib1g-dev, liblzma-dev, "
   "libsuitesparse-dev, libopenblas-pthread-dev, libgmsh-dev, libcgal-dev, ")
 if(FSI_MPI)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libhdf5-openmpi-dev, libopenmpi-dev, petsc-dev, libptscotch-dev")

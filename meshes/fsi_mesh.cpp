@@ -20,6 +20,7 @@
 #include "meshes/mesh_report.hpp"
 #include "meshes/refine_command.hpp"
 #include "meshes/thicken_command.hpp"
+#include "meshes/vtk_command.hpp"
 #include "run/interruption.hpp"
 #include "run/program.hpp"
 
@@ -39,8 +40,9 @@ int run(int argc, const char* const* argv) {
   app.set_version_flag("--version", fsi::version_text(fsi::mesh_program));
   app.require_subcommand(1);
   const std::vector<fsi::MeshCommand> commands{
-      fsi::artery_command(app),  fsi::geo_command(app),    fsi::import_command(app), fsi::lumen_command(app),
-      fsi::thicken_command(app), fsi::refine_command(app), fsi::adapt_command(app),  fsi::check_command(app)};
+      fsi::artery_command(app), fsi::geo_command(app),     fsi::import_command(app),
+      fsi::lumen_command(app),  fsi::thicken_command(app), fsi::refine_command(app),
+      fsi::adapt_command(app),  fsi::check_command(app),   fsi::vtk_command(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <utility>
 
 #include "base/error.hpp"
@@ -10,7 +9,6 @@
 #include "mesh/point_math.hpp"
 #include "mesher/surface/sound_surface.hpp"
 #include "mesher/surface/surface_file.hpp"
-#include "meshes/converted.hpp"
 #include "meshes/mesh_report.hpp"
 #include "run/program.hpp"
 
@@ -47,10 +45,7 @@ void require_plausible(const SurfaceInput& input, const std::vector<LumenOpening
 }  // namespace
 
 TriangleSurface triangles_of_file(const SurfaceInput& input) {
-  const std::filesystem::path file = input.file;
-  auto surface = file.extension() == ".vtp"
-                     ? triangles_of_obj(converted(input.file, {"convert-surface", input.file}), input.file)
-                     : read_triangles(file);
+  auto surface = read_triangles(input.file);
   if (!input.unit.empty())
     for (auto& node : surface.nodes) node = surface_units.at(input.unit) * node;
   return surface;

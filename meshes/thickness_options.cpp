@@ -8,11 +8,12 @@
 #include <fstream>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 #include "base/error.hpp"
+#include "fields/field_samples.hpp"
 #include "mesher/surface/local_radius.hpp"
 #include "mesher/surface/wall_thickness.hpp"
-#include "meshes/converted.hpp"
 #include "meshes/mesh_report.hpp"
 #include "run/program.hpp"
 
@@ -25,9 +26,10 @@ ThicknessTable read_table(const ThicknessOptions& options) {
   constexpr const char* kinds = "give a table of points, .csv, or a surface with a field, .vtp";
   if (std::error_code error; !std::filesystem::is_regular_file(file, error))
     throw InputError(options.file, "", "no such file", kinds);
-  if (file.extension() == ".vtp")
-    return thickness_table(converted(options.file, {"convert-surface", options.file, "--field", options.field}),
-                           "value", options.file);
+  if (file.extension() == ".vtp") {
+    auto samples = read_field_samples(file, options.field);
+    return {options.file, std::move(samples.places), std::move(samples.values)};
+  }
   if (file.extension() != ".csv") throw InputError(options.file, "--thickness-from", "is no .csv and no .vtp", kinds);
   std::ifstream in(file);
   std::ostringstream text;

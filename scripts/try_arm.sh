@@ -28,7 +28,7 @@ else
 fi
 root=$folder/root
 tools=cmake,ninja-build,pkg-config,g++-aarch64-linux-gnu,python3-minimal,python3-numpy,python3-matplotlib,python3-h5py,python3-jinja2,libeigen3-dev,libcli11-dev,nlohmann-json3-dev
-libraries=libfmt-dev:arm64,libspdlog-dev:arm64,zlib1g-dev:arm64,libtomlplusplus-dev:arm64,libhdf5-dev:arm64
+libraries=libfmt-dev:arm64,libspdlog-dev:arm64,zlib1g-dev:arm64,liblzma-dev:arm64,libtomlplusplus-dev:arm64,libhdf5-dev:arm64
 libraries+=,libsuitesparse-dev:arm64,libopenblas-pthread-dev:arm64,libmetis-dev:arm64,libgmsh-dev:arm64,libcgal-dev:arm64
 libraries+=,libgtest-dev:arm64,libgmock-dev:arm64
 if [ ! -e "$folder/made" ]; then

@@ -30,6 +30,7 @@ FieldSamples samples_of(const VtkMesh& mesh, const std::string& field, const std
   std::vector<std::string> names;
   const VtkMesh::Array* found = nullptr;
   for (const auto& array : mesh.arrays) {
+    if (!array.of_numbers) continue;
     if (array.name == field && found == nullptr) found = &array;
     names.push_back(array.name);
   }
@@ -117,7 +118,10 @@ FieldSamples read_field_samples(const std::filesystem::path& file, const std::st
     throw InputError(name, "", kind.empty() ? "has no extension" : "the extension " + kind + " is unknown",
                      field_kinds);
   const std::string text = text_of_file(file, field_kinds);
-  if (kind != ".csv") return samples_of(read_vtk(text, name), field, name);
+  if (kind != ".csv") {
+    const auto wanted = [&](const VtkMesh::Array& array) { return array.name == field && array.components == 1; };
+    return samples_of(read_vtk(text, name, wanted), field, name);
+  }
   FieldSamples samples;
   auto table = point_table(text, field, name, "give a number");
   samples.places = std::move(table.places);
@@ -134,7 +138,7 @@ PaintedSurface read_painted_surface(const std::filesystem::path& file) {
   const std::string text = text_of_file(file, surface_kinds);
   PaintedSurface surface;
   if (kind == ".vtp") {
-    const VtkMesh mesh = read_vtk(text, name);
+    const VtkMesh mesh = read_vtk(text, name, [](const VtkMesh::Array&) { return false; });
     surface.nodes = mesh.nodes;
     for (const auto& cell : mesh.cells)
       for (std::size_t k = 2; k < cell.size(); ++k) surface.triangles.push_back({cell[0], cell[k - 1], cell[k]});

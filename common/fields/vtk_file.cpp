@@ -1,6 +1,7 @@
 #include "fields/vtk_file.hpp"
 
 #include <fmt/format.h>
+#include <lzma.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "base/error.hpp"
 
@@ -20,6 +22,7 @@ namespace fsi {
 namespace {
 
 constexpr const char* remedy = "write it anew as .vtu or .vtp";
+constexpr int polygon = 7;
 
 /// What is wrong with a file; read_vtk() adds its name.
 struct Damaged : std::runtime_error {
@@ -36,6 +39,25 @@ struct Tag {
     return found == attributes.end() ? standard : found->second;
   }
 };
+
+/// An attribute's value, in which some characters stand by names.
+std::string named_characters(std::string_view text) {
+  static constexpr std::pair<std::string_view, char> names[] = {
+      {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
+  std::string plain;
+  while (!text.empty()) {
+    std::size_t length = 1;
+    char character = text.front();
+    for (const auto& [name, meant] : names)
+      if (text.substr(0, name.size()) == name) {
+        length = name.size();
+        character = meant;
+      }
+    plain += character;
+    text.remove_prefix(length);
+  }
+  return plain;
+}
 
 std::vector<Tag> tags_of(std::string_view text) {
   std::vector<Tag> tags;
@@ -61,7 +83,7 @@ std::vector<Tag> tags_of(std::string_view text) {
       const auto stop = inside.find(quote, sign + 2);
       if ((quote != '"' && quote != '\'') || stop == std::string_view::npos) throw Damaged("is no XML");
       tag.attributes[std::string(inside.substr(first, sign - first))] =
-          std::string(inside.substr(sign + 2, stop - sign - 2));
+          named_characters(inside.substr(sign + 2, stop - sign - 2));
       inside.remove_prefix(stop + 1);
     }
     tag.content = text.substr(end + 1, next == std::string_view::npos ? next : next - end - 1);
@@ -99,29 +121,55 @@ constexpr std::size_t coded(std::size_t bytes) {
   return (bytes + 2) / 3 * 4;
 }
 
+/// Unpacks a block. \param whole  its size, set to that of what is found
+bool unpack_zlib(const char* data, std::size_t size, char* to, std::size_t& whole) {
+  uLongf length = whole;
+  const int code = uncompress(reinterpret_cast<Bytef*>(to), &length, reinterpret_cast<const Bytef*>(data), size);
+  whole = length;
+  return code == Z_OK;
+}
+bool unpack_lzma(const char* data, std::size_t size, char* to, std::size_t& whole) {
+  std::uint64_t most_memory = std::uint64_t{1} << 30;
+  std::size_t read = 0, length = 0;
+  const lzma_ret code = lzma_stream_buffer_decode(&most_memory, 0, nullptr, reinterpret_cast<const std::uint8_t*>(data),
+                                                  &read, size, reinterpret_cast<std::uint8_t*>(to), &length, whole);
+  whole = length;
+  return code == LZMA_OK;
+}
+
 /// The arrays of one file.
 class Arrays {
  public:
-  Arrays(const Tag& root, std::string_view appended, bool raw)
+  Arrays(const Tag& root, std::optional<std::string_view> appended, bool raw)
       : appended_(appended), raw_(raw), wide_(root.at("header_type") == "UInt64") {
-    if (root.at("byte_order", "LittleEndian") != "LittleEndian")
-      throw Damaged("has numbers with the most significant byte first");
-    const std::string packing = root.at("compressor");
-    packed_ = !packing.empty();
-    if (packed_ && packing != "vtkZLibDataCompressor") throw Damaged("is packed by " + packing);
+    const std::string order = root.at("byte_order", "LittleEndian"), packing = root.at("compressor");
+    if (order != "LittleEndian" && order != "BigEndian") throw Damaged("has the unknown order of bytes " + order);
+    turned_ = order == "BigEndian";
+    if (packing == "vtkZLibDataCompressor")
+      unpack_ = unpack_zlib;
+    else if (packing == "vtkLZMADataCompressor")
+      unpack_ = unpack_lzma;
+    else if (!packing.empty())
+      throw Damaged("is packed by " + packing + ", not by zlib or LZMA");
   }
+
+  /// Of arrays that are none of numbers, as strings.
+  static bool of_numbers(const std::string& type) { return reader_of(type) != nullptr; }
 
   std::vector<double> numbers(const Tag& array) const {
     const std::string format = array.at("format", "ascii"), type = array.at("type");
+    const Reader reader = reader_of(type);
+    if (reader == nullptr) throw Damaged("has an array of the type " + type + ", which is none of numbers");
     if (format == "ascii") return numbers_of_text(array.content);
     if (format == "binary") {
       std::string_view text = array.content;
       while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
-      return of_type(bytes_of(text, false), type);
+      return reader(bytes_of(text, false), turned_);
     }
+    if (!appended_) throw Damaged("has an appended array without AppendedData");
     const std::size_t offset = std::strtoull(array.at("offset", "0").c_str(), nullptr, 10);
-    if (offset > appended_.size()) throw Damaged("is cut off");
-    return of_type(bytes_of(appended_.substr(offset), raw_), type);
+    if (offset > appended_->size()) throw Damaged("is cut off");
+    return reader(bytes_of(appended_->substr(offset), raw_), turned_);
   }
 
  private:
@@ -146,7 +194,8 @@ class Arrays {
     const std::size_t size = header_bytes();
     if (bytes.size() < (index + 1) * size) throw Damaged("is cut off");
     std::uint64_t value = 0;
-    std::memcpy(&value, bytes.data() + index * size, size);
+    for (std::size_t k = 0; k < size; ++k)
+      value |= std::uint64_t{static_cast<unsigned char>(bytes[index * size + (turned_ ? size - 1 - k : k)])} << (8 * k);
     return value;
   }
 
@@ -158,7 +207,7 @@ class Arrays {
     };
     const std::size_t first = header(plain(size), 0);
     if (first > most_bytes) throw Damaged("is damaged");
-    if (!packed_) {
+    if (unpack_ == nullptr) {
       const std::string all = plain(size + first);
       if (all.size() < size + first) throw Damaged("is cut off");
       return all.substr(size);
@@ -178,59 +227,64 @@ class Arrays {
     std::string all;
     for (std::size_t b = 0, at = 0; b < blocks; ++b) {
       const std::size_t count = header(head, 3 + b), last = header(head, 2);
-      uLongf whole = b + 1 == blocks && last > 0 ? last : header(head, 1);
+      std::size_t whole = b + 1 == blocks && last > 0 ? last : header(head, 1);
       if (whole > most_bytes || at + count > data.size()) throw Damaged("is cut off");
       const std::size_t before = all.size();
       all.resize(before + whole);
-      if (uncompress(reinterpret_cast<Bytef*>(all.data() + before), &whole,
-                     reinterpret_cast<const Bytef*>(data.data() + at), count) != Z_OK)
-        throw Damaged("holds what zlib cannot unpack");
+      if (!unpack_(data.data() + at, count, all.data() + before, whole)) throw Damaged("holds what cannot be unpacked");
       all.resize(before + whole);
       at += count;
     }
     return all;
   }
 
+  using Reader = std::vector<double> (*)(const std::string& bytes, bool turned);
   template <class Number>
-  static std::vector<double> as(const std::string& bytes) {
-    std::vector<double> numbers(bytes.size() / sizeof(Number));
+  static std::vector<double> as(const std::string& bytes, bool turned) {
+    constexpr std::size_t size = sizeof(Number);
+    std::vector<double> numbers(bytes.size() / size);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
+      char of_number[size];
+      std::memcpy(of_number, bytes.data() + i * size, size);
+      if (turned) std::reverse(of_number, of_number + size);
       Number value;
-      std::memcpy(&value, bytes.data() + i * sizeof(Number), sizeof(Number));
+      std::memcpy(&value, of_number, size);
       numbers[i] = static_cast<double>(value);
     }
     return numbers;
   }
-  static std::vector<double> of_type(const std::string& bytes, const std::string& type) {
-    if (type == "Float64") return as<double>(bytes);
-    if (type == "Float32") return as<float>(bytes);
-    if (type == "Int64") return as<std::int64_t>(bytes);
-    if (type == "UInt64") return as<std::uint64_t>(bytes);
-    if (type == "Int32") return as<std::int32_t>(bytes);
-    if (type == "UInt32") return as<std::uint32_t>(bytes);
-    if (type == "Int16") return as<std::int16_t>(bytes);
-    if (type == "UInt16") return as<std::uint16_t>(bytes);
-    if (type == "Int8") return as<std::int8_t>(bytes);
-    if (type == "UInt8") return as<std::uint8_t>(bytes);
-    throw Damaged("has an array of the type " + type + ", which is none of numbers");
+  /// Null for what is no type of numbers.
+  static Reader reader_of(const std::string& type) {
+    static const std::map<std::string, Reader> readers{{"Float64", as<double>},     {"Float32", as<float>},
+                                                       {"Int64", as<std::int64_t>}, {"UInt64", as<std::uint64_t>},
+                                                       {"Int32", as<std::int32_t>}, {"UInt32", as<std::uint32_t>},
+                                                       {"Int16", as<std::int16_t>}, {"UInt16", as<std::uint16_t>},
+                                                       {"Int8", as<std::int8_t>},   {"UInt8", as<std::uint8_t>}};
+    const auto found = readers.find(type);
+    return found == readers.end() ? nullptr : found->second;
   }
 
   static constexpr std::size_t most_bytes = std::size_t{1} << 32;
-  std::string_view appended_;
-  bool raw_, wide_, packed_ = false;
+  std::optional<std::string_view> appended_;
+  bool raw_, wide_, turned_ = false;
+  bool (*unpack_)(const char* data, std::size_t size, char* to, std::size_t& whole) = nullptr;
 };
 
 /// The arrays of one piece as the file names them.
 struct Piece {
+  bool is_surface = false;
   std::vector<double> points, connectivity, offsets, types;
   std::vector<VtkMesh::Array> arrays;
 };
 
 void add(const Piece& piece, VtkMesh& mesh) {
   const auto first = static_cast<double>(mesh.nodes.size());
+  const std::size_t cells_before = mesh.cells.size();
   if (piece.points.size() % 3 != 0) throw Damaged("has points without three coordinates");
   for (std::size_t i = 0; i + 2 < piece.points.size(); i += 3)
     mesh.nodes.push_back({piece.points[i], piece.points[i + 1], piece.points[i + 2]});
+  if (!piece.is_surface && piece.types.size() != piece.offsets.size())
+    throw Damaged(fmt::format("has {} kinds for {} cells", piece.types.size(), piece.offsets.size()));
   std::size_t begin = 0;
   for (std::size_t c = 0; c < piece.offsets.size(); ++c) {
     const double end = piece.offsets[c];
@@ -243,21 +297,36 @@ void add(const Piece& piece, VtkMesh& mesh) {
       if (!(node >= 0 && node < static_cast<double>(points))) throw Damaged("has cells that are none of its points");
       cell.push_back(static_cast<int>(first + node));
     }
-    mesh.kinds.push_back(c < piece.types.size() ? static_cast<int>(piece.types[c]) : 7);
+    mesh.kinds.push_back(piece.is_surface ? polygon : static_cast<int>(piece.types[c]));
   }
+  ++mesh.pieces;
   for (const auto& array : piece.arrays) {
+    const std::size_t places = array.of_cells ? mesh.cells.size() - cells_before : piece.points.size() / 3;
+    // Cell fields of surfaces begin with those of vertices and lines.
+    if (!array.values.empty() && array.values.size() != places * static_cast<std::size_t>(array.components) &&
+        !(piece.is_surface && array.of_cells))
+      throw Damaged(fmt::format("has {} numbers of \"{}\" for {} {}", array.values.size(), array.name, places,
+                                array.of_cells ? "cells" : "points"));
     const auto known = std::find_if(mesh.arrays.begin(), mesh.arrays.end(), [&](const auto& other) {
       return other.name == array.name && other.of_cells == array.of_cells;
     });
-    if (known == mesh.arrays.end())
+    if (known == mesh.arrays.end()) {
       mesh.arrays.push_back(array);
-    else
-      known->values.insert(known->values.end(), array.values.begin(), array.values.end());
+      continue;
+    }
+    if (known->components != array.components || known->of_numbers != array.of_numbers)
+      throw Damaged("has pieces that differ in what \"" + array.name + "\" is");
+    known->values.insert(known->values.end(), array.values.begin(), array.values.end());
+    ++known->pieces;
   }
 }
 
-VtkMesh mesh_of(const std::string& text) {
-  std::string_view xml = text, appended;
+VtkMesh mesh_of(const std::string& text, const VtkWanted& wanted) {
+  if (text.rfind("version https://git-lfs", 0) == 0) throw Damaged("is a pointer of Git LFS in the place of the file");
+  if (text.find("<VTKFile") == std::string::npos) throw Damaged("is no file of VTK");
+  if (text.rfind("</VTKFile>") == std::string::npos) throw Damaged("is cut off");
+  std::string_view xml = text;
+  std::optional<std::string_view> appended;
   bool raw = false;
   if (const auto at = text.find("<AppendedData"); at != std::string::npos) {
     const auto end = text.find('>', at), mark = text.find('_', end);
@@ -276,8 +345,13 @@ VtkMesh mesh_of(const std::string& text) {
       if (tag.at("type") != "UnstructuredGrid" && tag.at("type") != "PolyData")
         throw Damaged("holds no UnstructuredGrid and no PolyData of VTK");
       arrays.emplace(tag, appended, raw);
+      mesh.is_surface = tag.at("type") == "PolyData";
     } else if (tag.name == "Piece") {
       piece = {};
+      piece.is_surface = mesh.is_surface;
+      const auto count = [&](const char* what) { return std::strtoll(tag.at(what, "0").c_str(), nullptr, 10); };
+      mesh.lines += count("NumberOfVerts") + count("NumberOfLines");
+      mesh.strips += count("NumberOfStrips");
     } else if (tag.name == "/Piece") {
       add(piece, mesh);
     } else if (tag.name == "DataArray") {
@@ -289,9 +363,16 @@ VtkMesh mesh_of(const std::string& text) {
         if (name == "offsets") piece.offsets = arrays->numbers(tag);
         if (name == "types") piece.types = arrays->numbers(tag);
       }
-      if ((section == "PointData" || section == "CellData") && tag.at("type") != "String")
-        piece.arrays.push_back(
-            {name, section == "CellData", std::atoi(tag.at("NumberOfComponents", "1").c_str()), arrays->numbers(tag)});
+      if (section == "PointData" || section == "CellData") {
+        VtkMesh::Array array{name,
+                             section == "CellData",
+                             Arrays::of_numbers(tag.at("type")),
+                             std::max(1, std::atoi(tag.at("NumberOfComponents", "1").c_str())),
+                             {},
+                             1};
+        if (array.of_numbers && (!wanted || wanted(array))) array.values = arrays->numbers(tag);
+        piece.arrays.push_back(std::move(array));
+      }
     } else if (tag.name == "Points" || tag.name == "Cells" || tag.name == "Polys" || tag.name == "PointData" ||
                tag.name == "CellData" || tag.name == "Verts" || tag.name == "Lines" || tag.name == "Strips" ||
                tag.name == "FieldData") {
@@ -304,9 +385,9 @@ VtkMesh mesh_of(const std::string& text) {
 
 }  // namespace
 
-VtkMesh read_vtk(const std::string& text, const std::string& file) {
+VtkMesh read_vtk(const std::string& text, const std::string& file, const VtkWanted& wanted) {
   try {
-    return mesh_of(text);
+    return mesh_of(text, wanted);
   } catch (const Damaged& damage) {
     throw InputError(file, "", damage.what(), remedy);
   }

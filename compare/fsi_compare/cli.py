@@ -28,7 +28,6 @@ OF_RUNS = {
 }
 OF_IMPORT = {
     "convert-mesh": "fsi_compare.mesh_import.command",
-    "convert-surface": "fsi_compare.mesh_import.surface_command",
     "convert-case": "fsi_compare.peer_cases.command",
 }
 

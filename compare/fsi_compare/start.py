@@ -76,7 +76,6 @@ LESS = {  # advice for a command that ran out of memory: what to give it less of
     "export": "give fewer --fields",
     "convert-mesh": "give a mesh with fewer cells",
     "convert-case": "give a case with fewer cells",
-    "convert-surface": "give a surface with fewer triangles",
     "study": "leave the largest runs out of the study file; finished ones are kept",
     "solvers": "give fewer or smaller levels; finished runs are kept",
     "gallery": "name fewer scenes, or give --quick",

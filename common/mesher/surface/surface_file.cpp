@@ -13,12 +13,13 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "base/error.hpp"
+#include "fields/field_samples.hpp"
+#include "fields/vtk_file.hpp"
 
 namespace fsi {
 
@@ -95,8 +96,19 @@ TriangleSurface joined(const Polygons& found, const std::string& file) {
   return part_of(surface, std::vector<char>(surface.triangles.size(), 1));
 }
 
+Polygons polygons_of_vtp(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  const VtkMesh mesh = read_vtk(text_of_file(file, kinds), name, [](const VtkMesh::Array&) { return false; });
+  if (!mesh.is_surface) throw InputError(name, "", "holds no PolyData of VTK", kinds);
+  if (mesh.strips > 0) throw InputError(name, "", "holds strips of triangles", "write its surface as polygons");
+  Polygons found;
+  for (const auto& x : mesh.nodes) found.points.emplace_back(x[0], x[1], x[2]);
+  for (const auto& cell : mesh.cells) found.polygons.emplace_back(cell.begin(), cell.end());
+  return found;
+}
+
 /// \param kind  of the text: .stl, .ply or .obj
-TriangleSurface read_from(std::istream& in, const std::string& kind, const std::string& file) {
+Polygons polygons_of(std::istream& in, const std::string& kind, const std::string& file) {
   Polygons found;
   bool whole = false;
   try {
@@ -106,9 +118,7 @@ TriangleSurface read_from(std::istream& in, const std::string& kind, const std::
   } catch (const std::exception&) {  // of what the file promises and does not hold
   }
   if (!whole) throw InputError(file, "", "cannot be read as " + kind + ": it is damaged or cut off", kinds);
-  TriangleSurface surface = joined(found, file);
-  if (surface.triangles.empty()) throw InputError(file, "", "holds no triangles", kinds);
-  return surface;
+  return found;
 }
 
 }  // namespace
@@ -117,16 +127,13 @@ TriangleSurface read_triangles(const std::filesystem::path& file) {
   const std::string name = file.string(), kind = kind_of(file);
   if (std::error_code error; !std::filesystem::is_regular_file(file, error))
     throw InputError(name, "", "no such file", kinds);
-  if (kind != ".stl" && kind != ".ply" && kind != ".obj")
+  if (kind != ".stl" && kind != ".ply" && kind != ".obj" && kind != ".vtp")
     throw InputError(name, "", kind.empty() ? "has no extension" : "the extension " + kind + " is unknown", kinds);
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError(name, "", "cannot be read", "check its permissions");
-  return read_from(in, kind, name);
-}
-
-TriangleSurface triangles_of_obj(const std::string& text, const std::string& file) {
-  std::istringstream in(text);
-  return read_from(in, ".obj", file);
+  TriangleSurface surface = joined(kind == ".vtp" ? polygons_of_vtp(file) : polygons_of(in, kind, name), name);
+  if (surface.triangles.empty()) throw InputError(name, "", "holds no triangles", kinds);
+  return surface;
 }
 
 }  // namespace fsi

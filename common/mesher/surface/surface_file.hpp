@@ -1,19 +1,15 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "mesher/surface/triangle_surface.hpp"
 
 namespace fsi {
 
-/// The triangles of a file: STL (text or binary), PLY, OBJ. Polygons are cut into triangles; nodes at one place become
+/// The triangles of a file: STL (text or binary), PLY, OBJ, VTP. Polygons are cut into triangles; nodes at one place become
 /// one. Nothing else is checked: mesher/surface/sound_surface.hpp does that.
 /// \throws InputError for a file that is missing, of another kind or cut off, without triangles, or with numbers that
 ///         are not finite
 TriangleSurface read_triangles(const std::filesystem::path& file);
-
-/// The same from a text in the format OBJ, into which another program converted a file. \param file  for messages
-TriangleSurface triangles_of_obj(const std::string& text, const std::string& file);
 
 }  // namespace fsi

@@ -34,6 +34,15 @@ def absolute(path: Path) -> Path:
     return Path(os.path.realpath(path))
 
 
+def find_beside(program: Path, name: str) -> Path | None:
+    """The program of this name beside another one, else the one on the path."""
+    for folder in (program.parent, absolute(program).parent):
+        if is_file(folder / name):
+            return folder / name
+    found = shutil.which(name)
+    return Path(found) if found else None
+
+
 def read_bytes(path: Path, missing: str, broken: str, largest: float = float("inf")) -> bytes:
     """Reads a whole regular file; others may never end. Raises InputError, with `missing` or `broken` as its remedy."""
     try:

@@ -12,7 +12,7 @@ from .joining import TooMany, first_of_cluster, near_pairs
 from .parts import WHOLE, FoundMesh, found_mesh, whole_of
 from .raw_mesh import Block, nothing
 from .readers import read_mesh
-from .vtp import read_faces
+from .vtu import read_faces
 
 # Points of two files are one where their places agree in single precision, in which VTK and others write.
 SINGLE = 4 * 2.0**-24

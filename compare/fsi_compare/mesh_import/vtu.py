@@ -1,14 +1,13 @@
-"""Reads meshes of VTK's XML format (.vtu). meshio 5.3.5 under Python 3.13 refuses most that have
-appended arrays in base64, which is how VTK writes them; meshio 5.0.0 gives Lagrange cells kinds of their own."""
+"""Meshes and surfaces of VTK's XML formats (.vtu, .vtp). meshio 5.3.5 under Python 3.13 refuses most that have appended
+arrays in base64, which is how VTK writes them; meshio 5.0.0 gives Lagrange cells kinds of their own."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from ..base.errors import InputError
-from .raw_mesh import NODES, RawMesh
-from .vtk_xml import VtkFile, pieces, read_by, require_points, scalars_of
+from .raw_mesh import NODES, Blocks, RawMesh
+from .vtk_file import POLYGON, VtkFile, read_vtk
 
 # VTK's numbers of cells: meshio's name.
 CELLS = {1: "vertex", 3: "line", 5: "triangle", 9: "quad", 10: "tetra", 12: "hexahedron", 13: "wedge", 14: "pyramid"}
@@ -19,58 +18,37 @@ LAGRANGE = {(68, 2): 3, (68, 3): 21, (69, 3): 5, (69, 6): 22, (71, 4): 10, (71, 
 
 
 def read_vtu(path: Path) -> RawMesh:
-    """The cells of all pieces, those of a kind in one block, with the fields of cells and points that have one number
-    each. Raises InputError."""
-    return read_by(_read, path, "UnstructuredGrid", "mesh")
+    """The cells of all pieces, those of a kind in one block. Raises InputError."""
+    file = read_vtk(path)
+    if file.is_surface:
+        raise InputError(path, "", "holds no UnstructuredGrid of VTK", "write it as .vtu")
+    return mesh_of(file)
 
 
-def _read(file: VtkFile) -> RawMesh:
-    points: list[np.ndarray] = []
-    point_data: dict[str, list[np.ndarray]] = {}
-    blocks: dict[int, list[np.ndarray]] = {}  # by kind, of each piece that has such cells
-    cell_data: dict[str, dict[int, list[np.ndarray]]] = {}
-    passed_over: dict[str, None] = {}
-    first = 0
-    for piece, there in pieces(file):
-        points.append(there)
-        for name, values in scalars_of(file, piece, "PointData", len(there), passed_over).items():
-            point_data.setdefault(name, []).append(values)
-        cells = _cells(file, piece)
-        fields = scalars_of(file, piece, "CellData", sum(len(which) for _, which, _ in cells), passed_over)
-        for kind, which, nodes in cells:
-            require_points(file, nodes, len(there))
-            blocks.setdefault(kind, []).append(nodes + first)
-            for name, values in fields.items():
-                cell_data.setdefault(name, {}).setdefault(kind, []).append(values[which])
-        first += len(there)
-    # A field that some piece does not have is none of the mesh.
-    whole = {
-        name: [np.concatenate(of_kinds.get(kind, [])) for kind in blocks]
-        for name, of_kinds in cell_data.items()
-        if all(len(of_kinds.get(kind, [])) == len(parts) for kind, parts in blocks.items())
-    }
-    return RawMesh(
-        np.concatenate(points) if points else np.zeros((0, 3)),
-        [(CELLS[kind], np.concatenate(parts)) for kind, parts in blocks.items()],
-        whole,
-        {name: np.concatenate(parts) for name, parts in point_data.items() if len(parts) == len(points)},
-        passed_over=list(passed_over),
-    )
+def read_faces(path: Path) -> RawMesh:
+    """The triangles of a surface. Raises InputError."""
+    file = read_vtk(path)
+    if not file.is_surface:
+        raise InputError(path, "", "holds no PolyData of VTK", "write it as .vtp")
+    if file.others:
+        raise InputError(path, "", "holds vertices, lines or strips", "write its surface as triangles")
+    if not len(file.kinds):
+        raise InputError(path, "", "holds no polygons", "write the surface anew as .vtp")
+    if np.any(np.diff(file.ends, prepend=0) != 3):
+        raise InputError(path, "Polys", "holds polygons that are no triangles", "triangulate the surface")
+    mesh = mesh_of(file)
+    mesh.point_data = {}
+    return mesh
 
 
-def _cells(file: VtkFile, piece: Any) -> list[tuple[int, np.ndarray, np.ndarray]]:
-    """Kind, places in the piece and nodes of its cells, kind by kind."""
-    arrays = {element.get("Name"): file.array(element) for element in piece.findall("Cells/DataArray")}
-    if not {"connectivity", "offsets", "types"} <= set(arrays):
-        raise InputError(file.path, "Cells", "has no connectivity, offsets and types", "write the mesh anew as .vtu")
-    corners = arrays["connectivity"].astype(np.int64)
-    ends, kinds = arrays["offsets"].astype(np.int64), arrays["types"].astype(np.int64)
-    lengths = np.diff(ends, prepend=0)
-    if len(ends) != len(kinds) or np.any(lengths < 0) or (len(ends) and ends[-1] > len(corners)):
-        raise InputError(file.path, "offsets", "do not fit the cells", "write the mesh anew as .vtu")
+def mesh_of(file: VtkFile) -> RawMesh:
+    """Raises InputError for cells of a kind that is unknown, or of another number of nodes than theirs."""
+    lengths = np.diff(file.ends, prepend=0)
+    kinds = np.where(file.kinds == POLYGON, 5, file.kinds) if file.is_surface else file.kinds.copy()
     for (lagrange, count), kind in LAGRANGE.items():
         kinds[(kinds == lagrange) & (lengths == count)] = kind
-    found = []
+    blocks: Blocks = []
+    cell_data: dict[str, list[np.ndarray]] = {name: [] for name in file.cell_fields}
     for kind in np.unique(kinds):
         if int(kind) not in CELLS:
             problem = f"has a cell of VTK's kind {kind}"
@@ -80,5 +58,7 @@ def _cells(file: VtkFile, piece: Any) -> list[tuple[int, np.ndarray, np.ndarray]
         if np.any(lengths[which] != count):
             problem = f"a cell of VTK's kind {kind} has not {count} nodes"
             raise InputError(file.path, "offsets", problem, "write the mesh anew")
-        found.append((int(kind), which, corners[(ends[which] - count)[:, None] + np.arange(count)]))
-    return found
+        blocks.append((CELLS[int(kind)], file.corners[(file.ends[which] - count)[:, None] + np.arange(count)]))
+        for name, values in file.cell_fields.items():
+            cell_data[name].append(values[which])
+    return RawMesh(file.points, blocks, cell_data, file.point_fields, passed_over=file.left_out)

@@ -4,7 +4,6 @@ import argparse
 import hashlib
 import os
 import re
-import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -12,7 +11,7 @@ from pathlib import Path
 from typing import Iterable
 
 from ..base.errors import InputError
-from ..base.files import absolute, exists, is_file, is_folder, read_bytes
+from ..base.files import absolute, exists, find_beside, is_file, is_folder, read_bytes
 from .processes import answer
 
 BUILD = "build it with cmake --build --preset release, or name it with --program"
@@ -72,15 +71,6 @@ def need_mesh_maker(driver: Program) -> Path:
 
 def no_mesh_maker() -> InputError:
     return InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
-
-
-def find_beside(program: Path, name: str) -> Path | None:
-    """The program of this name beside another one, else the one on the path."""
-    for folder in (program.parent, absolute(program).parent):
-        if is_file(folder / name):
-            return folder / name
-    found = shutil.which(name)
-    return Path(found) if found else None
 
 
 def answer_to(path: Path, option: str) -> str:

@@ -12,6 +12,8 @@ from fsi_compare.mesh_import.groups import facets_between
 from fsi_compare.mesh_import.parts import found_mesh
 from fsi_compare.mesh_import.readers import read_mesh
 from fsi_compare.mesh_import.sources import Source, read_sources
+from fsi_compare.mesh_import.vtk_file import VtkFile
+from fsi_compare.mesh_import.vtu import mesh_of
 
 # A tetrahedron, and one on its face x + y + z = 1.
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1.0]])
@@ -584,46 +586,23 @@ ends
             read_mesh(folder)
         self.assertIn(f"{words}mesh-complete.msh", str(refused.exception))
 
-    def vtu(self, appended):
-        array = '<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>'
-        parts = [CURVED[:4].astype("<f8"), np.arange(4, dtype="<i8"), np.array([4], "<i8"), np.array([10], "<u1")]
-        offsets = np.cumsum([0, *(4 + part.nbytes for part in parts)])
-        arrays = zip(
-            ("Float64", "Int64", "Int64", "UInt8"),
-            ("Points", "connectivity", "offsets", "types"),
-            (3, 1, 1, 1),
-            offsets,
-        )
-        points, *cells = (array.format(*entry) for entry in arrays)
-        piece = f'<Points>{points}</Points><Cells>{"".join(cells)}</Cells>'
-        head = '<VTKFile type="UnstructuredGrid" byte_order="LittleEndian"><UnstructuredGrid><Piece NumberOfPoints="4" '
-        raw = b"".join(np.uint32(part.nbytes).tobytes() + part.tobytes() for part in parts)
-        data = appended[0].encode() + raw + appended[1].encode() if appended else b""
-        text = f'{head}NumberOfCells="1">{piece}</Piece></UnstructuredGrid>'.encode() + data + b"</VTKFile>"
-        (self.base / "a.vtu").write_bytes(text)
-        return read_mesh(self.base / "a.vtu")
-
-    def test_raw_data_in_either_quotation_marks(self):
-        for mark in ("'", '"'):
-            mesh = self.vtu((f"<AppendedData encoding={mark}raw{mark}>_", "</AppendedData>"))
-            np.testing.assert_array_equal(mesh.points, CURVED[:4])
-
-    def test_appended_data_that_are_not_there(self):
-        with self.assertRaisesRegex(InputError, "Points: is appended to a file without AppendedData"):
-            self.vtu(None)
-
     def test_lagrange_cells_of_vtk_are_quadratic_cells(self):
-        array = '<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="ascii">{}</DataArray>'
-        points = array.format("Float64", "Points", 3, " ".join(map(str, CURVED.ravel())))
-        cells = array.format("Int64", "connectivity", 1, " ".join(map(str, range(10))))
-        cells += array.format("Int64", "offsets", 1, 10) + array.format("UInt8", "types", 1, 71)
-        mesh = self.read(
-            "a.vtu",
-            '<VTKFile type="UnstructuredGrid" byte_order="LittleEndian"><UnstructuredGrid><Piece NumberOfPoints="10" '
-            f'NumberOfCells="1"><Points>{points}</Points><Cells>{cells}</Cells></Piece></UnstructuredGrid></VTKFile>',
-        )
-        self.assertEqual([kind for kind, _ in mesh.blocks], ["tetra10"])
+        ends, kinds = np.array([10, 14]), np.array([71, 10])
+        fields = {"region": np.array([7.0, 8.0])}
+        corners = np.concatenate([np.arange(10), np.arange(4)])
+        mesh = mesh_of(VtkFile(self.base / "a.vtu", CURVED, ends, kinds, corners, cell_fields=fields))
+        self.assertEqual([kind for kind, _ in mesh.blocks], ["tetra", "tetra10"])
         self.expect_middles(mesh)
+        np.testing.assert_array_equal(mesh.cell_data["region"], [[8], [7]])
+
+    def test_cells_of_vtk_that_are_none_of_ours(self):
+        for kind, count, words in (
+            (42, 4, "has a cell of VTK's kind 42"),
+            (10, 5, "a cell of VTK's kind 10 has not 4 nodes"),
+        ):
+            file = VtkFile(self.base / "a.vtu", POINTS, np.array([count]), np.array([kind]), np.arange(count))
+            with self.assertRaisesRegex(InputError, words):
+                mesh_of(file)
 
 
 if __name__ == "__main__":

@@ -223,7 +223,7 @@ class SeveralFiles(FolderTest):
         lumen = ("fluid=lumen.vtu",)
         for files, options, words in (
             ((*lumen, "wall=none.vtu"), (), "error: none.vtu: no such file"),
-            ((*lumen, "inlet=text.vtp"), (), "error: text.vtp: is no XML"),
+            ((*lumen, "inlet=text.vtp"), (), "error: text.vtp: is no file of VTK"),
             ((*lumen, "fluid=wall.vtu"), (), "error: fluid: is the name of two files"),
             ((*lumen, "inlet="), (), "error: inlet: 'inlet=' names no file"),
             (("inlet.vtp",), (), "error: inlet.vtp: is a surface, which no reader takes"),
@@ -410,7 +410,7 @@ class MeshImport(FolderTest):
             (self.base / name).write_text("no mesh")
         for file, options, words in (
             ("none.vtu", (), ("none.vtu: no such file",)),
-            ("text.vtu", (), ("text.vtu: is no XML",)),
+            ("text.vtu", (), ("text.vtu: is no file of VTK",)),
             ("text.med", (), ("cannot be read as MED",)),
             ("text.unv", (), ("is a universal file of I-DEAS, which no reader takes",)),
             ("text.inp", (), ("line 1: 'no mesh' stands before any keyword",)),

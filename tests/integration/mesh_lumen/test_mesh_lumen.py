@@ -316,7 +316,7 @@ class MeshLumen(FolderTest):
         (self.base / "empty.stl").touch()
         self.expect(self.lumen(*named, name="empty.stl"), "empty.stl: holds no triangles")
         (self.base / "lumen.vtp").write_text("<VTKFile")
-        self.expect(self.lumen(*named, name="lumen.vtp"), "lumen.vtp: is no XML")
+        self.expect(self.lumen(*named, name="lumen.vtp"), "lumen.vtp: is cut off")
 
     def test_mended_and_said(self):
         nodes, triangles = tube()

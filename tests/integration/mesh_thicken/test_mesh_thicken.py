@@ -443,7 +443,7 @@ class MeshThicken(FolderTest):
                 ("text.csv: line 2, thickness: 'thick' is no number",),
             ),
             ((*self.table(line, "line.csv"), "--thickness-field", "t"), ("line.csv: column t: is missing",)),
-            ((*painted[:3], "w"), ("wall.vtp: w: is no field of one number at each point; those there are: wall",)),
+            ((*painted[:3], "w"), ('wall.vtp: field: "w" is none of its fields; give wall',)),
             ((*self.table(line, "line.csv"), "--thickness-ratio", "0.1"), ("--thickness-",)),
             ((), ("media=75%:2: '75%' is no thickness in mm",)),
         ):

@@ -77,7 +77,7 @@ class Tables(FolderTest):
             self.assertIn("--threads", process.stdout, words)
         helped = execute(bin_folder / "fsi-compare", "--help").stdout
         there = set(re.findall(r"(?m)^    ([a-z-]+)(?:  |$)", helped))
-        there -= {"convert-mesh", "convert-surface", "convert-case"}  # fsi-mesh calls those
+        there -= {"convert-mesh", "convert-case"}  # fsi-mesh calls those
         self.assertEqual({c[1] for c in commands if c[0] == "fsi-compare"}, there)
         of_drivers = re.search(r"All take (.*?)\n\n", TEXT, re.DOTALL).group(1)
         for driver in DRIVERS:

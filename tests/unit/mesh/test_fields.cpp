@@ -1,8 +1,12 @@
 // Fields of files at any place, and shapes of regions.
 
 #include <gtest/gtest.h>
+#include <lzma.h>
+#include <zlib.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
@@ -174,8 +178,8 @@ TEST(VtkFile, IsRefusedWhereItIsDamaged) {
        {std::size_t{0}, std::size_t{100}, text_of_vtk.find("AAAA"), text_of_vtk.size() / 2}) {
     const std::string torn = text_of_vtk.substr(0, length);
     try {
-      const VtkMesh mesh = read_vtk(torn, "a.vtu");
-      EXPECT_TRUE(mesh.arrays.empty()) << length;
+      read_vtk(torn, "a.vtu");
+      ADD_FAILURE() << "no message for " << length;
     } catch (const InputError& error) {
       EXPECT_EQ(std::string(error.what()).rfind("a.vtu: ", 0), 0u) << error.what();
     }
@@ -183,6 +187,68 @@ TEST(VtkFile, IsRefusedWhereItIsDamaged) {
   std::string other = text_of_vtk;
   other.replace(other.find("0 1 2 3<"), 8, "0 1 2 9<");
   EXPECT_THROW(read_vtk(other, "a.vtu"), InputError);
+  other = text_of_vtk;
+  other.replace(other.find(">5<"), 3, ">5 6<");
+  EXPECT_THROW(read_vtk(other, "a.vtu"), InputError);
+}
+
+/// A whole number as a header or an array has it, most significant byte first or last.
+std::string bytes_of(std::uint64_t number, int size, bool turned) {
+  std::string bytes;
+  for (int k = 0; k < size; ++k) bytes += static_cast<char>(number >> 8 * (turned ? size - 1 - k : k) & 0xFF);
+  return bytes;
+}
+
+/// A field `a&b` of 1, 2, 300 at three points, appended raw. \param words  of the file's first tag \param data  of the field
+std::string appended_vtk(const std::string& words, const std::string& data, char mark = '"') {
+  return "<VTKFile type=\"PolyData\" " + words + "><PolyData><Piece NumberOfPoints=\"3\" NumberOfLines=\"2\"><Points>" +
+         "<DataArray type=\"Float32\" NumberOfComponents=\"3\">0 0 0 1 0 0 0 1 0</DataArray></Points><PointData>" +
+         "<DataArray type=\"UInt16\" Name=\"a&amp;b\" format=\"appended\" "
+         "offset=\"0\"/></PointData></Piece></PolyData>" +
+         "<AppendedData encoding=" + mark + "raw" + mark + ">_" + data + "</AppendedData></VTKFile>";
+}
+
+TEST(VtkFile, IsReadAppendedInEitherOrderOfBytesAndPackedByZlibOrLzma) {
+  for (const bool turned : {false, true}) {
+    const std::string order = turned ? "byte_order=\"BigEndian\" " : "",
+                      numbers = bytes_of(1, 2, turned) + bytes_of(2, 2, turned) + bytes_of(300, 2, turned);
+    const auto packed = [&](const std::string& block) {
+      return bytes_of(1, 8, turned) + bytes_of(6, 8, turned) + bytes_of(0, 8, turned) +
+             bytes_of(block.size(), 8, turned) + block;
+    };
+    const auto* from = reinterpret_cast<const std::uint8_t*>(numbers.data());
+    std::string by_zlib(200, ' '), by_lzma(200, ' ');
+    uLongf zlib_bytes = by_zlib.size();
+    ASSERT_EQ(compress(reinterpret_cast<Bytef*>(by_zlib.data()), &zlib_bytes, from, numbers.size()), Z_OK);
+    by_zlib.resize(zlib_bytes);
+    std::size_t lzma_bytes = 0;
+    ASSERT_EQ(lzma_easy_buffer_encode(1, LZMA_CHECK_CRC32, nullptr, from, numbers.size(),
+                                      reinterpret_cast<std::uint8_t*>(by_lzma.data()), &lzma_bytes, by_lzma.size()),
+              LZMA_OK);
+    by_lzma.resize(lzma_bytes);
+    const std::string wide = order + "header_type=\"UInt64\" compressor=";
+    for (const auto& text : {appended_vtk(order, bytes_of(6, 4, turned) + numbers, '\''),
+                             appended_vtk(wide + "\"vtkZLibDataCompressor\"", packed(by_zlib)),
+                             appended_vtk(wide + "\"vtkLZMADataCompressor\"", packed(by_lzma))}) {
+      const VtkMesh mesh = read_vtk(text, "a.vtp");
+      ASSERT_EQ(mesh.arrays.size(), 1u);
+      EXPECT_EQ(mesh.arrays[0].name, "a&b");
+      EXPECT_EQ(mesh.arrays[0].values, (std::vector<double>{1, 2, 300}));
+      EXPECT_TRUE(mesh.is_surface);
+      EXPECT_EQ(mesh.lines, 2);
+      EXPECT_TRUE(read_vtk(text, "a.vtp", [](const VtkMesh::Array&) { return false; }).arrays[0].values.empty());
+    }
+    EXPECT_THROW(read_vtk(appended_vtk(wide + "\"vtkZLibDataCompressor\"", packed(by_lzma)), "a.vtp"), InputError);
+    EXPECT_THROW(read_vtk(appended_vtk(wide + "\"vtkLZ4DataCompressor\"", packed(by_zlib)), "a.vtp"), InputError);
+  }
+  std::string bare = appended_vtk("", "");
+  bare.erase(bare.find("<AppendedData"), bare.find("</VTKFile>") - bare.find("<AppendedData"));
+  try {
+    read_vtk(bare, "a.vtp");
+    FAIL() << "no message";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "a.vtp: has an appended array without AppendedData; write it anew as .vtu or .vtp");
+  }
 }
 
 TEST(RegionDistance, OfEveryShape) {

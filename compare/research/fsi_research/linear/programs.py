@@ -3,7 +3,8 @@
 from pathlib import Path
 from typing import Optional
 
-from fsi_compare.starting.programs import Program, answer_to, find_beside, find_program
+from fsi_compare.base.files import find_beside
+from fsi_compare.starting.programs import Program, answer_to, find_program
 
 NAME = "fsi-linear-study"
 
