@@ -1,5 +1,5 @@
 """Keeps the gallery's page under docs/: text and tables as docs/evidence/gallery.md, pictures as docs/pictures/gallery-*.png. What
-all kinds of coupling take is measured apart, by scripts/evidence/coupling_kinds.py, and stands on docs/guide/coupling.md alone.
+all kinds of coupling take is measured apart, by scripts/evidence/coupling_kinds.py, and stands on docs/evidence/coupling-kinds.md alone.
 
 usage: python3 scripts/evidence/keep_gallery.py FOLDER    (results/gallery, as fsi-compare gallery leaves it)
 """
@@ -18,7 +18,7 @@ COST = re.compile(
     re.I,
 )
 MEASURED = ("work units per step", "seconds")  # columns
-ELSEWHERE = "Seconds and memory of both drivers: [guide/coupling.md](../guide/coupling.md).\n"
+ELSEWHERE = "Seconds of coupled scenes by each kind of coupling: [coupling-kinds](coupling-kinds.md).\n"
 
 
 def without_seconds(text: str) -> str:

@@ -5,7 +5,7 @@ usage: python3 scripts/evidence/readme_picture.py [-o FILE.png]
        python3 scripts/evidence/readme_picture.py --measure BIN WORK
   -o FILE.png          where the picture goes; docs/pictures/artery-both-drivers.png unless given
   --measure BIN WORK   makes the numbers of the wave anew, and the error that a run leaves for its seconds by mesh and step
-                       (docs/guide/coupling.md), with the programs of BIN (build/release/bin); WORK keeps meshes and runs. Minutes.
+                       (docs/guide/accuracy.md), with the programs of BIN (build/release/bin); WORK keeps meshes and runs. Minutes.
 """
 
 import csv
