@@ -3,7 +3,7 @@
 usage: python3 scripts/evidence/error_tables.py BIN WORK [TABLE...]
   BIN     folder of the programs, build/release/bin
   WORK    keeps meshes and runs: a finished run is not made again
-  TABLE   of mesh-error-seconds, step-error, wave-error, vessel-error-seconds, beat-step-error; all of them unless given
+  TABLE   of mesh-error-seconds, step-error, adaptive-steps, wave-error, vessel-error-seconds, beat-step-error; all of them unless given
 Writes docs/data/TABLE.csv. One thread each. Errors are relative L2 norms in percent; each table says of what, and against what.
 """
 
@@ -207,6 +207,35 @@ def step_error(runner: Runner) -> None:
         "axisymmetric neo-Hookean artery, p2p1, mesh of 1,387 nodes, newton.tolerance 1e-6, against tr-bdf2 at 1/256 ms on the same mesh;\n"
         f"relative L2 norms along z, mean and worst of {LATE} ms",
         ("scheme", "step [ms]", *quantities, "pressure, mean [%]", "pressure, worst [%]"),
+        rows,
+    )
+
+
+def adaptive_steps(runner: Runner) -> None:
+    common = ("mesh.waves=damped", "time.end=9.375", "newton.tolerance=1e-6", 'time.scheme="midpoint"')
+    best = runner.run("step-reference", AXISYMMETRIC, ('time.scheme="tr-bdf2"', f"time.step={1 / 256}", *common[:3]))
+    rows: Rows = []
+    for label, settings in (
+        ("1/8 ms", ("time.step=0.125",)),
+        ("tolerance 0.04", ('time.step="adaptive"', "time.tolerance=0.04")),
+        ("1/16 ms", ("time.step=0.0625",)),
+        ("tolerance 0.02", ('time.step="adaptive"', "time.tolerance=0.02")),
+        ("tolerance 0.01", ('time.step="adaptive"', "time.tolerance=0.01")),
+        ("1/32 ms", ("time.step=0.03125",)),
+    ):
+        run = runner.run(f"adaptive-{named(label).replace('/', '-')}", AXISYMMETRIC, (*settings, *common))
+        errors = runner.errors(best.folder, run, LATE)
+        totals = run.summary()["totals"]
+        means = [
+            100 * sum(row[name] for row in errors) / len(errors) for name in ("radial", "pressure", "averaged_pressure")
+        ]
+        rejected = totals["rejected_steps"]
+        rows.append((label, totals["steps"] + rejected, rejected, *(digits(value, 2) for value in means)))
+    keep(
+        "adaptive-steps",
+        "midpoint, steps of equal length and adaptive ones; case, mesh, reference and norms of step-error.csv, means; steps: those that\n"
+        "were solved, the rejected ones with them",
+        ("step", "steps", "rejected", "displacement [%]", "pressure [%]", "averaged pressure [%]"),
         rows,
     )
 
@@ -431,6 +460,7 @@ def smooth_flow(path: Path) -> None:
 TABLES: Dict[str, Callable[[Runner], None]] = {
     "mesh-error-seconds": mesh_error_seconds,
     "step-error": step_error,
+    "adaptive-steps": adaptive_steps,
     "wave-error": wave_error,
     "vessel-error-seconds": vessel_error_seconds,
     "beat-step-error": beat_step_error,
