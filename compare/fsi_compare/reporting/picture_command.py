@@ -36,7 +36,7 @@ def add_parser(commands: Commands, version: str) -> None:
     text = "opened by a plane (default: for the velocity)"
     command.add_argument("--cut", action=argparse.BooleanOptionalAction, help=text)
     command.add_argument("--unit", metavar="UNIT", help="of stresses and pressures: kPa, Pa or mmHg")
-    text = "of the colours, in the unit (default: 99th percentile of all times)"
+    text = "of the colours, in the unit (default: 1st, or 0, and 99th percentile of all times)"
     command.add_argument("--range", metavar="LOW,HIGH", help=text)
     command.add_argument("--view", metavar="VIEW", help="look from x, -x, y, -y, z, -z or an opening")
     add_usual(command, version, "accepted as by all programs; a picture is drawn on one thread")

@@ -1,5 +1,5 @@
 """Which faces of the fluid's boundary are its openings. `fields.h5` has no names of surfaces; an opening is a flat
-piece of the boundary whose flow and mean pressure are those of a name in `openings.csv`."""
+piece of the boundary whose flow and mean pressure are those of a name in `openings.csv` or `flow.csv`."""
 
 from typing import Mapping
 
