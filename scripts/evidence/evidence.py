@@ -209,6 +209,11 @@ def make(item: Item, programs: Path, work: Path) -> bool:
     return True
 
 
+def not_written(item: Item, since: float) -> List[str]:
+    """What it should have made and has left as it was. `since`: seconds of time.time()"""
+    return [file for file in item.files() if (TOP / file).stat().st_mtime < since]
+
+
 def main(words: List[str]) -> int:
     parser = argparse.ArgumentParser(add_help=False)
     parser.add_argument("-h", "--help", action="store_true")
@@ -240,8 +245,13 @@ def main(words: List[str]) -> int:
         if not options.items and (item.long or not wanted):
             continue
         print(f"== {item.name}, about {item.minutes:g} min", flush=True)
-        start = time.monotonic()
+        start, begun = time.monotonic(), time.time() - 1
         if not make(item, programs, options.work.resolve()):
+            failed.append(item.name)
+            continue
+        left = not_written(item, begun)
+        if left:
+            print(f"evidence: error: {item.name}: no command has written {', '.join(left)}", file=sys.stderr)
             failed.append(item.name)
             continue
         age = age_of(programs)

@@ -6,6 +6,7 @@ FOLDER: as fsi-compare study NAME leaves it.
 """
 
 import csv
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -33,6 +34,8 @@ def main(words: List[str]) -> int:
         columns = [column for column in rows[0] if column not in LEFT_OUT[name]]
         cells = [[rounded(row[column]) for column in columns] for row in rows]
         write_table(DATA / f"{name}.csv", ORIGIN.format(name=name), columns, cells)
+        if name == "references":
+            shutil.copyfile(source.with_suffix(".png"), DATA.parent / "pictures/references.png")
     except OSError as error:
         fail(f"{error.filename}: {error.strerror}; run fsi-compare study {name} first")
     return subprocess.run([sys.executable, Path(__file__).with_name("kept_pages.py")], check=False).returncode

@@ -89,6 +89,12 @@ class Stale(unittest.TestCase):
     def test_nothing_made(self):
         self.assertRegex(self.told(NOW, self.item._replace(makes=("gone.csv",)))[0], "nothing of gone.csv")
 
+    def test_what_a_command_has_left_as_it_was(self):
+        table = evidence.TOP / "table.csv"
+        written = table.stat().st_mtime
+        self.assertEqual(evidence.not_written(self.item, written - 1), [])
+        self.assertEqual(evidence.not_written(self.item, written + 1), ["table.csv"])
+
 
 class ShortRuns(unittest.TestCase):
     KEPT = [Value("a", "pressure_Pa", 50.0), Value("b", "pressure_Pa", 1.0)]
