@@ -26,10 +26,7 @@ OF_RUNS = {
     "verify": "fsi_compare.verify.command",
     "tune": "fsi_compare.tune.command",
 }
-OF_IMPORT = {
-    "convert-mesh": "fsi_compare.mesh_import.command",
-    "convert-case": "fsi_compare.peer_cases.command",
-}
+OF_IMPORT = {"convert-mesh": "fsi_compare.mesh_import.command", "convert-case": "fsi_compare.peer_cases.command"}
 
 
 class _Parser(argparse.ArgumentParser):
