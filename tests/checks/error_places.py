@@ -18,6 +18,8 @@ BEHIND_THE_READER = (
     "common/materials/material.cpp",
     "common/mesh/axis.cpp",
 )
+# The mesh is too large or too flat for what is made of it; a case has one.
+OF_THE_MESH = ("common/algebra/entry_count.cpp", "common/derived/gradient_recovery.cpp")
 MADE = re.compile(r"\bInputError\(\s*(\"\"|std::string\(\)|\{\})\s*,")
 
 
@@ -32,7 +34,7 @@ def problems(root):
     for top in TOP_FOLDERS:
         for path in sorted((root / top).rglob("*.[ch]pp")):
             name = path.relative_to(root).as_posix()
-            if name in OF_THE_COMMAND_LINE or name in BEHIND_THE_READER:
+            if name in (*OF_THE_COMMAND_LINE, *BEHIND_THE_READER, *OF_THE_MESH):
                 continue
             lines = nameless(path.read_text(encoding="utf-8"))
             found += [f"{name}:{line}: an InputError without file" for line in lines]
