@@ -53,7 +53,6 @@ void keep_linear_fields(const std::vector<PatchPoint>& patch, const std::vector<
   }
 }
 
-/// Finds weights for one node after another.
 /// The nodes of a single cell determine the element's polynomial, unless rounding hides its thickness.
 InputError too_flat(const Point& x) {
   return {"", "mesh",
@@ -63,6 +62,7 @@ InputError too_flat(const Point& x) {
           "indicator"};
 }
 
+/// Finds weights for one node after another.
 class WeightSearch {
  public:
   explicit WeightSearch(const RecoveryCells& cells)

@@ -273,11 +273,16 @@ class Arrays {
 /// The arrays of one piece as the file names them.
 struct Piece {
   bool is_surface = false;
+  std::int64_t others = 0;  ///< vertices, lines and strips of a surface
   std::vector<double> points, connectivity, offsets, types;
   std::vector<VtkMesh::Array> arrays;
 };
 
-void add(const Piece& piece, VtkMesh& mesh) {
+bool is_read(const VtkMesh::Array& array, const VtkWanted& wanted) {
+  return array.of_numbers && (!wanted || wanted(array));
+}
+
+void add(const Piece& piece, const VtkWanted& wanted, VtkMesh& mesh) {
   const auto first = static_cast<double>(mesh.nodes.size());
   const std::size_t cells_before = mesh.cells.size();
   if (piece.points.size() % 3 != 0) throw Damaged("has points without three coordinates");
@@ -302,9 +307,9 @@ void add(const Piece& piece, VtkMesh& mesh) {
   ++mesh.pieces;
   for (const auto& array : piece.arrays) {
     const std::size_t places = array.of_cells ? mesh.cells.size() - cells_before : piece.points.size() / 3;
-    // Cell fields of surfaces begin with those of vertices and lines.
-    if (!array.values.empty() && array.values.size() != places * static_cast<std::size_t>(array.components) &&
-        !(piece.is_surface && array.of_cells))
+    // Cell fields of surfaces have numbers for vertices, lines and strips, too.
+    if (is_read(array, wanted) && array.values.size() != places * static_cast<std::size_t>(array.components) &&
+        !(array.of_cells && piece.others > 0))
       throw Damaged(fmt::format("has {} numbers of \"{}\" for {} {}", array.values.size(), array.name, places,
                                 array.of_cells ? "cells" : "points"));
     const auto known = std::find_if(mesh.arrays.begin(), mesh.arrays.end(), [&](const auto& other) {
@@ -350,10 +355,12 @@ VtkMesh mesh_of(const std::string& text, const VtkWanted& wanted) {
       piece = {};
       piece.is_surface = mesh.is_surface;
       const auto count = [&](const char* what) { return std::strtoll(tag.at(what, "0").c_str(), nullptr, 10); };
-      mesh.lines += count("NumberOfVerts") + count("NumberOfLines");
-      mesh.strips += count("NumberOfStrips");
+      const auto lines = count("NumberOfVerts") + count("NumberOfLines"), strips = count("NumberOfStrips");
+      piece.others = lines + strips;
+      mesh.lines += lines;
+      mesh.strips += strips;
     } else if (tag.name == "/Piece") {
-      add(piece, mesh);
+      add(piece, wanted, mesh);
     } else if (tag.name == "DataArray") {
       if (!arrays) throw Damaged("is no file of VTK");
       const std::string name = tag.at("Name");
@@ -370,7 +377,7 @@ VtkMesh mesh_of(const std::string& text, const VtkWanted& wanted) {
                              std::max(1, std::atoi(tag.at("NumberOfComponents", "1").c_str())),
                              {},
                              1};
-        if (array.of_numbers && (!wanted || wanted(array))) array.values = arrays->numbers(tag);
+        if (is_read(array, wanted)) array.values = arrays->numbers(tag);
         piece.arrays.push_back(std::move(array));
       }
     } else if (tag.name == "Points" || tag.name == "Cells" || tag.name == "Polys" || tag.name == "PointData" ||

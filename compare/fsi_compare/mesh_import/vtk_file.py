@@ -37,7 +37,7 @@ def read_vtk(path: Path) -> VtkFile:
     program = find_beside(Path(sys.argv[0]), "fsi-mesh")
     if program is None:
         raise InputError("fsi-mesh", "", "is neither beside fsi-compare nor on the path", "install both together")
-    done = subprocess.run([program, "vtk-arrays", path], stdin=subprocess.DEVNULL, capture_output=True)
+    done = subprocess.run([program, "vtk-arrays", "--", path], stdin=subprocess.DEVNULL, capture_output=True)
     if done.returncode != 0:
         said = done.stderr.decode(errors="replace").strip().removeprefix("fsi-mesh: error: ")
         raise InputError(path, "", said.removeprefix(f"{path}: ") or f"fsi-mesh ended with {done.returncode}", "")

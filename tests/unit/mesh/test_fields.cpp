@@ -188,8 +188,11 @@ TEST(VtkFile, IsRefusedWhereItIsDamaged) {
   other.replace(other.find("0 1 2 3<"), 8, "0 1 2 9<");
   EXPECT_THROW(read_vtk(other, "a.vtu"), InputError);
   other = text_of_vtk;
-  other.replace(other.find(">5<"), 3, ">5 6<");
-  EXPECT_THROW(read_vtk(other, "a.vtu"), InputError);
+  for (const char* numbers : {">5 6<", "><"}) {
+    other = text_of_vtk;
+    other.replace(other.find(">5<"), 3, numbers);
+    EXPECT_THROW(read_vtk(other, "a.vtu"), InputError) << numbers;
+  }
 }
 
 /// A whole number as a header or an array has it, most significant byte first or last.
