@@ -43,10 +43,10 @@ class _Running:
     start: float  # s, later by the time in which it was stopped
 
 
-def execute(command: Sequence, tick: Callable[[], None] = lambda: None) -> End:
-    """Runs one program to its end, calling `tick` about once a second."""
+def execute(command: Sequence) -> End:
+    """Runs one program to its end."""
     ends: list[End] = []
-    run_jobs([Job(0, command)], 1, lambda key, end: ends.append(end), lambda running: tick() if running else None)
+    run_jobs([Job(0, command)], 1, lambda key, end: ends.append(end))
     return ends[0]
 
 

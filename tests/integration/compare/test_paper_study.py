@@ -318,6 +318,8 @@ class Checks(FolderCase):
             "report.linear.later_meshes",
             "did you mean 'coarse'?",
         )
+        for jobs in ("0", "true", '"two"'):
+            self.refused("jobs = 2 ", f"jobs = {jobs} ", "report.linear.jobs", "give 1 or more")
         self.refused("neo-hookean =", "neohookean =", "runs.cost", "'neo-hookean' is unknown")
         self.refused("[methods.monolithic]", "[methods.mono]", "runs.waves")
 
@@ -402,7 +404,7 @@ class WholeStudy(StudyCase):
         self.assertEqual(self.verdict("artery's wave is slower"), "not reproduced")
         self.assertEqual(self.verdict("diagonal preconditioner"), "reproduced")
         self.assertEqual(self.verdict("increase when the mesh is refined"), "no run for it")
-        self.assertIn("linear systems", page)
+        self.assertIn("The linear systems were solved 2 at once", page)
         made = len(calls(self.programs))
         with mock.patch("fsi_compare.reporting.pictures.Figure.savefig"):  # the second time about the runs alone
             code, _, err = self.call("--quick", "-q")

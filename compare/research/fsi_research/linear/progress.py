@@ -2,8 +2,7 @@
 that the tables can be piped."""
 
 import sys
-import time
-from typing import List, Optional, Tuple
+from typing import List, Optional, Sequence, Tuple
 
 from fsi_compare.starting.duration import duration
 
@@ -12,37 +11,32 @@ class Progress:
     """Runs are weighted by their expected work; the time left follows from those that have ended, by preference from
     those of the same kind (mesh)."""
 
-    def __init__(self, runs: List[Tuple[str, str, float]], quiet: bool):
-        self._left = list(runs)  # name, kind, weight
-        self._total = len(runs)
+    def __init__(self, runs: List[Tuple[str, str, float]], quiet: bool, jobs: int = 1):
+        self._left = {name: (kind, weight) for name, kind, weight in runs}
+        self._total, self._jobs = len(runs), jobs
         self._known: List[Tuple[str, float, float]] = []  # kind, weight, seconds
         self._quiet = quiet
         self._terminal = sys.stderr.isatty()
-        self._start = 0.0
         self._held: Optional[List[str]] = []  # refusals, while there is nothing else; None: there is
 
-    def known(self, seconds: float) -> None:
-        """The next run was finished earlier and took that long then."""
+    def known(self, name: str, seconds: float) -> None:
+        """This run was finished earlier and took that long then."""
         self._release()
-        name, kind, weight = self._left.pop(0)
+        kind, weight = self._left.pop(name)
         if seconds > 0:
             self._known.append((kind, weight, seconds))
         self._say(f"{self._place(name)}: there already")
 
-    def begin(self) -> None:
-        self._start = time.monotonic()
-        self.tick()
-
-    def tick(self) -> None:
-        if self._terminal and not self._quiet:
-            running = time.monotonic() - self._start
-            text = f"{self._place(self._left[0][0], 1)}: {duration(running)}{self._left_text(running)}"
+    def tick(self, names: Sequence[str]) -> None:
+        """These runs are on their way."""
+        if self._terminal and not self._quiet and names:
+            text = f"{self._place(', '.join(names), len(names))}{self._left_text()}"
             print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
 
-    def end(self, failure: str, refused: bool, seconds: float) -> None:
-        """The next run has ended, well or with a failure; `refused`: as wrong use or bad input. As long as all are
+    def end(self, name: str, failure: str, refused: bool, seconds: float) -> None:
+        """This run has ended, well or with a failure; `refused`: as wrong use or bad input. As long as all are
         refused the mistake may be the study's own, to be reported once, so that the messages wait."""
-        name, kind, weight = self._left.pop(0)
+        kind, weight = self._left.pop(name)
         if failure:
             text = f"{self._place(name)}: failed: {failure}"
             self._clear()
@@ -54,25 +48,23 @@ class Progress:
             return
         self._release()
         self._known.append((kind, weight, seconds))
-        self._say(f"{self._place(name)}: {duration(seconds)}{self._left_text(0)}")
+        self._say(f"{self._place(name)}: {duration(seconds)}{self._left_text()}")
 
     def _place(self, name: str, running: int = 0) -> str:
         return f"[{self._total - len(self._left) + running}/{self._total}] {name}"
 
-    def _left_text(self, running: float) -> str:
+    def _left_text(self) -> str:
         left = self.seconds_left()
-        if left is None or not self._left:
-            return ""
-        return f", about {duration(max(0.0, left - running))} left"
+        return f", about {duration(left)} left" if left is not None and self._left else ""
 
     def seconds_left(self) -> Optional[float]:
         if not self._known:
             return None
         total = 0.0
-        for _, kind, weight in self._left:
+        for kind, weight in self._left.values():
             like = [entry for entry in self._known if entry[0] == kind] or self._known
             total += weight * sum(seconds for _, _, seconds in like) / sum(w for _, w, _ in like)
-        return total
+        return total / self._jobs
 
     def _release(self) -> None:
         for text in self._held or ():

@@ -3,16 +3,15 @@ can be stopped at any moment and called again: what is finished stays."""
 
 import hashlib
 import json
-import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import List, Optional, Sequence, Tuple
+from typing import Dict, Iterator, List, Optional, Sequence, Tuple
 
 from fsi_compare.base.errors import InputError, ProgramError
 from fsi_compare.base.files import exists, make_folder, read_bytes, read_object, remove_tree, replacing, sweep
 from fsi_compare.study.mesh_levels import MESH_NODES
 from fsi_compare.starting.case_digest import case_digest
-from fsi_compare.starting.processes import End, execute
+from fsi_compare.starting.processes import End, Job, run_jobs
 from fsi_compare.starting.programs import Program
 from .progress import Progress
 from .results import FILE, LinearSolvers, System, read_linear_solvers
@@ -90,23 +89,32 @@ class Outcome:
         )
 
 
-def run_study(program: Program, folder: Path, requests: Sequence[Request], quiet: bool) -> List[Outcome]:
-    """Every run that is not in `folder` yet. A failure is reported and the study goes on; only when nothing but
-    refusals came back is the mistake in what was asked for: InputError."""
-    progress = Progress([(request.name, request.mesh, request.weight()) for request in requests], quiet)
-    outcomes = []
-    for request in requests:
-        place = folder / request.name
-        found = finished(place, request, program.version)
+def run_study(program: Program, folder: Path, requests: Sequence[Request], quiet: bool, jobs: int = 1) -> List[Outcome]:
+    """Every run that is not in `folder` yet, `jobs` at once; more than one spoils the seconds. A failure is reported
+    and the study goes on; only when nothing but refusals came back is the mistake in what was asked for: InputError."""
+    progress = Progress([(request.name, request.mesh, request.weight()) for request in requests], quiet, jobs)
+    outcomes: Dict[int, Outcome] = {}
+    for index, request in enumerate(requests):
+        found = finished(folder / request.name, request, program.version)
         if found:
             results, seconds, executable = found
-            progress.known(seconds)
-            outcomes.append(Outcome(request, results, taken_up=True, executable=executable))
-        else:
-            outcomes.append(_run(program, place, request, progress))
-    if outcomes and all(outcome.refused for outcome in outcomes):
+            progress.known(request.name, seconds)
+            outcomes[index] = Outcome(request, results, taken_up=True, executable=executable)
+
+    def commands() -> Iterator[Job]:
+        for index, request in enumerate(requests):
+            if index not in outcomes:
+                _prepare(folder / request.name)
+                yield Job(index, request.command(program, folder / request.name))
+
+    def ended(index: int, end: End) -> None:
+        outcomes[index] = _judge(program, folder / requests[index].name, requests[index], end)
+        progress.end(requests[index].name, outcomes[index].failure, outcomes[index].refused, end.seconds)
+
+    run_jobs(commands(), jobs, ended, lambda running: progress.tick([requests[index].name for index in running]))
+    if outcomes and all(outcome.refused for outcome in outcomes.values()):
         raise ProgramError("", "", outcomes[0].failure)
-    return outcomes
+    return [outcomes[index] for index in range(len(requests))]
 
 
 def finished(place: Path, request: Request, version: str) -> Optional[Tuple[LinearSolvers, float, str]]:
@@ -138,26 +146,24 @@ def _require(results: LinearSolvers, request: Request) -> None:
         raise InputError(FILE, "sub_problems", "is empty")
 
 
-def _run(program: Program, place: Path, request: Request, progress: Progress) -> Outcome:
+def _prepare(place: Path) -> None:
     make_folder(place)
     sweep(place)
     for name in (FILE, REQUEST):  # an old result must not pass for that of a run that fails
         remove_tree(place / name)
-    start = time.monotonic()
-    progress.begin()
-    ended = execute(request.command(program, place), progress.tick)
-    seconds = time.monotonic() - start
-    outcome = _outcome(place, request, ended, program.version)
+
+
+def _judge(program: Program, place: Path, request: Request, end: End) -> Outcome:
+    outcome = _outcome(place, request, end, program.version)
     if outcome.results is not None:
         memory = {
             **request.fingerprint(),
             "case_hash": outcome.results.case_hash,
-            "seconds": round(seconds, 3),
+            "seconds": round(end.seconds, 3),
             "executable": program.digest,
         }
         with replacing(place / REQUEST) as temporary:
             temporary.write_text(json.dumps(memory, indent=2) + "\n", encoding="utf-8")
-    progress.end(outcome.failure, outcome.refused, seconds)
     return outcome
 
 

@@ -23,12 +23,13 @@ FOLDER = "linear"
 FIRST_SYSTEM = (1, 1)
 LATER_SYSTEMS = ((1, 2), (1, 3))  # Newton takes four iterations and more in the first step
 TOLERANCE = 1e-9  # the paper's
-KEYS = ("meshes", "methods", "later_meshes", "quick")
+KEYS = ("meshes", "methods", "later_meshes", "jobs", "quick")
 
 
 def check(study: Study) -> None:
     """`[report.linear]`: meshes and methods, later_meshes where the first step's later Newton systems are solved too
-    (default: none), and the same for the quick form. Without the section there are no such runs."""
+    (default: none), jobs for systems at once (default: as many as runs), and the same for the quick form. Without the
+    section there are no such runs."""
     if "linear" not in study.report:
         return
     section = study.report["linear"]
@@ -39,6 +40,9 @@ def check(study: Study) -> None:
         check_keys(study.path, key, part, KEYS)
         for name, known in (("meshes", list(MESHES)), ("methods", list(METHODS))):
             _names(study, f"{key}.{name}", part.get(name, known), known)
+        jobs = part.get("jobs", 1)
+        if not isinstance(jobs, int) or isinstance(jobs, bool) or jobs < 1:
+            raise InputError(study.path, f"{key}.jobs", f"'{jobs}' is not a number of runs", "give 1 or more")
         if "later_meshes" in part:
             _names(study, f"{key}.later_meshes", part["later_meshes"], list(MESHES))
     for case in study.cases:
@@ -61,6 +65,7 @@ class Chosen:
     meshes: List[str]
     methods: List[str]
     later_meshes: List[str]
+    jobs: Optional[int]  # None: as many at once as there are runs of the study
 
 
 def chosen(study: Study) -> Optional[Chosen]:
@@ -70,7 +75,10 @@ def chosen(study: Study) -> Optional[Chosen]:
         return None
     merged: Dict[str, Any] = {**section, **({"later_meshes": [], **section["quick"]} if study.quick else {})}
     return Chosen(
-        merged.get("meshes", list(MESHES)), merged.get("methods", list(METHODS)), merged.get("later_meshes", [])
+        merged.get("meshes", list(MESHES)),
+        merged.get("methods", list(METHODS)),
+        merged.get("later_meshes", []),
+        merged.get("jobs"),
     )
 
 
@@ -85,13 +93,18 @@ def solve(context: Context) -> Tuple[Optional[Grid], Optional[Grid]]:
     folder = runner.folder / FOLDER / "runs"
     make_folder(folder)
     first, later = _requests(context.study, wanted, runner.threads)
-    outcomes = run_study(program, folder, [*first, *later], runner.quiet)
+    outcomes = run_study(program, folder, [*first, *later], runner.quiet, systems_at_once(context))
     builds = Builds("runs of linear systems", f"removing `{FOLDER}/runs`")
     for outcome in outcomes:
         if outcome.taken_up:
             builds.count(program, outcome.executable)
     runner.builds.append(builds)
     return Grid(outcomes[: len(first)]), Grid(outcomes[len(first) :]) if later else None
+
+
+def systems_at_once(context: Context) -> int:
+    wanted = chosen(context.study)
+    return wanted.jobs if wanted is not None and wanted.jobs is not None else context.runner.jobs
 
 
 def standing(study: Study, runner: Runner) -> Standing:

@@ -122,7 +122,7 @@ def evaluate(context: Context) -> int:
     if meshes:
         report.table(paper_tables.mesh_table(meshes))
     if grid:
-        _linear(report, grid)
+        _linear(report, grid, paper_linear.systems_at_once(context))
     if missing:
         report.section("Missing")
         report.list(missing)
@@ -146,7 +146,12 @@ def _stopped(
     report.table(paper_waves.stopped_table(reference, stopped))
 
 
-def _linear(report: Report, grid: Grid) -> None:
+def _linear(report: Report, grid: Grid, at_once: int) -> None:
+    if at_once > 1:
+        report.text(
+            f"The linear systems were solved {at_once} at once: their iterations and cycles are exact, their seconds are "
+            "longer than on a machine of one's own."
+        )
     for table in solver_tables(grid):
         report.table(table)
     if len(grid.meshes) < 2:
