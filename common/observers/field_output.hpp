@@ -21,6 +21,12 @@ inline bool writes_fields(const Case& setup) {
                               output.derived.error_indicator);
 }
 
+/// The fields that a case asks for and its scene has, per grid. Collective over the processes that share the scene.
+template <int n>
+std::vector<std::vector<FieldDescription>> wanted_fields(const Case& setup, const Scene<n>& scene,
+                                                         const DerivedQuantities<n>& derived,
+                                                         const std::vector<FieldGrid>& grids);
+
 /// Field files of a run: the fields that the case asks for and the scene has, one grid per medium. Cells keep their
 /// mid-edge nodes; there pressures are the mean of the edge's ends, as their shape functions have it. Where layers have
 /// vertices of their own, the mid-edge nodes between these are written once for each layer.

@@ -227,6 +227,7 @@ class Restart:
             (ARTERY, ("fluid.density=2",), "another case"),
             (ARTERY, ("time.newmark_beta=0.9",), "another case"),
             (ARTERY, (f"mesh.file={mesh}",), "another mesh"),
+            (ARTERY, ('output.fields=["velocity"]', "output.every=1"), "displacement: is a field that this restart"),
         ):
             process = attempt(self.program, case, "--restart", folder, settings=self.until(2, *settings))
             self.assertEqual(process.returncode, 1)
