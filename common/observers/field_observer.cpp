@@ -30,6 +30,11 @@ class FieldObserver : public Observer {
   void begin(const State& state) override {
     const auto& [folder, from] = std::pair(watched_.folder, watched_.restarted_from);
     const bool restarted = !from.empty();
+    if (writes_fields(watched_.setup))
+      for (const auto& name : unmet_fields<n>(
+               watched_.setup, wanted_fields(watched_.setup, watched_.scene, watched_.derived, watched_.grids)))
+        watched_.messages.warn(
+            fmt::format("output.fields: \"{}\" is no field of this scene: nothing is written of it", name));
     fields_.emplace(watched_.setup, watched_.scene, watched_.derived, watched_.grids, watched_.grid_shares,
                     watched_.loads.axis(), folder, from, restarted ? shown_until(watched_.scene, state) : 0);
     if (!restarted) return;

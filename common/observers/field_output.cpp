@@ -316,6 +316,22 @@ std::vector<std::vector<FieldDescription>> wanted_fields(const Case& setup, cons
 }
 
 template <int n>
+std::vector<std::string> unmet_fields(const Case& setup, const std::vector<std::vector<FieldDescription>>& found) {
+  const auto is_there = [&](std::string_view name) {
+    return std::any_of(found.begin(), found.end(), [&](const auto& of_grid) {
+      return std::any_of(of_grid.begin(), of_grid.end(), [&](const auto& field) { return field.name == name; });
+    });
+  };
+  std::vector<std::string> unmet;
+  for (const auto& name : setup.output.fields)
+    if (!contains(standard_output_fields(), name) &&
+        std::none_of(output_fields<n>.begin(), output_fields<n>.end(),
+                     [&](const auto& field) { return field.asked_by == name && is_there(field.name); }))
+      unmet.push_back(name);
+  return unmet;
+}
+
+template <int n>
 FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const DerivedQuantities<n>& derived,
                             std::vector<FieldGrid> grids, std::vector<GridShare> shares, const TimeAxis& axis,
                             const std::filesystem::path& folder, const std::filesystem::path& restarted_from,
@@ -396,9 +412,10 @@ bool FieldOutput<n>::write(const State& state) {
   return true;
 }
 
-#define FSI_INSTANTIATE(n)                                                                       \
-  template std::vector<std::vector<FieldDescription>> wanted_fields(                             \
-      const Case&, const Scene<n>&, const DerivedQuantities<n>&, const std::vector<FieldGrid>&); \
+#define FSI_INSTANTIATE(n)                                                                                           \
+  template std::vector<std::vector<FieldDescription>> wanted_fields(                                                 \
+      const Case&, const Scene<n>&, const DerivedQuantities<n>&, const std::vector<FieldGrid>&);                     \
+  template std::vector<std::string> unmet_fields<n>(const Case&, const std::vector<std::vector<FieldDescription>>&); \
   template class FieldOutput<n>;
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 

@@ -65,6 +65,7 @@ class Restart:
         self.assertEqual(table(folder, "iterations.csv")[:, 0].tolist(), [1, 2])
         self.assertSameResults(self.go_on(folder), self.whole)
         self.assertEqual(summary(folder)["restarted_from_step"], 2)
+        self.assertEqual(*(summary(of)["wall_deformation"] for of in (folder, self.whole)), "extremes of the whole run")
 
     def test_in_place_by_name(self):
         folder = self.march("by_name", steps=2)
