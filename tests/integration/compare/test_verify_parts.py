@@ -20,6 +20,7 @@ from fsi_compare.verify.cost import Costs, learn
 from fsi_compare.verify.demand import cheapest, refinable, shown_by, tolerance_factor
 from fsi_compare.verify.doubt import doubt, on_common_points, step_within
 from fsi_compare.verify.family import Member, read_case, with_settings
+from fsi_compare.verify.flow_tables import TIMES
 from fsi_compare.verify.found_case import write_case
 from fsi_compare.verify.geo_sizes import graded_text, read_sizes
 from fsi_compare.verify.lean import between, cross, lean, starting_member
@@ -537,6 +538,50 @@ tip = [0, 1, 2]
         self.assertEqual(read_case(path).flow_interval, 2.5)
         given = {"opening": [{"surface": "inlet", "flow_rate": [[0, 0], [4, 1.5], [10, 1.5]]}]}
         self.assertEqual(read_case(path, given).flow_interval, 5)
+
+    def test_tables_of_flows_are_read_as_the_drivers_read_them(self):
+        path, table = self.base / "case.toml", self.base / "beat.csv"
+        rows = "0,1\n\n0.25,3\r\n0.5,1\n"
+
+        def interval(text, flow='{ file = "beat.csv" }'):
+            table.write_bytes(text.encode())
+            path.write_text(self.TEXT.replace('{ file = "beat.csv" }', flow))
+            return read_case(path).flow_interval
+
+        for header, expected in (
+            ("time_ms,flow_ml_per_s", 0.25),
+            ("time_s,flow_ml_per_s", 250),
+            ("s;ml/s", 250),
+            ('"Time [s]",flow', 250),
+            ("t (min),flow", 15000),
+            ("time µs,flow", 2.5e-4),
+            ("TIME_SEC,flow", 250),
+            ("seconds,flow", 0.25),
+        ):
+            with self.subTest(header):
+                self.assertEqual(interval(f"{header}\n{rows}"), expected)
+        self.assertEqual(interval("a;b\n" + rows.replace(",", ";")), 0.25)
+        self.assertEqual(interval("time,flow\n" + rows, '{ file = "beat.csv", time_unit = "s" }'), 250)
+        in_rows = "rows = [[0, 1], [0.25, 3], [0.5, 1]]"
+        self.assertEqual(interval("", "{ " + in_rows + ' , time_unit = "s" }'), 250)
+        self.assertEqual(interval("", "{ " + in_rows + " }"), 0.25)
+        for wrong in ("0 1\n0.25 3\n0.5 1\n", "0,1\nnan,3\n0.5,1\n", "0,1\n0,2\n0,3\n", "0,1\n-inf,3\ninf,1\n", ""):
+            self.assertIsNone(interval("time_s,flow\n" + wrong), wrong)
+        for wrong in (
+            "3.0",
+            '"a"',
+            "[]",
+            "{ file = 3 }",
+            "{ rows = 3 }",
+            "[[0, 1], [], [2, 3]]",
+            f"[[1{400 * '0'}, 1]]",
+        ):
+            self.assertIsNone(interval("time_s,flow\n" + rows, wrong), wrong)
+
+    def test_units_of_time_are_those_of_the_drivers(self):
+        text = (SOURCES / "common" / "case" / "table_units.cpp").read_text()
+        found = re.findall(r'Unit\{ColumnKind::time, "(\w+)", ([\d.e-]+)\}', text)
+        self.assertEqual(TIMES, {name: float(factor) for name, factor in found})
 
 
 class StandardPoints(unittest.TestCase):
