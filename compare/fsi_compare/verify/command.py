@@ -21,7 +21,8 @@ from .family import CaseFacts, Member, Requests, read_case
 from .lean import starting_member
 from .making import Maker
 from .mesh_family import find_recipe
-from .preparing import PRINTED, plan, sample, samples_nothing, tell_mesh, tell_unpaid, tell_unrefined, within_budget
+from .preparing import PRINTED, plan, sample, samples_nothing, tell_mesh, tell_other_mesh, tell_unpaid, tell_unrefined
+from .preparing import within_budget
 from .results import BarsOfRun, Judged, bands, judge
 from .search import Demand, Search, by_each_driver, write_found
 from .tables import bars_table, counts, write_json
@@ -133,6 +134,7 @@ def make(
     facts = requests.facts
     maker = Maker(runner, requests, dimension_of(facts), options.quiet, options.of)
     tell_mesh(maker, requests.recipe)
+    tell_other_mesh(maker)
     if options.error is not None:
         return seek(options, maker, times, programs)
     sample(maker)

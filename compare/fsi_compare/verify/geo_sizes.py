@@ -16,7 +16,7 @@ from ..base.files import read_text
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 CONSTANTS = re.compile(r"DefineConstant\s*\[(.*?)\]\s*;", re.DOTALL)
-CONSTANT = re.compile(rf"(\w+)\s*=\s*(?:\{{\s*)?({NUMBER})")
+CONSTANT = re.compile(r"([A-Za-z_]\w*)\s*=\s*\{?([^,{}]*)")
 SIZES = (
     re.compile(r"Point\s*\([^=;]*\)\s*=\s*\{[^{},]*,[^{},]*,[^{},]*,([^{}]*)\}"),
     re.compile(r"Mesh\.(?:MeshSize|CharacteristicLength)(?:Max|Min|Factor)\s*=\s*([^;]*);"),
@@ -59,8 +59,8 @@ def read_sizes(script: Path) -> GeoSizes:
     """Reads a script. Raises InputError where it has no constant that says how fine it is, or one that says more."""
     text = read_text(script, "give a gmsh script that is there", "give a gmsh script")
     text = UNREAD.sub(" ", text)
-    constants = {n: float(value) for block in CONSTANTS.findall(text) for n, value in CONSTANT.findall(block)}
-    sizes, counts = (_used(text, constants, patterns) for patterns in (SIZES, COUNTS))
+    constants = {n: value.strip() for block in CONSTANTS.findall(text) for n, value in CONSTANT.findall(block)}
+    sizes, counts = (_used(script, text, constants, patterns) for patterns in (SIZES, COUNTS))
     both = sorted(set(sizes) & set(counts))
     if both:
         raise InputError(script, both[0], "is both a size and a count of cells", "give each a constant of its own")
@@ -78,10 +78,17 @@ def read_sizes(script: Path) -> GeoSizes:
     return GeoSizes(script, sizes, counts, graded)
 
 
-def _used(text: str, constants: dict[str, float], patterns: Sequence["re.Pattern[str]"]) -> dict[str, float]:
+def _used(
+    script: Path, text: str, constants: dict[str, str], patterns: Sequence["re.Pattern[str]"]
+) -> dict[str, float]:
     expressions = " ".join(expression for pattern in patterns for expression in pattern.findall(text))
     words = WORD.findall(expressions)
-    return {name: value for name, value in constants.items() if name in words}
+    used = {name: value for name, value in constants.items() if name in words}
+    for name, value in used.items():
+        if not re.fullmatch(NUMBER, value):
+            problem = f"'{value}' is an expression, of which no size or count is read"
+            raise InputError(script, name, problem, f"give a number: DefineConstant[ {name} = 0.5 ];")
+    return {name: float(value) for name, value in used.items()}
 
 
 def _elsewhere(text: str) -> set[str]:

@@ -7,14 +7,15 @@ from typing import Any, Sequence
 import numpy as np
 
 from ..base.errors import InputError
+from ..base.files import is_file
 from ..gallery.mesh_chain import READ
 from ..results.fields import read_fields
 from ..starting.duration import duration
-from .adapting import Adapted, about_adapted
+from .adapting import Adapted, about_adapted, nodes_of
 from .artery_sizes import keeps_short_waves
 from .family import CaseFacts, Member, members, mesh_ratio
 from .making import Maker
-from .mesh_family import Recipe
+from .mesh_family import Recipe, mesh_file_of
 from .quantities import curves_of
 from .direction import OUTSIDE
 from .results import FamilyRuns, Judged
@@ -26,6 +27,7 @@ STAYS = (
 SHAPE = STAYS + '--mesh "geo SCRIPT.geo".'
 ADAPTED = STAYS + "by the commands of --mesh, without --adapt."
 SURFACE = "The vessel is the smoothed surface: what that is off by, and what its smoothing and its triangles leave, is in no bar."
+OTHER_NODES = 0.05  # of a mesh's nodes: what another version of gmsh may make more or fewer of
 TRIED = 0.25  # of the budget, that a member may take before the family is known to fit
 # Of standard samples: fields by medium, and significant digits of a coordinate, as a case file has them.
 FIELDS, DIGITS = {"wall": "displacement", "fluid": "velocity"}, 9
@@ -128,6 +130,25 @@ def tell_damped(maker: Maker) -> None:
         maker.note(
             f"mesh.error = {mesh['error']} is for damped waves, of euler and 1/8 ms; the case's steps keep waves that this mesh "
             "does not resolve: without mesh.waves it is one that does"
+        )
+
+
+def tell_other_mesh(maker: Maker) -> None:
+    """Tells that the family is built around another mesh than the case's file, as their numbers of nodes show."""
+    facts, recipe = maker.requests.facts, maker.requests.recipe
+    file = mesh_file_of(facts.path, facts.entries)
+    made = maker.nodes(1.0) if is_file(file) else None
+    if made is None:
+        return
+    try:
+        there = nodes_of(file)
+    except InputError:  # no mesh of gmsh, of which no run is made here
+        return
+    if abs(made - there) > OTHER_NODES * there:
+        words = f"geo {recipe.geo.script.name} --set NAME=VALUE" if recipe.geo is not None else "WORDS"
+        maker.note(
+            f"{file.name} has {there} nodes, the mesh that the family is built around {made}: the bars are of runs on that one; say "
+            f'how the file was made: --mesh "{words}"'
         )
 
 

@@ -1,5 +1,6 @@
 """`fsi-compare verify` with programs whose errors are known."""
 
+import contextlib
 import csv
 import json
 import re
@@ -209,6 +210,35 @@ class OtherFamilies(VerifyCase):
                     if word.endswith("tolerance")
                 ]
                 self.assertEqual(loosened, [key])
+
+    def test_mesh_file_that_its_script_does_not_make(self):
+        """Made by `fsi-mesh geo tube.geo --set size=0.25`, and by another version of gmsh."""
+        (self.base / "tube.geo").write_text(GEO)
+        for size, words in (
+            (0.25, "tube.msh has 80000 nodes, the mesh that the family is built around 5000"),
+            (0.98, ""),
+        ):
+            with self.subTest(size):
+                fake_family.write_mesh(self.base / "tube.msh", size)
+                code, _, err = self.verify("--of", "pressure", mesh=False)
+                self.assertEqual(code, 0, err)
+                self.assertIn(words, err)
+                self.assertEqual('--mesh "geo tube.geo --set NAME=VALUE"' in err, bool(words), err)
+                self.assertEqual(bool(words), "80000 nodes" in (self.out / "report.md").read_text())
+        fake_family.write_mesh(self.base / "tube.msh", 0.25)
+        _, _, err = self.verify(
+            "--of", "pressure", "--mesh", f"geo {self.base / 'tube.geo'} --set size=0.25", mesh=False
+        )
+        self.assertNotIn("nodes", err)
+
+    def test_case_that_names_no_mesh_in_the_working_folder(self):
+        self.case.write_text(CASE.replace('[mesh]\nfile = "tube.msh"\n', ""))
+        with contextlib.chdir(self.base):
+            code, _, err = self.call(
+                "verify", self.case.name, "-o", self.out, f"--monolithic={self.programs / 'fsi-monolithic'}"
+            )
+        self.assertEqual(code, 1)
+        self.assertIn("tube.toml: mesh.file: there is no file", err)
 
     def test_list_runs_nothing(self):
         code, out, _ = self.verify("--list")

@@ -173,6 +173,16 @@ class Scripts(FolderCase):
         found = read_sizes(self.script(text))
         self.assertEqual((found.sizes, found.counts), ({"size": 0.4, "e": 0.2}, {"n": 6}))
 
+    def test_sizes_given_by_expressions_are_refused(self):
+        """Of 0.25 * radius the first number would be taken for the size."""
+        for value in ("0.25 * radius", "1/2", "{0.25 * radius, Min 0.1}", "Pi / 20", "-radius"):
+            text = f"DefineConstant[ radius = 2, size = {value} ];\nMesh.MeshSizeMax = size;\n"
+            with self.subTest(value), self.assertRaisesRegex(InputError, ": size: .* is an expression"):
+                read_sizes(self.script(text))
+        for value in ("5e-1", '{ 0.5, Name "size = h" }', "0.5 /* 1 */", "+.5 // mm\n"):
+            text = f"DefineConstant[ ratio = 1 / 3, size = {value} ];\nMesh.MeshSizeMax = size;\n"
+            self.assertEqual(read_sizes(self.script(text)).sizes, {"size": 0.5}, value)
+
     def test_families_of_the_gallery(self):
         """Each script of a scene with the constants that its family has; nothing else changes between members."""
         without = {"gallery/flap-in-merging-jets/jets.geo"}  # its sizes are those of fields alone
