@@ -21,8 +21,8 @@ from .family import CaseFacts, Member, Requests, read_case
 from .lean import starting_member
 from .making import Maker
 from .mesh_family import find_recipe
-from .preparing import PRINTED, plan, sample, samples_nothing, tell_mesh, tell_other_mesh, tell_unpaid, tell_unrefined
-from .preparing import within_budget
+from .preparing import PRINTED, plan, sample, samples_nothing, tell_ends, tell_mesh, tell_other_mesh, tell_unpaid
+from .preparing import tell_unrefined, within_budget
 from .results import BarsOfRun, Judged, bands, judge
 from .search import Demand, Search, by_each_driver, write_found
 from .tables import bars_table, counts, write_json
@@ -201,6 +201,7 @@ def write(
     place = maker.requests.folder
     families = list(maker.families.values())
     tell_unpaid(maker, judged)
+    tell_ends(maker, families)
     unrefined = tell_unrefined(maker, families)
     maker.notes += unrefined
     title = printable(str(facts.entries.get("title") or facts.path.stem))

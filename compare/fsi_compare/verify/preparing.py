@@ -10,6 +10,7 @@ from ..base.errors import InputError
 from ..base.files import is_file
 from ..gallery.mesh_chain import READ
 from ..results.fields import read_fields
+from ..runs.columns import ITERATIONS
 from ..starting.duration import duration
 from .adapting import Adapted, about_adapted, nodes_of
 from .artery_sizes import keeps_short_waves
@@ -186,6 +187,18 @@ def tell_unpaid(maker: Maker, judged: Sequence[Judged]) -> None:
         maker.note(
             f"the last adaptation has not paid for {', '.join(unpaid)}: they changed by as much as by the one before. The coarser "
             "mesh is as good for these; fsi-mesh adapt --of velocity, displacement or pressure makes one for that quantity"
+        )
+
+
+def tell_ends(maker: Maker, families: Sequence[FamilyRuns]) -> None:
+    """Tells that time.periods has ended members at different times."""
+    periodic = "periods" in maker.requests.facts.entries.get("time", {})
+    runs = [run for family in families for run in family.done.values() if periodic]
+    ends = sorted(float(run.columns(ITERATIONS)["time_ms"][-1]) for run in runs)
+    if ends and ends[-1] > ends[0] * (1 + 1e-9):
+        maker.note(
+            f"time.periods ends members at {ends[0]:g} to {ends[-1]:g} ms: values at the end and of the last period are of each one's "
+            f"own end, norms over time of other spans; for one span leave it out, with time.end = {ends[-1]:g}"
         )
 
 

@@ -240,6 +240,22 @@ class OtherFamilies(VerifyCase):
         self.assertEqual(code, 1)
         self.assertIn("tube.toml: mesh.file: there is no file", err)
 
+    def test_members_that_end_after_other_numbers_of_periods(self):
+        """time.periods ends that of longer steps a period earlier, which is told; without it nothing is."""
+        opening = '[[opening]]\nsurface = "inlet"\nperiod = 2.0\n'
+        self.case.write_text(CASE.replace("end = 8.0", 'end = 8.0\nperiods = "until 2%"') + opening)
+        behave(self.programs, ends={"time.step=1.0": 6.0})
+        code, _, err = self.verify()
+        self.assertEqual(code, 0, err)
+        self.assertIn("tip: displacement x, mean of the last period", self.bars())
+        said = "time.periods ends members at 6 to 8 ms"
+        self.assertIn(said, err)
+        self.assertIn(said, (self.out / "report.md").read_text())
+        behave(self.programs)
+        code, _, err = self.verify("-o", self.base / "alike")
+        self.assertEqual(code, 0, err)
+        self.assertNotIn("time.periods", err)
+
     def test_list_runs_nothing(self):
         code, out, _ = self.verify("--list")
         self.assertEqual(code, 0)

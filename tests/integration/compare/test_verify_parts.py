@@ -64,6 +64,14 @@ class Quantities(unittest.TestCase):
         self.assertAlmostEqual(found["swing of the last period"], 2, delta=1e-4)
         self.assertAlmostEqual(found["L2 norm"], math.sqrt(9 + 2), delta=0.02)
 
+    def test_last_period_of_a_member_that_ended_earlier(self):
+        """As time.periods ends it: a transient has died out in both, and the last periods are alike."""
+        own, other = (curve(lambda t: 3 + 2 * math.sin(2 * math.pi * t / 5), end=end) for end in (20.0, 15.0))
+        of = {q.name.partition(", ")[2]: q.of for q in quantities_of({own.name: own}, Asked(period=5.0))}
+        for name, value in (("mean of the last period", 3), ("swing of the last period", 2)):
+            self.assertAlmostEqual(of[name](other), value, delta=1e-4)
+            self.assertAlmostEqual(of[name](own), value, delta=1e-4)
+
     def test_extreme_between_levels_does_not_jump_with_the_step(self):
         exact = [peak(t, np.sin(t)) for t in (np.arange(1, 40) * h for h in (0.2, 0.1, 0.05))]
         for found, h in zip(exact, (0.2, 0.1, 0.05)):
