@@ -88,8 +88,8 @@ def verify(options: argparse.Namespace) -> int:
     names = _drivers(options.drivers)
     if not 3 <= options.levels <= MOST_LEVELS:
         raise InputError("", "--levels", f"{options.levels} meshes will not do", f"give 3 to {MOST_LEVELS}")
-    times = read_times(options.times)
     facts = read_case(options.case)
+    times = _times(options.times, facts)
     programs = find_drivers(options, [f"fsi-{name}" for name in names])
     mesh_maker = need_mesh_maker(next(iter(programs.values())))
     recipe = find_recipe(options.case, facts.entries, options.mesh, mesh_maker)
@@ -108,6 +108,19 @@ def verify(options: argparse.Namespace) -> int:
 
 def dimension_of(facts: CaseFacts) -> int:
     return 3 if facts.entries.get("geometry", "3d") == "3d" else 2
+
+
+def _times(text: str | None, facts: CaseFacts) -> list[float]:
+    """Times in ms. Raises InputError for those that the case has not."""
+    times = read_times(text)
+    first = 0.0 if facts.adaptive else facts.step
+    if times and facts.static:
+        raise InputError("", "--times", "a static case has none", "leave it out: its last load counts")
+    for time in times:
+        if not first * (1 - 1e-9) <= time <= facts.end * (1 + 1e-9):
+            problem = f"{time:g} ms is before the first step of the case, or after its end"
+            raise InputError("", "--times", problem, f"give times from {first:g} to {facts.end:g} ms")
+    return times
 
 
 def _drivers(text: str) -> list[str]:
@@ -201,7 +214,7 @@ def write(
     place = maker.requests.folder
     families = list(maker.families.values())
     tell_unpaid(maker, judged)
-    tell_ends(maker, families)
+    tell_ends(maker, families, read_times(options.times))
     unrefined = tell_unrefined(maker, families)
     maker.notes += unrefined
     title = printable(str(facts.entries.get("title") or facts.path.stem))

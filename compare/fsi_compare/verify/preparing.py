@@ -148,8 +148,8 @@ def tell_other_mesh(maker: Maker) -> None:
     if abs(made - there) > OTHER_NODES * there:
         words = f"geo {recipe.geo.script.name} --set NAME=VALUE" if recipe.geo is not None else "WORDS"
         maker.note(
-            f"{file.name} has {there} nodes, the mesh that the family is built around {made}: the bars are of runs on that one; say "
-            f'how the file was made: --mesh "{words}"'
+            f"{file.name} has {there} nodes, the mesh that the family is built around {made}: the bars are of runs on that "
+            f'one; say how the file was made: --mesh "{words}"'
         )
 
 
@@ -190,15 +190,20 @@ def tell_unpaid(maker: Maker, judged: Sequence[Judged]) -> None:
         )
 
 
-def tell_ends(maker: Maker, families: Sequence[FamilyRuns]) -> None:
-    """Tells that time.periods has ended members at different times."""
+def tell_ends(maker: Maker, families: Sequence[FamilyRuns], times: Sequence[float]) -> None:
+    """Tells that time.periods has ended members at different times, or before `times` in ms that are asked for."""
     periodic = "periods" in maker.requests.facts.entries.get("time", {})
     runs = [run for family in families for run in family.done.values() if periodic]
     ends = sorted(float(run.columns(ITERATIONS)["time_ms"][-1]) for run in runs)
     if ends and ends[-1] > ends[0] * (1 + 1e-9):
         maker.note(
-            f"time.periods ends members at {ends[0]:g} to {ends[-1]:g} ms: values at the end and of the last period are of each one's "
-            f"own end, norms over time of other spans; for one span leave it out, with time.end = {ends[-1]:g}"
+            f"time.periods ends members at {ends[0]:g} to {ends[-1]:g} ms: values at the end and of the last period are of "
+            f"each one's own end, norms over time of other spans; for one span leave it out, with time.end = {ends[-1]:g}"
+        )
+    late = [f"{time:g}" for time in times if ends and time > ends[0]]
+    if late:
+        maker.note(
+            f"time.periods ends a member at {ends[0]:g} ms, before {', '.join(late)} ms of --times: no bar holds there"
         )
 
 

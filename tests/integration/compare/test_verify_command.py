@@ -245,9 +245,10 @@ class OtherFamilies(VerifyCase):
         opening = '[[opening]]\nsurface = "inlet"\nperiod = 2.0\n'
         self.case.write_text(CASE.replace("end = 8.0", 'end = 8.0\nperiods = "until 2%"') + opening)
         behave(self.programs, ends={"time.step=1.0": 6.0})
-        code, _, err = self.verify()
+        code, _, err = self.verify("--times", "5,7")
         self.assertEqual(code, 0, err)
         self.assertIn("tip: displacement x, mean of the last period", self.bars())
+        self.assertIn("time.periods ends a member at 6 ms, before 7 ms of --times", err)
         said = "time.periods ends members at 6 to 8 ms"
         self.assertIn(said, err)
         self.assertIn(said, (self.out / "report.md").read_text())
@@ -520,6 +521,11 @@ class Trouble(VerifyCase):
         for words, said in (
             (("--drivers", "explicit"), "no driver"),
             (("--levels", "2"), "--levels"),
+            (
+                ("--times", "5,50"),
+                "--times: 50 ms is before the first step of the case, or after its end; give times from 0.5 to 8",
+            ),
+            (("--times", "0.1"), "--times: 0.1 ms is before the first step of the case"),
             (("--budget", "-1"), "--budget"),
             (("--error", "200%"), "--error"),
             (("--time-limit", "nan"), "--time-limit: nan s is no time"),
@@ -539,6 +545,9 @@ class Trouble(VerifyCase):
             self.case.write_text(entries)
             code, _, err = self.verify(mesh=False)
             self.one_line(code, err, said)
+        self.case.write_text("[static]\n")
+        code, _, err = self.verify("--times", "5")
+        self.one_line(code, err, "--times: a static case has none")
         self.case.write_text('title = "no time"\n')
         code, _, err = self.verify()
         self.one_line(code, err, "time", "is missing")
