@@ -65,6 +65,14 @@ class Quantities(unittest.TestCase):
         self.assertAlmostEqual(found["swing of the last period"], 2, delta=1e-4)
         self.assertAlmostEqual(found["L2 norm"], math.sqrt(9 + 2), delta=0.02)
 
+    def test_last_period_of_a_member_that_ended_earlier(self):
+        """As time.periods ends it: a transient has died out in both, and the last periods are alike."""
+        own, other = (curve(lambda t: 3 + 2 * math.sin(2 * math.pi * t / 5), end=end) for end in (20.0, 15.0))
+        of = {q.name.partition(", ")[2]: q.of for q in quantities_of({own.name: own}, Asked(period=5.0))}
+        for name, value in (("mean of the last period", 3), ("swing of the last period", 2)):
+            self.assertAlmostEqual(of[name](other), value, delta=1e-4)
+            self.assertAlmostEqual(of[name](own), value, delta=1e-4)
+
     def test_extreme_between_levels_does_not_jump_with_the_step(self):
         exact = [peak(t, np.sin(t)) for t in (np.arange(1, 40) * h for h in (0.2, 0.1, 0.05))]
         for found, h in zip(exact, (0.2, 0.1, 0.05)):
@@ -147,6 +155,50 @@ class Scripts(FolderCase):
         path = self.script("DefineConstant[ n = 6 ];\nTransfinite Curve{1} = n + 1 Using Progression 0.8;\n")
         self.assertTrue(read_sizes(path).graded)
         self.assertIn(f"Progression {0.8**0.5:.12g}", graded_text(path, 2.0))
+
+    def test_sizes_that_the_vessel_is_made_of_are_refused(self):
+        """Members would be other vessels."""
+        radius = "DefineConstant[ radius = 2, size = 0.5 ];\nMesh.MeshSizeMax = radius / 4;\n"
+        for text, name in (
+            (radius + "Rectangle(1) = {0,0,0,radius,10};\n", "radius"),
+            (radius + "Point(1) = {radius, 0, 0, radius};\n", "radius"),
+            (radius + "half = radius / 2;\n", "radius"),
+            ("DefineConstant[ r = 2, wall = 0.1 * r ];\nMesh.MeshSizeMax = r / 4;\n", "r"),
+            ("DefineConstant[ length = 9 ];\nExtrude {0, length, 0} { Curve{1}; Layers{ length / 2 }; }\n", "length"),
+            ("DefineConstant[ n = 2 ];\nExtrude {0, 1, 0} { Curve{1}; Layers{ {4, n}, {n / 9, 1} }; }\n", "n"),
+        ):
+            with self.subTest(text), self.assertRaisesRegex(InputError, f": {name}: is a size.* constant of its own"):
+                read_sizes(self.script(text))
+
+    def test_sizes_of_fields_and_nested_entities_are_no_vessel(self):
+        text = """DefineConstant[ size = 0.4, n = 6, e = 0.2 ];
+        a = 1e-3;  // "e" is no part of a number
+        Point(p[0]) = {0, 0, 0, e};
+        Printf("size", size);
+        Field[1].VIn = size / 2; Field[2].SizeMin = size / 4; Field[3].F = Sprintf("%g * x", size);
+        MeshSize{ PointsOf{ Volume{1}; } } = size;
+        Transfinite Curve{ Boundary{ Surface{1}; } } = n + 1;
+        """
+        found = read_sizes(self.script(text))
+        self.assertEqual((found.sizes, found.counts), ({"size": 0.4, "e": 0.2}, {"n": 6}))
+
+    def test_sizes_given_by_expressions_are_refused(self):
+        """Of 0.25 * radius the first number would be taken for the size."""
+        for value in ("0.25 * radius", "1/2", "{0.25 * radius, Min 0.1}", "Pi / 20", "-radius"):
+            text = f"DefineConstant[ radius = 2, size = {value} ];\nMesh.MeshSizeMax = size;\n"
+            with self.subTest(value), self.assertRaisesRegex(InputError, ": size: .* is an expression"):
+                read_sizes(self.script(text))
+        for value in ("5e-1", '{ 0.5, Name "size = h" }', "0.5 /* 1 */", "+.5 // mm\n"):
+            text = f"DefineConstant[ ratio = 1 / 3, size = {value} ];\nMesh.MeshSizeMax = size;\n"
+            self.assertEqual(read_sizes(self.script(text)).sizes, {"size": 0.5}, value)
+
+    def test_families_of_the_gallery(self):
+        """Each script of a scene with the constants that its family has; nothing else changes between members."""
+        without = {"gallery/flap-in-merging-jets/jets.geo"}  # its sizes are those of fields alone
+        for path in sorted((SOURCES / "gallery").rglob("*.geo")):
+            if path.relative_to(SOURCES).as_posix() not in without:
+                found = read_sizes(path)
+                self.assertTrue(found.sizes or found.counts, path)
 
     def test_what_cannot_be_refined_is_refused(self):
         for text, said in (
