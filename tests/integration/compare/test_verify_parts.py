@@ -608,7 +608,9 @@ tip = [0, 1, 2]
             ("t (min),flow", 15000),
             ("time µs,flow", 2.5e-4),
             ("TIME_SEC,flow", 250),
-            ("seconds,flow", 0.25),
+            ("seconds,flow", 250),
+            ("\ufeffs,flow", 250),
+            ("hours,flow", 0.25),
         ):
             with self.subTest(header):
                 self.assertEqual(interval(f"{header}\n{rows}"), expected)
