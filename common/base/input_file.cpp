@@ -25,4 +25,9 @@ void require_regular_file(const std::filesystem::path& file, const InputFileKind
                      kind.remedy);
 }
 
+void drop_byte_order_mark(std::string& line) {
+  const std::string mark = "\xEF\xBB\xBF";
+  if (line.compare(0, mark.size(), mark) == 0) line.erase(0, mark.size());
+}
+
 }  // namespace fsi

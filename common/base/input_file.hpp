@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace fsi {
 
@@ -17,5 +18,8 @@ struct InputFileKind {
 /// may never end, and a file far larger than any of its kind would fill the memory.
 /// \throws InputError that names the file
 void require_regular_file(const std::filesystem::path& file, const InputFileKind& kind);
+
+/// Takes the byte order mark from the first line of a UTF-8 text, which spreadsheets put there.
+void drop_byte_order_mark(std::string& line);
 
 }  // namespace fsi

@@ -222,6 +222,9 @@ void check_openings(const CaseEntry& whole_case, const Case& scene) {
   if (!scene.fluid) openings.refuse("stands in a case without fluid", "add [fluid], or give the wall a [load]");
   if (scene.inlet && scene.openings.count(group::inlet) > 0)
     openings.child(group::inlet).refuse("stands beside [inlet]", "keep one of the two");
+  const CaseEntry fluid = whole_case.child("fluid");
+  if (!scene.fluid->outlet && fluid.has("outlet") && scene.openings.count(group::outlet) > 0)
+    openings.child(group::outlet).refuse("stands beside fluid.outlet = false", "keep one of the two");
   if (!scene.time) return;
   for (const auto& [surface, conditions] : scene.openings) {
     const PressureTable* table = conditions.pressure    ? &*conditions.pressure

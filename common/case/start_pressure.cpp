@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "case/openings.hpp"
 #include "case/support_loads.hpp"
 #include "materials/material.hpp"
 
@@ -31,7 +32,8 @@ void warn_of_start_pressure(const CaseEntry& whole_case, const Case& scene) {
   const double wall = scene.prestress ? scene.prestress->pressure : 0;
   const bool lumped = scene.time->start == StartOfOpenings::lumped;
   const double large = small * stiffest(*scene.structure);
-  const auto warn = [&](const CaseEntry& entry, double pressure, bool keeps) {
+  const auto warn = [&](const CaseEntry& entry, double pressure, bool keeps,
+                        const std::string& where = "this opening") {
     if (std::abs(pressure - wall) <= large) return;
     const std::string carries =
         scene.prestress ? fmt::format("a wall that carries {:g} kPa", wall) : std::string("a wall without load");
@@ -40,21 +42,26 @@ void warn_of_start_pressure(const CaseEntry& whole_case, const Case& scene) {
     if (keeps && !lumped)
       remedy += fmt::format(
           ", or begin with {:g} kPa here; time.start = \"lumped\" finds the pressure of the periodic state", wall);
-    entry.warn(
-        fmt::format("begins with {:.4g} kPa against {}: the vessel is {} through this opening in the first steps",
-                    pressure, carries, pressure > wall ? "filled" : "emptied"),
-        remedy);
+    entry.warn(fmt::format("begins with {:.4g} kPa against {}: the vessel is {} through {} in the first steps",
+                           pressure, carries, pressure > wall ? "filled" : "emptied", where),
+               remedy);
   };
-  for (const auto& [surface, conditions] : scene.openings) {
-    const CaseEntry entry = whole_case.child("opening").child(surface);
+  for (const auto& opening : openings_of(scene)) {
+    const OpeningConditions& conditions = opening;
+    const bool listed = scene.openings.count(opening.surface) > 0;
+    const CaseEntry entry = listed ? whole_case.child("opening").child(opening.surface)
+                                   : whole_case.child(opening.surface == group::inlet ? "inlet" : "fluid");
     if (conditions.law) {
       const auto law = conditions.law->make();
       const auto kept = law->start();
       warn(entry.child(conditions.law->name), law->pressure(at_once, kept.data(), 0), !kept.empty());
     }
-    // A pulse is intended; a periodic table is a beat that may begin anywhere, which no vessel without load does.
-    if (conditions.pressure && conditions.pressure->period > 0)
+    // On a wall without load a pulse is intended; a periodic table is a beat that may begin anywhere, which no vessel
+    // without load does.
+    if (conditions.pressure && (scene.prestress || (listed && conditions.pressure->period > 0)))
       warn(entry.child("pressure"), first_value(*conditions.pressure), false);
+    if (scene.prestress && !conditions.law && !conditions.pressure && !conditions.flow_rate)
+      warn(entry, 0, false, opening.surface + ", which is free of traction,");
   }
 }
 

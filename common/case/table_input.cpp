@@ -128,6 +128,7 @@ void read_file(const CaseEntry& section, const TableKind& kind, TableInput& inpu
     const auto refuse = [&](const std::string& problem, const std::string& what_to_do) {
       throw InputError(fmt::format("{}:{}", file.string(), number), entry.key(), problem, what_to_do);
     };
+    if (number == 1) drop_byte_order_mark(line);
     const auto row = row_of(line);
     if (number == 1) {
       if (row)

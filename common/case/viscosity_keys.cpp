@@ -128,12 +128,16 @@ CaseKey<MaterialData> layer_viscosity_key() {
 void check_layer_viscosities(const CaseEntry& whole_case, const Case& scene) {
   if (!scene.structure || !scene.static_load) return;
   const CaseEntry layers = whole_case.child("structure").child("layers");
-  for (const auto& [name, layer] : scene.structure->layers)
-    if (layer.viscosity > 0)
-      layers.child(name)
-          .child("viscosity")
-          .refuse("resists the rate of strain, which a static case has none of",
-                  "remove it, or replace [static] by [time]");
+  const auto refuse = [](const CaseEntry& entry) {
+    entry.refuse("resists the rate of strain, which a static case has none of",
+                 "remove it, or replace [static] by [time]");
+  };
+  for (const auto& [name, layer] : scene.structure->layers) {
+    if (layer.viscosity > 0 && layer.part_of.empty()) refuse(layers.child(name).child(MaterialData::viscosity_key));
+  }
+  const auto regions = whole_case.child("structure").child("region").children();
+  for (const auto& region : regions)
+    if (region.has(MaterialData::viscosity_key)) refuse(region.child(MaterialData::viscosity_key));
 }
 
 }  // namespace fsi

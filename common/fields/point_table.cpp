@@ -71,6 +71,7 @@ std::vector<std::vector<double>> rows_of(const std::string& text, const std::vec
   std::istringstream in(text);
   std::string line;
   std::getline(in, line);
+  drop_byte_order_mark(line);
   const auto names = columns_of(line);
   std::vector<std::size_t> at;
   std::vector<double> factors(wanted.size(), 1.0);

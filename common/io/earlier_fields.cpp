@@ -87,4 +87,21 @@ std::int64_t checked_field_entries(const fs::path& folder, const std::vector<Fie
   }
 }
 
+void require_no_lost_fields(const fs::path& folder, const std::vector<std::string>& wanted, double until) {
+  std::error_code error;
+  for (std::int64_t part = 0; fs::exists(folder / FieldsPart::name(part), error); ++part) {
+    const fs::path file = folder / FieldsPart::name(part);
+    const auto h5 = Hdf5File::open(file, false);
+    const auto times = h5.read<double>("/steps/time");
+    for (const std::string& name : h5.members("/steps/written")) {
+      if (std::find(wanted.begin(), wanted.end(), name) != wanted.end()) continue;
+      const auto flags = h5.read<std::uint8_t>("/steps/written/" + name);
+      for (std::size_t i = 0; i < std::min(flags.size(), times.size()); ++i)
+        if (flags[i] != 0 && times[i] <= until * (1 + time_rounding))
+          throw InputError(file.string(), name, "is a field that this restart does not write, and would remove",
+                           "ask for it in output.fields, or continue in another folder: -o DIR");
+    }
+  }
+}
+
 }  // namespace fsi

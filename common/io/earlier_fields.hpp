@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "io/fields_writer.hpp"
@@ -17,5 +18,10 @@ namespace fsi {
 /// \throws InputError when a file is damaged or of another mesh
 std::int64_t checked_field_entries(const std::filesystem::path& folder, const std::vector<FieldGrid>& grids,
                                    double until);
+
+/// Refuses a restart in place that would lose fields of an earlier run.
+/// \param wanted  GRID.FIELD, those that the restart writes
+/// \throws InputError where an entry up to the time `until` (ms) has another one
+void require_no_lost_fields(const std::filesystem::path& folder, const std::vector<std::string>& wanted, double until);
 
 }  // namespace fsi

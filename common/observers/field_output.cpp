@@ -289,17 +289,13 @@ std::vector<std::int64_t> steps_at(const std::vector<double>& times, const TimeA
 }  // namespace
 
 template <int n>
-FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const DerivedQuantities<n>& derived,
-                            std::vector<FieldGrid> grids, std::vector<GridShare> shares, const TimeAxis& axis,
-                            const std::filesystem::path& folder, const std::filesystem::path& restarted_from,
-                            double until)
-    : scene_(scene), derived_(derived) {
-  if (setup.output.every == 0 || (setup.output.fields.empty() && !derived.statistics && !derived.has_errors())) return;
+std::vector<std::vector<FieldDescription>> wanted_fields(const Case& setup, const Scene<n>& scene,
+                                                         const DerivedQuantities<n>& derived,
+                                                         const std::vector<FieldGrid>& grids) {
   const auto& wanted = setup.output.fields;
-  assert(shares.empty() || shares.size() == grids.size());
   const bool thickness = scene.processes().any(!derived.thickness.empty());
-  for (std::size_t g = 0; g < grids.size(); ++g) {
-    FieldGrid& grid = grids[g];
+  std::vector<std::vector<FieldDescription>> found;
+  for (const FieldGrid& grid : grids) {
     const bool fluid = grid.name == "fluid";
     const GridFacts facts{fluid,
                           !fluid || scene.coupled(),
@@ -310,10 +306,44 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const Deri
                           derived.has_errors(),
                           derived.means_errors(),
                           scene.wall_constants};
+    auto& of_grid = found.emplace_back();
     for (const auto& field : output_fields<n>)
       if ((field.asked_by.empty() || std::find(wanted.begin(), wanted.end(), field.asked_by) != wanted.end()) &&
           field.exists(facts))
-        grid.fields.push_back({std::string(field.name), field.components, field.unit, field.at == Place::cells});
+        of_grid.push_back({std::string(field.name), field.components, field.unit, field.at == Place::cells});
+  }
+  return found;
+}
+
+template <int n>
+std::vector<std::string> unmet_fields(const Case& setup, const std::vector<std::vector<FieldDescription>>& found) {
+  const auto is_there = [&](std::string_view name) {
+    return std::any_of(found.begin(), found.end(), [&](const auto& of_grid) {
+      return std::any_of(of_grid.begin(), of_grid.end(), [&](const auto& field) { return field.name == name; });
+    });
+  };
+  std::vector<std::string> unmet;
+  for (const auto& name : setup.output.fields)
+    if (!contains(standard_output_fields(), name) &&
+        std::none_of(output_fields<n>.begin(), output_fields<n>.end(),
+                     [&](const auto& field) { return field.asked_by == name && is_there(field.name); }))
+      unmet.push_back(name);
+  return unmet;
+}
+
+template <int n>
+FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const DerivedQuantities<n>& derived,
+                            std::vector<FieldGrid> grids, std::vector<GridShare> shares, const TimeAxis& axis,
+                            const std::filesystem::path& folder, const std::filesystem::path& restarted_from,
+                            double until)
+    : scene_(scene), derived_(derived) {
+  if (setup.output.every == 0 || (setup.output.fields.empty() && !derived.statistics && !derived.has_errors())) return;
+  assert(shares.empty() || shares.size() == grids.size());
+  auto wanted = wanted_fields(setup, scene, derived, grids);
+  for (std::size_t g = 0; g < grids.size(); ++g) {
+    FieldGrid& grid = grids[g];
+    const bool fluid = grid.name == "fluid";
+    grid.fields = std::move(wanted[g]);
     if (grid.fields.empty()) continue;
     grids_.push_back(std::move(grid));
     if (shares.empty())
@@ -382,7 +412,11 @@ bool FieldOutput<n>::write(const State& state) {
   return true;
 }
 
-#define FSI_INSTANTIATE(n) template class FieldOutput<n>;
+#define FSI_INSTANTIATE(n)                                                                                           \
+  template std::vector<std::vector<FieldDescription>> wanted_fields(                                                 \
+      const Case&, const Scene<n>&, const DerivedQuantities<n>&, const std::vector<FieldGrid>&);                     \
+  template std::vector<std::string> unmet_fields<n>(const Case&, const std::vector<std::vector<FieldDescription>>&); \
+  template class FieldOutput<n>;
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

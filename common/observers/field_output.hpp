@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "case/case.hpp"
@@ -20,6 +21,16 @@ inline bool writes_fields(const Case& setup) {
   return output.every > 0 && (!output.fields.empty() || (output.derived.statistics && output.derived.period) ||
                               output.derived.error_indicator);
 }
+
+/// The fields that a case asks for and its scene has, per grid. Collective over the processes that share the scene.
+template <int n>
+std::vector<std::vector<FieldDescription>> wanted_fields(const Case& setup, const Scene<n>& scene,
+                                                         const DerivedQuantities<n>& derived,
+                                                         const std::vector<FieldGrid>& grids);
+
+/// Names of output.fields that ask for none of these fields, but for those that a case need not give.
+template <int n>
+std::vector<std::string> unmet_fields(const Case& setup, const std::vector<std::vector<FieldDescription>>& found);
 
 /// Field files of a run: the fields that the case asks for and the scene has, one grid per medium. Cells keep their
 /// mid-edge nodes; there pressures are the mean of the edge's ends, as their shape functions have it. Where layers have

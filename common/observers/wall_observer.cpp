@@ -23,7 +23,7 @@ struct ValueInTime {
   double time = 0;
 };
 
-/// The extremes of a layer since the program started.
+/// The extremes of a layer since the run started.
 struct LayerRecord {
   ValueInTime least{{1}}, greatest{{1}}, strain, rotation;
   bool warned = false;
@@ -35,6 +35,9 @@ class WallObserver : public Observer {
   explicit WallObserver(const RunView<n>& watched)
       : messages_(watched.messages), scene_(watched.scene), layers_(scene_.layer_names.size()) {}
 
+  void begin(const State& state) override {
+    if (state.step > 0) note();  // of the run so far
+  }
   std::vector<TableRows> after_step(const FinishedStep& step) override {
     bool news = false;
     for (std::size_t i = 0; i < layers_.size() && i < step.report.wall.size(); ++i)
@@ -48,6 +51,22 @@ class WallObserver : public Observer {
       if (layers_[i].warned)
         messages_.warn(fmt::format("{}: in this run the largest strain is {}, the largest rotation {}", title(i),
                                    text_of_strain(layers_[i].strain), text_of_rotation(layers_[i].rotation)));
+  }
+
+  void keep(RestartArchive& archive) override {
+    if (!archive.wants({"extremes"})) return;
+    std::vector<double> numbers;
+    for (const LayerRecord& layer : layers_)
+      for (const auto& [at, time] : {layer.least, layer.greatest, layer.strain, layer.rotation})
+        numbers.insert(numbers.end(), {at.value, at.where[0], at.where[1], at.where[2], time});
+    archive.array("extremes", ArrayKind::alike, numbers, {numbers.size()});
+    if (!archive.recalls()) return;
+    auto next = numbers.begin();
+    for (LayerRecord& layer : layers_)
+      for (ValueInTime* extreme : {&layer.least, &layer.greatest, &layer.strain, &layer.rotation}) {
+        *extreme = {{next[0], {next[1], next[2], next[3]}}, next[4]};
+        next += 5;
+      }
   }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "io/run_log.hpp"
 #include "observers/observer.hpp"
@@ -9,15 +10,18 @@
 
 namespace fsi {
 
-/// Messages of a run to its log and console, once it has them; before that they are dropped, but for notes.
+/// Messages of a run to its log and console, once it has them; before that warnings wait, and what is said is dropped.
 class RunMessages : public Messages {
  public:
   void to(RunLog& log, Console& console) {
     log_ = &log;
     console_ = &console;
+    for (const std::string& said : early_) warn(said);
+    early_.clear();
   }
   void warn(const std::string& said) override {
-    if (console_ != nullptr) console_->line(said);
+    if (console_ == nullptr) return early_.push_back(said);
+    console_->line(said);
     log_only(said);
   }
   void say(const std::string& said) override {
@@ -35,6 +39,7 @@ class RunMessages : public Messages {
  private:
   RunLog* log_ = nullptr;
   Console* console_ = nullptr;
+  std::vector<std::string> early_;
 };
 
 }  // namespace fsi

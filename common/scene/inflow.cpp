@@ -16,9 +16,11 @@ namespace fsi {
 
 namespace {
 
-/// The same table as a periodic flow: without the end of the period, which is its beginning.
+/// The same table as a periodic flow: without the end of the period, which is its beginning. Before its first row a table
+/// has that row's value.
 PeriodicFlow periodic_flow(const PressureTable& table) {
   PeriodicFlow flow{table.period, table.points};
+  if (const auto [time, value] = flow.points.front(); time > 0) flow.points.insert(flow.points.begin(), {0, value});
   while (flow.points.size() > 1 && flow.points.back().first >= table.period) flow.points.pop_back();
   return flow;
 }

@@ -1,6 +1,7 @@
-"""Keys of case files that earlier versions named otherwise, as common/case/renamed_keys.cpp has them."""
+"""Keys of case files: those that earlier versions named otherwise, as common/case/renamed_keys.cpp has them, and those
+that name files."""
 
-from typing import Any, Mapping
+from typing import Any, Callable, Mapping
 
 _NEWTON = ("mode", "error_tolerance", "residual_tolerance", "max_iterations")
 RENAMED = {f"monolithic.{name}": f"newton.{name}" for name in _NEWTON} | {"monolithic.krylov_restart": "linear.restart"}
@@ -27,3 +28,16 @@ def with_present_names(entries: Mapping[str, Any]) -> dict[str, Any]:
             if not found[section]:
                 del found[section]
     return found
+
+
+def with_file_names(entry: Any, change: Callable[[str], str]) -> Any:
+    """The entry with what `change` makes of each `file = "..."`, the key by which a case names a file. Keys may be
+    dotted."""
+
+    def changed(key: str, value: Any) -> Any:
+        is_name = isinstance(value, str) and key.rpartition(".")[2] == "file"
+        return change(value) if is_name else with_file_names(value, change)
+
+    if isinstance(entry, Mapping):
+        return {key: changed(key, value) for key, value in entry.items()}
+    return [with_file_names(value, change) for value in entry] if isinstance(entry, list) else entry

@@ -189,7 +189,8 @@ def _command(
         words = "flat ends of the fluid end_1, end_2 ...; --opening NAME=X,Y,Z names one by a point, mm"
         found.append(f"  It calls the {words}")
     if len(volumes) == 1 and fluid and not given and not any(word in next(iter(volumes)).lower() for word in FLUID):
-        found.append(f"  or, where that is a wall without fluid, --group wall={next(iter(volumes))} --wall-faces")
+        faces = " --wall-faces" if mesh.dimension == 3 else ""
+        found.append(f"  or, where that is a wall without fluid, --group wall={next(iter(volumes))}{faces}")
     return found
 
 

@@ -62,16 +62,17 @@ def export(options: argparse.Namespace) -> int:
 def write_series(
     place: Path, name: str, medium: MediumFields, fields: list[str], times: list[float] | None = None
 ) -> int:
-    """NAME.pvd and a VTU file for each time, by default those that all of the fields were written at. Returns how many
-    files. Raises InputError for a time outside of them."""
-    common = set.intersection(*(set(medium.times_of(field).tolist()) for field in fields))
-    at = sorted(common) if times is None else times
+    """NAME.pvd and a VTU file for each time, by default those that any of the fields was written at, with the fields
+    of that time: a restart may have added some. Returns how many files. Raises InputError for a time outside of them.
+    """
+    written = {field: set(medium.times_of(field).tolist()) for field in fields}
+    at = sorted(set.union(*written.values())) if times is None else times
     digits = max(4, len(str(len(at))))
     series: list[tuple[float, str]] = []
     for number, time in enumerate(at):
         of_points: dict[str, np.ndarray] = {}
         of_cells: dict[str, np.ndarray] = {}
-        for field in fields:
+        for field in (name for name in fields if times is not None or time in written[name]):
             values = medium.at(time, field)
             if values.ndim == 2 and values.shape[1] == 6:
                 values = values[:, AS_VTK]

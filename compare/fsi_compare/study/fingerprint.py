@@ -1,4 +1,5 @@
-"""What decides the outcome of a run: a digest of case, mesh, settings, processes, threads and program version."""
+"""What decides the outcome of a run: a digest of case, mesh and other files, settings, processes, threads and program
+version."""
 
 import hashlib
 import json
@@ -7,11 +8,10 @@ from typing import Any
 
 from ..base.errors import InputError
 from ..base.files import is_file, read_bytes, read_toml
-from ..starting.case_digest import case_digest
+from ..starting.case_digest import UNREADABLE, case_digest, files_digest
 from ..starting.programs import Program
 from .study_file import Request
 
-UNREADABLE = "give a file that can be read"
 HEADINGS = ("title",)  # in the results; nothing is solved differently
 
 
@@ -20,6 +20,8 @@ def fingerprint(request: Request, program: Program, mesh_file: Path | None, thre
     mesh = mesh_file or _own_mesh(request)
     if mesh is not None and is_file(mesh):
         digest.update(read_bytes(mesh, UNREADABLE, UNREADABLE))
+    # As the drivers find files that --set names.
+    digest.update(files_digest(request.settings, [Path(), request.case_file.parent]).encode())
     level = request.mesh.name if request.mesh and not request.mesh.options else None
     what: list[Any] = [program.path.name, program.version, level, dict(request.settings), threads]
     if processes > 1:  # a run on one process is what it was before there were others

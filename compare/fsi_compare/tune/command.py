@@ -17,7 +17,7 @@ from ..study.study_file import Request, StudyMesh, mesh_of_scene, method_of, stu
 from ..base.folder_lock import locked
 from ..starting.programs import find_mesh_maker, find_program, no_mesh_maker
 from ..verify.found_case import write_case
-from ..verify.mesh_family import find_recipe
+from ..verify.mesh_family import find_recipe, words_beside
 from .curves import curves_of
 from .scene import Scene, checked_targets, read_scene
 from .solving import Rule
@@ -127,7 +127,7 @@ class Beats:
         self.name = f"fsi-{options.driver}"
         program = find_program(self.name, getattr(options, options.driver), f"--{options.driver}")
         mesh_maker = find_mesh_maker(program)
-        self.mesh = _mesh(scene, options.mesh, mesh_maker, place)
+        self.mesh = mesh_of_beats(scene, options.mesh, mesh_maker, place)
         self.method = method_of(options.driver)
         self.case = self._case()
         methods = {options.driver: self.method}
@@ -161,8 +161,8 @@ class Beats:
         return Ran(curves_of(open_run(done.folder).openings), done.seconds)
 
 
-def _mesh(scene: Scene, words: str | None, mesh_maker: Path | None, place: Path) -> StudyMesh | None:
-    """The mesh of the beats; None: the case's own file or level."""
+def mesh_of_beats(scene: Scene, words: str | None, mesh_maker: Path | None, place: Path) -> StudyMesh | None:
+    """How it is made; None: it is the case's own file or level. Raises InputError."""
     section = scene.entries.get("mesh", {})
     own = section.get("file") if isinstance(section, dict) else None
     if words is None and (own is None or is_file(scene.path.parent / str(own))):
@@ -170,12 +170,13 @@ def _mesh(scene: Scene, words: str | None, mesh_maker: Path | None, place: Path)
     if mesh_maker is None:
         raise no_mesh_maker()
     folder = scene.path.parent
-    if words is not None:
-        command, *others = with_places(shlex.split(words), Path(".")) or [""]
-        return StudyMesh(scene.path.stem[:40], "", tuple(others), command)
-    if is_file(folder / "scene.py") and folder.name == scene.path.stem:
+    if words is None and is_file(folder / "scene.py") and folder.name == scene.path.stem:
         return mesh_of_scene(read_gallery_scene(folder), False)
-    return find_recipe(scene.path, scene.entries, None, mesh_maker).mesh(1.0, place, scene.path.stem)
+    made = words_beside(scene.path, scene.entries) if words is None else shlex.split(words)
+    if made:
+        command, *others = with_places(made, folder if words is None else Path("."))
+        return StudyMesh(scene.path.stem[:40], "", tuple(others), command)
+    return find_recipe(scene.path, scene.entries, words, mesh_maker).mesh(1.0, place, scene.path.stem)
 
 
 def _write(options: argparse.Namespace, scene: Scene, demand: Demand, outcome: Outcome, beats: Beats) -> int:

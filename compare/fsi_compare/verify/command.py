@@ -21,7 +21,8 @@ from .family import CaseFacts, Member, Requests, read_case
 from .lean import starting_member
 from .making import Maker
 from .mesh_family import find_recipe
-from .preparing import PRINTED, plan, sample, samples_nothing, tell_mesh, tell_unpaid, tell_unrefined, within_budget
+from .preparing import PRINTED, plan, sample, samples_nothing, tell_ends, tell_mesh, tell_other_mesh, tell_unpaid
+from .preparing import tell_unrefined, within_budget
 from .results import BarsOfRun, Judged, bands, judge
 from .search import Demand, Search, by_each_driver, write_found
 from .tables import bars_table, counts, write_json
@@ -87,8 +88,8 @@ def verify(options: argparse.Namespace) -> int:
     names = _drivers(options.drivers)
     if not 3 <= options.levels <= MOST_LEVELS:
         raise InputError("", "--levels", f"{options.levels} meshes will not do", f"give 3 to {MOST_LEVELS}")
-    times = read_times(options.times)
     facts = read_case(options.case)
+    times = _times(options.times, facts)
     programs = find_drivers(options, [f"fsi-{name}" for name in names])
     mesh_maker = need_mesh_maker(next(iter(programs.values())))
     recipe = find_recipe(options.case, facts.entries, options.mesh, mesh_maker)
@@ -107,6 +108,19 @@ def verify(options: argparse.Namespace) -> int:
 
 def dimension_of(facts: CaseFacts) -> int:
     return 3 if facts.entries.get("geometry", "3d") == "3d" else 2
+
+
+def _times(text: str | None, facts: CaseFacts) -> list[float]:
+    """Times in ms. Raises InputError for those that the case has not."""
+    times = read_times(text)
+    first = 0.0 if facts.adaptive else facts.step
+    if times and facts.static:
+        raise InputError("", "--times", "a static case has none", "leave it out: its last load counts")
+    for time in times:
+        if not first * (1 - 1e-9) <= time <= facts.end * (1 + 1e-9):
+            problem = f"{time:g} ms is before the first step of the case, or after its end"
+            raise InputError("", "--times", problem, f"give times from {first:g} to {facts.end:g} ms")
+    return times
 
 
 def _drivers(text: str) -> list[str]:
@@ -133,6 +147,7 @@ def make(
     facts = requests.facts
     maker = Maker(runner, requests, dimension_of(facts), options.quiet, options.of)
     tell_mesh(maker, requests.recipe)
+    tell_other_mesh(maker)
     if options.error is not None:
         return seek(options, maker, times, programs)
     sample(maker)
@@ -199,6 +214,7 @@ def write(
     place = maker.requests.folder
     families = list(maker.families.values())
     tell_unpaid(maker, judged)
+    tell_ends(maker, families, read_times(options.times))
     unrefined = tell_unrefined(maker, families)
     maker.notes += unrefined
     title = printable(str(facts.entries.get("title") or facts.path.stem))

@@ -7,13 +7,12 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Mapping, Sequence
 
-import numpy as np
-
 from ..base.case_names import with_present_names
 from ..base.errors import InputError
 from ..base.files import read_toml
 from ..base.numbers import is_number
 from ..study.study_file import Request, Study, StudyMesh, method_of, study_of_case
+from .flow_tables import flow_interval
 from .mesh_family import Recipe
 from .quantities import Asked
 from .tolerances import governing, names_scheme
@@ -121,26 +120,8 @@ def read_case(path: Path, settings: Mapping[str, Any] = MappingProxyType({})) ->
         end=float(time.get("end", 0.0)),
         scheme=str(time.get("scheme", "midpoint")),
         period=float(max(periods)) if periods else None,
-        flow_interval=_flow_interval(path, openings),
+        flow_interval=flow_interval(path, openings),
     )
-
-
-def _flow_interval(case: Path, openings: Any) -> float | None:
-    """The smallest of all tables of flow rates, each by the median of its intervals; None: no table, or none that can
-    be read here, which the driver then says."""
-    found = []
-    for opening in openings if isinstance(openings, list) else []:
-        table = opening.get("flow_rate") if isinstance(opening, dict) else None
-        try:
-            if isinstance(table, dict):
-                rows = np.genfromtxt(case.parent / str(table.get("file")), delimiter=",", skip_header=1, ndmin=2)
-            else:
-                rows = np.array(table if isinstance(table, list) else [], dtype=float, ndmin=2)
-        except (OSError, ValueError):
-            continue
-        if len(rows) > 2:
-            found.append(float(np.median(np.diff(rows[:, 0]))))
-    return min(found, default=None)
 
 
 def mesh_ratio(recipe: Recipe, levels: int, finer: bool) -> float:

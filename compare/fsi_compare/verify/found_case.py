@@ -3,22 +3,16 @@
 from pathlib import Path
 from typing import Any, Mapping
 
+from ..base.case_names import with_file_names
 from ..base.files import absolute, write_text
 from ..base.toml import toml_key, toml_lines
 
 
 def write_case(path: Path, entries: Mapping[str, Any], home: Path, comments: list[str]) -> None:
     """`home`: the folder that names of files in `entries` are relative to."""
-    lines = [f"# {comment}" for comment in comments] + _section("", _with_full_names(entries, home))
+    full = with_file_names(entries, lambda name: str(absolute(home / name)))
+    lines = [f"# {comment}" for comment in comments] + _section("", full)
     write_text(path, "\n".join(lines) + "\n")
-
-
-def _with_full_names(entry: Any, home: Path) -> Any:
-    """The entry with full paths in all `file = "..."`."""
-    if isinstance(entry, Mapping):
-        full = {key: _with_full_names(value, home) for key, value in entry.items()}
-        return full | ({"file": str(absolute(home / entry["file"]))} if isinstance(entry.get("file"), str) else {})
-    return [_with_full_names(value, home) for value in entry] if isinstance(entry, list) else entry
 
 
 def _section(name: str, entries: Mapping[str, Any]) -> list[str]:

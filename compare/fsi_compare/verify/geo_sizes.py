@@ -3,7 +3,8 @@
 A constant of `DefineConstant[ name = number, ... ]` is a size where it stands in the fourth place of a Point or in a
 Mesh.MeshSize option, and a count where it stands behind `Transfinite ... =` or in `Layers{ }`. Sizes are divided by the
 factor, counts multiplied. Ratios of neighbouring cells (`Using Progression`) are taken to the power 1/factor, since
-twice as many cells of the same ratio would refine one end alone."""
+twice as many cells of the same ratio would refine one end alone. A size or count that stands anywhere else is refused:
+the vessel would change with it."""
 
 import re
 from dataclasses import dataclass
@@ -15,16 +16,22 @@ from ..base.files import read_text
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 CONSTANTS = re.compile(r"DefineConstant\s*\[(.*?)\]\s*;", re.DOTALL)
-CONSTANT = re.compile(rf"(\w+)\s*=\s*(?:\{{\s*)?({NUMBER})")
+CONSTANT = re.compile(r"([A-Za-z_]\w*)\s*=\s*\{?([^,{}]*)")
 SIZES = (
-    re.compile(r"Point\s*\([^)]*\)\s*=\s*\{[^{},]*,[^{},]*,[^{},]*,([^{}]*)\}"),
+    re.compile(r"Point\s*\([^=;]*\)\s*=\s*\{[^{},]*,[^{},]*,[^{},]*,([^{}]*)\}"),
     re.compile(r"Mesh\.(?:MeshSize|CharacteristicLength)(?:Max|Min|Factor)\s*=\s*([^;]*);"),
-    re.compile(r"(?:MeshSize|Characteristic Length)\s*\{[^}]*\}\s*=\s*([^;]*);"),
+    re.compile(r"(?:MeshSize|Characteristic Length)\s*\{[^=]*\}\s*=\s*([^;]*);"),
 )
 COUNTS = (
-    re.compile(r"Transfinite\s+(?:Curve|Line)\s*\{[^}]*\}\s*=\s*([^;]*?)(?:Using|;)"),
+    re.compile(r"Transfinite\s+(?:Curve|Line)\s*\{[^=]*\}\s*=\s*([^;]*?)(?:Using|;)"),
     re.compile(r"Layers\s*\{\s*([^}]*)\}"),
 )
+FREE = (  # where a size may stand besides: it changes no vessel
+    re.compile(r"Field\s*\[[^=;]*\]\s*\.\s*(?:V(?:In|Out)|F|h\w+|\w*Size\w*|Lc\w+)\s*=\s*([^;]*);"),
+    re.compile(r"Printf\s*\(([^;]*)\)\s*;"),
+)
+WORD = re.compile(r"\b[A-Za-z_]\w*")
+UNREAD = re.compile(r'"[^"\n]*"|//[^\n]*|/\*.*?\*/', re.DOTALL)  # texts and comments
 PROGRESSION = re.compile(rf"Using\s+Progression\s+({NUMBER})")
 ELSEWHERE = re.compile(r"\b(?:Include|Merge)\b")
 
@@ -49,14 +56,17 @@ class GeoSizes:
 
 
 def read_sizes(script: Path) -> GeoSizes:
-    """Reads a script. Raises InputError where it has no constant that says how fine it is."""
+    """Reads a script. Raises InputError where it has no constant that says how fine it is, or one that says more."""
     text = read_text(script, "give a gmsh script that is there", "give a gmsh script")
-    text = re.sub(r"/\*.*?\*/", " ", re.sub(r"//[^\n]*", "", text), flags=re.DOTALL)  # without comments
-    constants = {n: float(value) for block in CONSTANTS.findall(text) for n, value in CONSTANT.findall(block)}
-    sizes, counts = (_used(text, constants, patterns) for patterns in (SIZES, COUNTS))
+    text = UNREAD.sub(" ", text)
+    constants = {n: value.strip() for block in CONSTANTS.findall(text) for n, value in CONSTANT.findall(block)}
+    sizes, counts = (_used(script, text, constants, patterns) for patterns in (SIZES, COUNTS))
     both = sorted(set(sizes) & set(counts))
     if both:
         raise InputError(script, both[0], "is both a size and a count of cells", "give each a constant of its own")
+    for name in sorted({*sizes, *counts} & _elsewhere(text)):
+        problem = "is a size or a count of cells, and stands in other places, too: the vessel would change with it"
+        raise InputError(script, name, problem, "give the size a constant of its own: DefineConstant[ size = 0.5 ];")
     if not sizes and not counts:
         problem = "has no constant that says how fine its mesh is"
         remedy = "give it one, DefineConstant[ size = 0.5 ]; with Mesh.MeshSizeMax = size; and let nothing else decide"
@@ -68,10 +78,25 @@ def read_sizes(script: Path) -> GeoSizes:
     return GeoSizes(script, sizes, counts, graded)
 
 
-def _used(text: str, constants: dict[str, float], patterns: Sequence["re.Pattern[str]"]) -> dict[str, float]:
+def _used(
+    script: Path, text: str, constants: dict[str, str], patterns: Sequence["re.Pattern[str]"]
+) -> dict[str, float]:
     expressions = " ".join(expression for pattern in patterns for expression in pattern.findall(text))
-    words = re.findall(r"[A-Za-z_]\w*", expressions)
-    return {name: value for name, value in constants.items() if name in words}
+    words = WORD.findall(expressions)
+    used = {name: value for name, value in constants.items() if name in words}
+    for name, value in used.items():
+        if not re.fullmatch(NUMBER, value):
+            problem = f"'{value}' is an expression, of which no size or count is read"
+            raise InputError(script, name, problem, f"give a number: DefineConstant[ {name} = 0.5 ];")
+    return {name: float(value) for name, value in used.items()}
+
+
+def _elsewhere(text: str) -> set[str]:
+    """Words outside of sizes and counts."""
+    text = CONSTANTS.sub(lambda block: re.sub(r"\w+\s*=", " ", block[1]) + ";", text)
+    for pattern in (*SIZES, *COUNTS, *FREE):
+        text = pattern.sub(lambda match: match[0][: match.start(1) - match.start()] + ";", text)
+    return set(WORD.findall(text))
 
 
 def graded_text(script: Path, factor: float) -> str:

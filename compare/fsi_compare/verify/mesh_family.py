@@ -134,15 +134,28 @@ def find_recipe(case: Path, entries: Mapping[str, Any], named: str | None, mesh_
         else:
             words += ["--level", str(section["level"]), *(["--order", "2"] if element == "p2p1" else [])]
         return _recipe(words, case.parent, str(case), mesh_maker)
-    file = case.parent / str(section.get("file", ""))
-    script = file.with_suffix(".geo")
-    if is_file(script):
-        words = ["geo", script.name, *(["--order", "2"] if element == "p2p1" else [])]
-        return _recipe(words, case.parent, "", mesh_maker)
+    beside = words_beside(case, entries)
+    if beside:
+        return _recipe(beside, case.parent, "", mesh_maker)
+    file = mesh_file_of(case, entries)
     if not is_file(file):
         remedy = 'make it, or say how it is made: --mesh "geo SCRIPT.geo", --mesh "lumen SURFACE.stl ... | thicken ..."'
         raise InputError(case, "mesh.file", f"there is no file {file}", remedy)
     return Recipe("refine", (), file=file)
+
+
+def mesh_file_of(case: Path, entries: Mapping[str, Any]) -> Path:
+    """The mesh file that a case names; its folder where it names none."""
+    section = entries.get("mesh", {})
+    return case.parent / str(section.get("file", "") if isinstance(section, dict) else "")
+
+
+def words_beside(case: Path, entries: Mapping[str, Any]) -> list[str]:
+    """Words of a mesh by the script .geo beside its file, with the script's own constants; none: there is no script."""
+    file = mesh_file_of(case, entries)
+    script = file.with_suffix(".geo") if file.name else file  # a case without a mesh file in the folder "."
+    order = ["--order", "2"] if entries.get("element", "p2p1") == "p2p1" else []
+    return ["geo", script.name, *order] if is_file(script) else []
 
 
 def _split(text: str) -> list[str]:

@@ -7,14 +7,16 @@ from typing import Any, Sequence
 import numpy as np
 
 from ..base.errors import InputError
+from ..base.files import is_file
 from ..gallery.mesh_chain import READ
 from ..results.fields import read_fields
+from ..runs.columns import ITERATIONS
 from ..starting.duration import duration
-from .adapting import Adapted, about_adapted
+from .adapting import Adapted, about_adapted, nodes_of
 from .artery_sizes import keeps_short_waves
 from .family import CaseFacts, Member, members, mesh_ratio
 from .making import Maker
-from .mesh_family import Recipe
+from .mesh_family import Recipe, mesh_file_of
 from .quantities import curves_of
 from .direction import OUTSIDE
 from .results import FamilyRuns, Judged
@@ -26,6 +28,7 @@ STAYS = (
 SHAPE = STAYS + '--mesh "geo SCRIPT.geo".'
 ADAPTED = STAYS + "by the commands of --mesh, without --adapt."
 SURFACE = "The vessel is the smoothed surface: what that is off by, and what its smoothing and its triangles leave, is in no bar."
+OTHER_NODES = 0.05  # of a mesh's nodes: what another version of gmsh may make more or fewer of
 TRIED = 0.25  # of the budget, that a member may take before the family is known to fit
 # Of standard samples: fields by medium, and significant digits of a coordinate, as a case file has them.
 FIELDS, DIGITS = {"wall": "displacement", "fluid": "velocity"}, 9
@@ -131,6 +134,25 @@ def tell_damped(maker: Maker) -> None:
         )
 
 
+def tell_other_mesh(maker: Maker) -> None:
+    """Tells that the family is built around another mesh than the case's file, as their numbers of nodes show."""
+    facts, recipe = maker.requests.facts, maker.requests.recipe
+    file = mesh_file_of(facts.path, facts.entries)
+    made = maker.nodes(1.0) if is_file(file) else None
+    if made is None:
+        return
+    try:
+        there = nodes_of(file)
+    except InputError:  # no mesh of gmsh, of which no run is made here
+        return
+    if abs(made - there) > OTHER_NODES * there:
+        words = f"geo {recipe.geo.script.name} --set NAME=VALUE" if recipe.geo is not None else "WORDS"
+        maker.note(
+            f"{file.name} has {there} nodes, the mesh that the family is built around {made}: the bars are of runs on that "
+            f'one; say how the file was made: --mesh "{words}"'
+        )
+
+
 def tell_mesh(maker: Maker, recipe: Recipe) -> None:
     """Tells what the family's meshes come from, unless that was told already."""
     tell_damped(maker)
@@ -165,6 +187,23 @@ def tell_unpaid(maker: Maker, judged: Sequence[Judged]) -> None:
         maker.note(
             f"the last adaptation has not paid for {', '.join(unpaid)}: they changed by as much as by the one before. The coarser "
             "mesh is as good for these; fsi-mesh adapt --of velocity, displacement or pressure makes one for that quantity"
+        )
+
+
+def tell_ends(maker: Maker, families: Sequence[FamilyRuns], times: Sequence[float]) -> None:
+    """Tells that time.periods has ended members at different times, or before `times` in ms that are asked for."""
+    periodic = "periods" in maker.requests.facts.entries.get("time", {})
+    runs = [run for family in families for run in family.done.values() if periodic]
+    ends = sorted(float(run.columns(ITERATIONS)["time_ms"][-1]) for run in runs)
+    if ends and ends[-1] > ends[0] * (1 + 1e-9):
+        maker.note(
+            f"time.periods ends members at {ends[0]:g} to {ends[-1]:g} ms: values at the end and of the last period are of "
+            f"each one's own end, norms over time of other spans; for one span leave it out, with time.end = {ends[-1]:g}"
+        )
+    late = [f"{time:g}" for time in times if ends and time > ends[0]]
+    if late:
+        maker.note(
+            f"time.periods ends a member at {ends[0]:g} ms, before {', '.join(late)} ms of --times: no bar holds there"
         )
 
 

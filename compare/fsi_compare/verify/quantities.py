@@ -128,9 +128,9 @@ def _of_curve(curve: Curve, asked: Asked) -> list[Quantity]:
         name = f"L2 norm at {time:g} ms" if line else f"at {time:g} ms"
         found.append(_number(curve, name, functools.partial(_at, time=time), at, line))
     if asked.period is not None and not line and asked.period <= end * (1 + 1e-9):
-        last, anywhere = end - asked.period, Stretch(True)
-        found.append(_number(curve, "mean of the last period", lambda c: _mean(c, last), anywhere))
-        found.append(_number(curve, "swing of the last period", lambda c: _swing(c, last), anywhere, extreme=True))
+        period, anywhere = asked.period, Stretch(True)
+        found.append(_number(curve, "mean of the last period", lambda c: _mean(c, period), anywhere))
+        found.append(_number(curve, "swing of the last period", lambda c: _swing(c, period), anywhere, extreme=True))
     return found
 
 
@@ -221,21 +221,23 @@ def _l2(curve: Curve) -> float:
     return _norm(curve.times, curve.values[:, 0])
 
 
-def _window(curve: Curve, begin: float) -> tuple[np.ndarray, np.ndarray]:
-    """Times and values from `begin` on, which gets a level of its own."""
+def _last(curve: Curve, period: float) -> tuple[np.ndarray, np.ndarray]:
+    """Times and values of the curve's own last period, in ms, whose beginning gets a level of its own: time.periods may
+    end each member after another number of them."""
+    begin = float(curve.times[-1]) - period
     after = curve.times > begin + 1e-9 * abs(curve.times[-1])
     start = np.interp(begin, curve.times, curve.values[:, 0])
     return np.append(begin, curve.times[after]), np.append(start, curve.values[after, 0])
 
 
-def _mean(curve: Curve, begin: float) -> float:
-    t, y = _window(curve, begin)
+def _mean(curve: Curve, period: float) -> float:
+    t, y = _last(curve, period)
     return integral(t, y) / float(t[-1] - t[0])
 
 
-def _swing(curve: Curve, begin: float) -> float:
+def _swing(curve: Curve, period: float) -> float:
     """Half of the way from the smallest to the largest."""
-    t, y = _window(curve, begin)
+    t, y = _last(curve, period)
     return 0.5 * (peak(t, y) + peak(t, -y))
 
 

@@ -80,6 +80,8 @@ class Closed(FolderTest):
         self.assertIn(
             "closed, the fluid sticks there: outlet\n", self.log(MONOLITHIC, text + "outlet = false\n" + INLET)
         )
+        said = self.refusal(MONOLITHIC, text + "outlet = false\n" + INLET + '[[opening]]\nsurface = "outlet"\n')
+        self.assertIn("opening.outlet: stands beside fluid.outlet = false; keep one of the two", said)
 
     def test_names_that_close_nothing(self):
         for names, said in (

@@ -16,6 +16,7 @@ step are 6 less the tolerance's power of ten. `behaviour.json` beside the progra
   "nothing"   true: no samples
   "least"     no mesh has a smaller size
   "seconds"   what a run takes at least
+  "ends"      {WORD: ms}: a run whose command line holds WORD ends then, as by time.periods
 Each call adds its command line to `calls.txt`.
 """
 
@@ -140,6 +141,7 @@ def run(words, place, name, behaviour):
     h = size_of(case.parent / given.get("mesh.file", entries["mesh"]["file"])) / SIZE
     step = float(given.get("time.step", entries["time"]["step"]))
     end = float(given.get("time.end", entries["time"]["end"]))
+    end = next((ms for word, ms in behaviour.get("ends", {}).items() if word in " ".join(words)), end)
     tolerance = tolerance_of(name, entries, given, behaviour)
     sign = (-1) ** round(math.log2(h) * 2) if behaviour.get("swing") else 1
     factor = 1 + sign * A * h ** (-3 if behaviour.get("grows") else 3) + B * (step / STEP) ** 2 + 1e-3 * tolerance

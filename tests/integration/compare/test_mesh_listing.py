@@ -106,6 +106,12 @@ class MeshListing(unittest.TestCase):
         self.assertIn("--flat-ends", self.command(lines))
         self.assertIn("  or, where that is a wall without fluid, --group wall=all --wall-faces", lines)
 
+    def test_the_faces_of_a_wall_are_named_in_three_dimensions_only(self):
+        raw = RawMesh(np.array([[0, 0], [1, 0], [0, 1.0]]), [("triangle", np.array([[0, 1, 2]]))])
+        lines = said(found_mesh("a.vtu", raw, 1.0))
+        self.assertIn("  or, where that is a wall without fluid, --group wall=all", lines)
+        self.assertNotIn("--wall-faces", " ".join(lines))
+
     def test_of_many_volumes_it_is_said_which_touch(self):
         points, cells = cube(2)
         whole = np.vstack([points + [2 * k, 0, 0] for k in range(5)] + [points + [1, 0, 0]])

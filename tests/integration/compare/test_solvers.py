@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import time
@@ -316,6 +317,15 @@ class Failures(StudyTest):
         )
         self.assertEqual(len(calls(self.program)), 8)
 
+    def test_two_at_once_give_the_same_tables(self):
+        words = ("--methods", "amg,direct", "--materials", "neo-hookean,mooney-rivlin", "--systems", "1:1", "-q")
+        self.assertEqual(self.call(*words), (0, "", ""))
+        table = self.csv("table5_multilevel_step1_newton1.csv")
+        shutil.rmtree(self.out)
+        self.assertEqual(self.call(*words, "--jobs", "2"), (0, "", ""))
+        self.assertEqual(self.csv("table5_multilevel_step1_newton1.csv"), table)
+        self.assertEqual(len(calls(self.program)), 12)
+
     def test_all_failed(self):
         behave(self.program, end={"neo-hookean coarse": [2, "Newton's method stalls"]})
         code, out, _ = self.call(*SMALL)
@@ -545,6 +555,7 @@ class WrongUse(StudyTest):
         self.assert_refused("--tolerance: 0 will not do", "--tolerance", "0")
         self.assert_refused("--tolerance: nan will not do", "--tolerance", "nan")
         self.assert_refused("--threads: -1 is negative", "--threads", "-1")
+        self.assert_refused("--jobs", "--jobs", "0")
         self.assert_refused("--set: 'time.end' is not an entry", "--set", "time.end")
         self.assert_refused("--set: mesh.level is chosen by --meshes", "--set", "mesh.level=fine")
         self.assert_refused("--set: a.b is given twice", "--set", "a.b=1", "--set", "a.b=2")

@@ -57,6 +57,27 @@ class Restart(StudyCase):
             self.call()
             self.assertEqual(len(calls(self.programs)) - before, again)
 
+    def test_a_change_of_a_file_that_case_or_setting_names_makes_a_run_anew(self):
+        table, field = self.base / "beat.csv", self.base / "c10.csv"
+        self.case_file.write_text('[[opening]]\nsurface = "inlet"\nflow_rate = { file = "beat.csv" }\n')
+        self.study.write_text(STUDY + 'set = { structure.layers.media.c10.file = "c10.csv" }\n')
+        self.call()  # neither is there, which is for the drivers to say
+        for change, again in (
+            (lambda: table.write_text("time_ms,flow\n0,1\n"), 2),
+            (lambda: table.write_text("time_ms,flow\n0,2\n"), 2),
+            (lambda: table.touch(), 0),
+            (lambda: field.write_text("x,y,z,c10\n0,0,0,130\n"), 2),
+            (lambda: field.write_text("x,y,z,c10\n0,0,0,140\n"), 2),
+        ):
+            change()
+            before = len(calls(self.programs))
+            self.call()
+            self.assertEqual(len(calls(self.programs)) - before, again)
+        self.case_file.write_text('prestress.file = "/proc/self/mem"\n')  # nobody can read it from its beginning
+        code, _, err = self.call()
+        self.assertEqual(code, 1)
+        self.assertRegex(err, r"error: /proc/self/mem: cannot be read: .*; give a file that can be read\n$")
+
     def test_what_decides_nothing_makes_no_run_anew(self):
         self.case_file.write_text('title = "A tube"\n[time]\nstep = 0.25\n')
         self.call()

@@ -1,9 +1,12 @@
 """`fsi-compare tune`: targets that contradict themselves or the case are one clear line."""
 
+import types
 import unittest
 from pathlib import Path
 
 from folder_case import FolderCase
+
+from fsi_compare.tune.command import mesh_of_beats
 
 CASE = """\
 title = "A fork"
@@ -126,6 +129,15 @@ class TuneInput(FolderCase):
         self.assertEqual(code, 1)
         self.assertIn("no such program", err)
         self.assertFalse(self.out.exists())
+
+    def test_missing_mesh_is_made_by_the_script_as_it_stands(self):
+        """Of `size = 0.25 * radius` no number is taken; no size is needed, since the mesh stays as it is."""
+        script = self.base / "fork.geo"
+        script.write_text("DefineConstant[ radius = 2, size = 0.25 * radius ];\nMesh.MeshSizeMax = size;\n")
+        case = self.base / "fork.toml"
+        entries = {"element": "p1", "mesh": {"file": "fork.msh"}}
+        mesh = mesh_of_beats(types.SimpleNamespace(path=case, entries=entries), None, Path("fsi-mesh"), self.out)
+        self.assertEqual((mesh.command, mesh.options), ("geo", (str(script),)))
 
 
 if __name__ == "__main__":

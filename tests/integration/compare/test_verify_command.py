@@ -1,5 +1,6 @@
 """`fsi-compare verify` with programs whose errors are known."""
 
+import contextlib
 import csv
 import json
 import re
@@ -209,6 +210,52 @@ class OtherFamilies(VerifyCase):
                     if word.endswith("tolerance")
                 ]
                 self.assertEqual(loosened, [key])
+
+    def test_mesh_file_that_its_script_does_not_make(self):
+        """Made by `fsi-mesh geo tube.geo --set size=0.25`, and by another version of gmsh."""
+        (self.base / "tube.geo").write_text(GEO)
+        for size, words in (
+            (0.25, "tube.msh has 80000 nodes, the mesh that the family is built around 5000"),
+            (0.98, ""),
+        ):
+            with self.subTest(size):
+                fake_family.write_mesh(self.base / "tube.msh", size)
+                code, _, err = self.verify("--of", "pressure", mesh=False)
+                self.assertEqual(code, 0, err)
+                self.assertIn(words, err)
+                self.assertEqual('--mesh "geo tube.geo --set NAME=VALUE"' in err, bool(words), err)
+                self.assertEqual(bool(words), "80000 nodes" in (self.out / "report.md").read_text())
+        fake_family.write_mesh(self.base / "tube.msh", 0.25)
+        _, _, err = self.verify(
+            "--of", "pressure", "--mesh", f"geo {self.base / 'tube.geo'} --set size=0.25", mesh=False
+        )
+        self.assertNotIn("nodes", err)
+
+    def test_case_that_names_no_mesh_in_the_working_folder(self):
+        self.case.write_text(CASE.replace('[mesh]\nfile = "tube.msh"\n', ""))
+        with contextlib.chdir(self.base):
+            code, _, err = self.call(
+                "verify", self.case.name, "-o", self.out, f"--monolithic={self.programs / 'fsi-monolithic'}"
+            )
+        self.assertEqual(code, 1)
+        self.assertIn("tube.toml: mesh.file: there is no file", err)
+
+    def test_members_that_end_after_other_numbers_of_periods(self):
+        """time.periods ends that of longer steps a period earlier, which is told; without it nothing is."""
+        opening = '[[opening]]\nsurface = "inlet"\nperiod = 2.0\n'
+        self.case.write_text(CASE.replace("end = 8.0", 'end = 8.0\nperiods = "until 2%"') + opening)
+        behave(self.programs, ends={"time.step=1.0": 6.0})
+        code, _, err = self.verify("--times", "5,7")
+        self.assertEqual(code, 0, err)
+        self.assertIn("tip: displacement x, mean of the last period", self.bars())
+        self.assertIn("time.periods ends a member at 6 ms, before 7 ms of --times", err)
+        said = "time.periods ends members at 6 to 8 ms"
+        self.assertIn(said, err)
+        self.assertIn(said, (self.out / "report.md").read_text())
+        behave(self.programs)
+        code, _, err = self.verify("-o", self.base / "alike")
+        self.assertEqual(code, 0, err)
+        self.assertNotIn("time.periods", err)
 
     def test_list_runs_nothing(self):
         code, out, _ = self.verify("--list")
@@ -474,6 +521,11 @@ class Trouble(VerifyCase):
         for words, said in (
             (("--drivers", "explicit"), "no driver"),
             (("--levels", "2"), "--levels"),
+            (
+                ("--times", "5,50"),
+                "--times: 50 ms is before the first step of the case, or after its end; give times from 0.5 to 8",
+            ),
+            (("--times", "0.1"), "--times: 0.1 ms is before the first step of the case"),
             (("--budget", "-1"), "--budget"),
             (("--error", "200%"), "--error"),
             (("--time-limit", "nan"), "--time-limit: nan s is no time"),
@@ -493,6 +545,9 @@ class Trouble(VerifyCase):
             self.case.write_text(entries)
             code, _, err = self.verify(mesh=False)
             self.one_line(code, err, said)
+        self.case.write_text("[static]\n")
+        code, _, err = self.verify("--times", "5")
+        self.one_line(code, err, "--times: a static case has none")
         self.case.write_text('title = "no time"\n')
         code, _, err = self.verify()
         self.one_line(code, err, "time", "is missing")

@@ -20,6 +20,7 @@ from fsi_compare.verify.cost import Costs, learn
 from fsi_compare.verify.demand import cheapest, refinable, shown_by, tolerance_factor
 from fsi_compare.verify.doubt import doubt, on_common_points, step_within
 from fsi_compare.verify.family import Member, read_case, with_settings
+from fsi_compare.verify.flow_tables import TIMES
 from fsi_compare.verify.found_case import write_case
 from fsi_compare.verify.geo_sizes import graded_text, read_sizes
 from fsi_compare.verify.lean import between, cross, lean, starting_member
@@ -63,6 +64,14 @@ class Quantities(unittest.TestCase):
         self.assertAlmostEqual(found["mean of the last period"], 3, places=9)
         self.assertAlmostEqual(found["swing of the last period"], 2, delta=1e-4)
         self.assertAlmostEqual(found["L2 norm"], math.sqrt(9 + 2), delta=0.02)
+
+    def test_last_period_of_a_member_that_ended_earlier(self):
+        """As time.periods ends it: a transient has died out in both, and the last periods are alike."""
+        own, other = (curve(lambda t: 3 + 2 * math.sin(2 * math.pi * t / 5), end=end) for end in (20.0, 15.0))
+        of = {q.name.partition(", ")[2]: q.of for q in quantities_of({own.name: own}, Asked(period=5.0))}
+        for name, value in (("mean of the last period", 3), ("swing of the last period", 2)):
+            self.assertAlmostEqual(of[name](other), value, delta=1e-4)
+            self.assertAlmostEqual(of[name](own), value, delta=1e-4)
 
     def test_extreme_between_levels_does_not_jump_with_the_step(self):
         exact = [peak(t, np.sin(t)) for t in (np.arange(1, 40) * h for h in (0.2, 0.1, 0.05))]
@@ -146,6 +155,50 @@ class Scripts(FolderCase):
         path = self.script("DefineConstant[ n = 6 ];\nTransfinite Curve{1} = n + 1 Using Progression 0.8;\n")
         self.assertTrue(read_sizes(path).graded)
         self.assertIn(f"Progression {0.8**0.5:.12g}", graded_text(path, 2.0))
+
+    def test_sizes_that_the_vessel_is_made_of_are_refused(self):
+        """Members would be other vessels."""
+        radius = "DefineConstant[ radius = 2, size = 0.5 ];\nMesh.MeshSizeMax = radius / 4;\n"
+        for text, name in (
+            (radius + "Rectangle(1) = {0,0,0,radius,10};\n", "radius"),
+            (radius + "Point(1) = {radius, 0, 0, radius};\n", "radius"),
+            (radius + "half = radius / 2;\n", "radius"),
+            ("DefineConstant[ r = 2, wall = 0.1 * r ];\nMesh.MeshSizeMax = r / 4;\n", "r"),
+            ("DefineConstant[ length = 9 ];\nExtrude {0, length, 0} { Curve{1}; Layers{ length / 2 }; }\n", "length"),
+            ("DefineConstant[ n = 2 ];\nExtrude {0, 1, 0} { Curve{1}; Layers{ {4, n}, {n / 9, 1} }; }\n", "n"),
+        ):
+            with self.subTest(text), self.assertRaisesRegex(InputError, f": {name}: is a size.* constant of its own"):
+                read_sizes(self.script(text))
+
+    def test_sizes_of_fields_and_nested_entities_are_no_vessel(self):
+        text = """DefineConstant[ size = 0.4, n = 6, e = 0.2 ];
+        a = 1e-3;  // "e" is no part of a number
+        Point(p[0]) = {0, 0, 0, e};
+        Printf("size", size);
+        Field[1].VIn = size / 2; Field[2].SizeMin = size / 4; Field[3].F = Sprintf("%g * x", size);
+        MeshSize{ PointsOf{ Volume{1}; } } = size;
+        Transfinite Curve{ Boundary{ Surface{1}; } } = n + 1;
+        """
+        found = read_sizes(self.script(text))
+        self.assertEqual((found.sizes, found.counts), ({"size": 0.4, "e": 0.2}, {"n": 6}))
+
+    def test_sizes_given_by_expressions_are_refused(self):
+        """Of 0.25 * radius the first number would be taken for the size."""
+        for value in ("0.25 * radius", "1/2", "{0.25 * radius, Min 0.1}", "Pi / 20", "-radius"):
+            text = f"DefineConstant[ radius = 2, size = {value} ];\nMesh.MeshSizeMax = size;\n"
+            with self.subTest(value), self.assertRaisesRegex(InputError, ": size: .* is an expression"):
+                read_sizes(self.script(text))
+        for value in ("5e-1", '{ 0.5, Name "size = h" }', "0.5 /* 1 */", "+.5 // mm\n"):
+            text = f"DefineConstant[ ratio = 1 / 3, size = {value} ];\nMesh.MeshSizeMax = size;\n"
+            self.assertEqual(read_sizes(self.script(text)).sizes, {"size": 0.5}, value)
+
+    def test_families_of_the_gallery(self):
+        """Each script of a scene with the constants that its family has; nothing else changes between members."""
+        without = {"gallery/flap-in-merging-jets/jets.geo"}  # its sizes are those of fields alone
+        for path in sorted((SOURCES / "gallery").rglob("*.geo")):
+            if path.relative_to(SOURCES).as_posix() not in without:
+                found = read_sizes(path)
+                self.assertTrue(found.sizes or found.counts, path)
 
     def test_what_cannot_be_refined_is_refused(self):
         for text, said in (
@@ -537,6 +590,52 @@ tip = [0, 1, 2]
         self.assertEqual(read_case(path).flow_interval, 2.5)
         given = {"opening": [{"surface": "inlet", "flow_rate": [[0, 0], [4, 1.5], [10, 1.5]]}]}
         self.assertEqual(read_case(path, given).flow_interval, 5)
+
+    def test_tables_of_flows_are_read_as_the_drivers_read_them(self):
+        path, table = self.base / "case.toml", self.base / "beat.csv"
+        rows = "0,1\n\n0.25,3\r\n0.5,1\n"
+
+        def interval(text, flow='{ file = "beat.csv" }'):
+            table.write_bytes(text.encode())
+            path.write_text(self.TEXT.replace('{ file = "beat.csv" }', flow))
+            return read_case(path).flow_interval
+
+        for header, expected in (
+            ("time_ms,flow_ml_per_s", 0.25),
+            ("time_s,flow_ml_per_s", 250),
+            ("s;ml/s", 250),
+            ('"Time [s]",flow', 250),
+            ("t (min),flow", 15000),
+            ("time µs,flow", 2.5e-4),
+            ("TIME_SEC,flow", 250),
+            ("seconds,flow", 250),
+            ("\ufeffs,flow", 250),
+            ("hours,flow", 0.25),
+        ):
+            with self.subTest(header):
+                self.assertEqual(interval(f"{header}\n{rows}"), expected)
+        self.assertEqual(interval("a;b\n" + rows.replace(",", ";")), 0.25)
+        self.assertEqual(interval("time,flow\n" + rows, '{ file = "beat.csv", time_unit = "s" }'), 250)
+        in_rows = "rows = [[0, 1], [0.25, 3], [0.5, 1]]"
+        self.assertEqual(interval("", "{ " + in_rows + ' , time_unit = "s" }'), 250)
+        self.assertEqual(interval("", "{ " + in_rows + " }"), 0.25)
+        for wrong in ("0 1\n0.25 3\n0.5 1\n", "0,1\nnan,3\n0.5,1\n", "0,1\n0,2\n0,3\n", "0,1\n-inf,3\ninf,1\n", ""):
+            self.assertIsNone(interval("time_s,flow\n" + wrong), wrong)
+        for wrong in (
+            "3.0",
+            '"a"',
+            "[]",
+            "{ file = 3 }",
+            "{ rows = 3 }",
+            "[[0, 1], [], [2, 3]]",
+            f"[[1{400 * '0'}, 1]]",
+        ):
+            self.assertIsNone(interval("time_s,flow\n" + rows, wrong), wrong)
+
+    def test_units_of_time_are_those_of_the_drivers(self):
+        text = (SOURCES / "common" / "case" / "table_units.cpp").read_text()
+        found = re.findall(r'Unit\{ColumnKind::time, "(\w+)", ([\d.e-]+)\}', text)
+        self.assertEqual(TIMES, {name: float(factor) for name, factor in found})
 
 
 class StandardPoints(unittest.TestCase):

@@ -7,7 +7,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 from other_readers import read_by_others
-from programs import ARTERY, MESH, MONOLITHIC, FolderTest, execute, run
+from programs import ARTERY, MESH, MONOLITHIC, FolderTest, execute, restart, run
 from scenes import forms, scene
 
 COMPARE = Path(MESH).parent / "fsi-compare"
@@ -94,6 +94,31 @@ class Export(FolderTest):
         self.compare(first, mesh, {"pressure": fields[1]["pressure"]}, 0.125)
         middle = 0.5 * fields[1]["pressure"] + 0.5 * fields[2]["pressure"]
         self.compare(second, mesh, {"pressure": middle}, 0.1875)
+
+    def test_field_that_a_restart_has_added(self):
+        """The earlier times have the fields of the earlier run, for ParaView, too."""
+        kind = "p1", "axisymmetric"
+        whole = run(
+            MONOLITHIC,
+            ARTERY,
+            self.base / "added",
+            *scene(self.base, *kind),
+            *forms(ARTERY),
+            *("time.end=0.25", "output.every=1", 'output.fields=["velocity", "pressure"]'),
+        )
+        fields = 'output.fields=["displacement", "velocity", "pressure"]'
+        words = (*scene(self.base, *kind), *forms(ARTERY), "time.end=0.375", "output.every=1", fields)
+        restart(MONOLITHIC, ARTERY, whole, *words)
+        process = self.export(whole)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        series = shown(whole / "vtu" / "fluid.pvd")
+        self.assertEqual([entry["time"] for entry in series], [*TIMES, 0.375])
+        for entry in series:
+            added = ["displacement"] if entry["time"] > 0.25 else []
+            self.assertEqual(sorted(entry["fields"]["points"]), [*added, "pressure", "velocity"])
+        process = self.export(whole, "--times", "0.125", "-o", self.base / "refused")
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("fluid/displacement: 0.125 ms is outside what was written", process.stderr)
 
     def test_wrong_use_is_said_in_one_line(self):
         folder = self.runs["p1", "axisymmetric"]

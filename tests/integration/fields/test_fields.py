@@ -12,6 +12,7 @@ from programs import (
     ARTERY,
     DRIVERS,
     MONOLITHIC,
+    NEO_HOOKEAN,
     FolderTest,
     arrays,
     driver_command,
@@ -41,7 +42,7 @@ class Fields(FolderTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        mesh = make_small_mesh(cls.base / "small.msh")
+        cls.mesh = mesh = make_small_mesh(cls.base / "small.msh")
         cls.folders = [
             run(
                 program,
@@ -133,6 +134,14 @@ class Fields(FolderTest):
         for _, shown in self.each():
             for grid in shown["grids"][0].values():
                 self.assertFalse(any(np.any(values) for values in grid["point fields"].values()))
+
+    def test_a_field_that_the_scene_has_not_is_told(self):
+        asked = 'output.fields=["velocity", "fibre_stress"]'
+        settings = (f"mesh.file={self.mesh}", "time.end=0.25", "output.every=2", asked)
+        folder = run(MONOLITHIC, NEO_HOOKEAN, self.base / "lacking", *settings)
+        log = (folder / "run.log").read_text()
+        self.assertIn('output.fields: "fibre_stress" is no field of this scene: nothing is written of it', log)
+        self.assertNotIn('"velocity" is no field', log)
 
     def test_steps_differ(self):
         for _, shown in self.each():

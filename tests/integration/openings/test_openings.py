@@ -5,7 +5,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from programs import DRIVERS, MONOLITHIC, PARTITIONED, FolderTest, attempt, energy, make_mesh, restart, run
+from programs import DRIVERS, MONOLITHIC, PARTITIONED, FolderTest, arrays, attempt, energy, make_mesh, restart, run
 
 CASE = Path(__file__).with_name("openings.toml")
 SCHEMES = ("euler", "midpoint", "bdf2", "generalised-alpha", "tr-bdf2")
@@ -205,6 +205,17 @@ class RigidPipe(FolderTest):
             columns = energy(folder)
             size = np.abs(columns["inlet_work"]).max()
             self.assertLess(np.abs(columns["remainder"]).max(), 1e-6 * size, scheme)
+
+    def test_a_table_of_flow_may_begin_behind_the_start_of_its_period(self):
+        """Before its first row it has that row's value, in Womersley's profile too."""
+        found = []
+        for name, rows in (("late", "[[0.5, 1], [1, 2], [2, 1]]"), ("early", "[[0, 1], [0.5, 1], [1, 2], [2, 1]]")):
+            text = (
+                f'[[opening]]\nsurface = "inlet"\nflow_rate = {rows}\nperiod = 2\nprofile = "womersley"\n'
+                '[[opening]]\nsurface = "outlet"\n'
+            )
+            found.append(arrays(self.flow(name, text, "midpoint", 0.125, 0.5)[1] / "checkpoint.h5"))
+        np.testing.assert_allclose(found[0]["arrays/level0.flow"], found[1]["arrays/level0.flow"], atol=1e-9)
 
     def test_the_log_says_what_periods_and_profiles_are_made_of(self):
         text = (

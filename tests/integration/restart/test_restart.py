@@ -65,6 +65,7 @@ class Restart:
         self.assertEqual(table(folder, "iterations.csv")[:, 0].tolist(), [1, 2])
         self.assertSameResults(self.go_on(folder), self.whole)
         self.assertEqual(summary(folder)["restarted_from_step"], 2)
+        self.assertEqual(*(summary(of)["wall_deformation"] for of in (folder, self.whole)), "extremes of the whole run")
 
     def test_in_place_by_name(self):
         folder = self.march("by_name", steps=2)
@@ -227,6 +228,7 @@ class Restart:
             (ARTERY, ("fluid.density=2",), "another case"),
             (ARTERY, ("time.newmark_beta=0.9",), "another case"),
             (ARTERY, (f"mesh.file={mesh}",), "another mesh"),
+            (ARTERY, ('output.fields=["velocity"]', "output.every=1"), "displacement: is a field that this restart"),
         ):
             process = attempt(self.program, case, "--restart", folder, settings=self.until(2, *settings))
             self.assertEqual(process.returncode, 1)

@@ -193,6 +193,11 @@ class Varying(VaryingTest):
         refused = attempt(MONOLITHIC, self.case(WALL + own), "-q", folder=self.base / "no", settings=settings)
         self.assertEqual(refused.returncode, 1, refused.stderr)
         self.assertIn("structure.region.plaque.maxwell", refused.stderr)
+        still = self.base / "still.toml"
+        still.write_text(f'[mesh]\nfile = "tube.msh"\n{WALL}{SOFT_EDGE}[load]\npressure = 0.5\n[static]\n')
+        refused = attempt(MONOLITHIC, still, "-q", folder=self.base / "no", settings=settings)
+        self.assertEqual(refused.returncode, 1, refused.stderr)
+        self.assertIn("structure.region.plaque.viscosity: resists the rate of strain", refused.stderr)
 
     def test_drivers_agree(self):
         for kind, wall in zip(KINDS, [self.field(), self.field() + SOFT_EDGE, WALL + PLAQUE] * 2):

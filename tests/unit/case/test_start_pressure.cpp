@@ -66,6 +66,15 @@ TEST(StartPressure, OfOtherKindsIsNamedToo) {
   EXPECT_NE(jumping[0].find("opening.side.pressure: begins with 10 kPa"), std::string::npos) << jumping[0];
   EXPECT_TRUE(warnings({}, "[[opening]]\nsurface = \"side\"\npressure = 10\nuntil = 3\n").empty())
       << "a pulse is meant";
+  // With a prestress no pressure of an opening is a pulse, and one without traction does not hold it.
+  const auto held = warnings({start}, prestress + "[[opening]]\nsurface = \"side\"\npressure = [[0, 0], [4, 5]]\n");
+  ASSERT_EQ(held.size(), 1u);
+  EXPECT_NE(held[0].find("opening.side.pressure: begins with 0 kPa against a wall that carries 10.7 kPa"),
+            std::string::npos)
+      << held[0];
+  const auto open = warnings({start}, prestress + "[[opening]]\nsurface = \"side\"\n");
+  ASSERT_EQ(open.size(), 1u);
+  EXPECT_NE(open[0].find("is emptied through side, which is free of traction,"), std::string::npos) << open[0];
   // What was found by the openings alone is compared with the wall as well.
   const auto lumped = warnings({"time.start=\"lumped\"", "opening.outlet.windkessel.distal=30"});
   ASSERT_EQ(lumped.size(), 1u);

@@ -21,7 +21,7 @@ double factor(const char* header, ColumnKind kind) {
 TEST(TableUnits, AreFoundInManySpellings) {
   for (const char* header : {"time_ms", "t [ms]", "time (ms)", "ms", "t ms"})
     EXPECT_EQ(factor(header, ColumnKind::time), 1) << header;
-  for (const char* header : {"time_s", "t [s]", "Time (s)", "s", "time_sec"})
+  for (const char* header : {"time_s", "t [s]", "Time (s)", "s", "time_sec", "time_seconds", "Seconds"})
     EXPECT_EQ(factor(header, ColumnKind::time), 1000) << header;
   for (const char* header : {"flow_ml_per_s", "flow_mL/s", "Q [ml/s]", "flow_cm^3_per_s", "q cm3/s", "flow [ml s^-1]",
                              "flow_mm3_per_ms", "flow_mm^3/ms", "\"flow [ml/s]\"", "flow rate [ml/s]"})
@@ -75,6 +75,8 @@ TEST_F(TableFiles, AreConvertedAndSaid) {
   EXPECT_EQ(pressure.openings.at("left").pressure->points, (Points{{0, 100 * 0.133322}, {1, 200 * 0.133322}}));
   EXPECT_EQ(pressure.remarks.size(), 1u);
   EXPECT_TRUE(pressure.warnings.empty());
+  const Case marked = read("\xEF\xBB\xBFs,mmHg\n0,100\n1,200\n", "pressure");
+  EXPECT_EQ(marked.openings.at("left").pressure->points.back(), std::pair(1000.0, 200 * 0.133322));
 }
 
 TEST_F(TableFiles, InTheRightUnitsSayNothing) {

@@ -50,6 +50,25 @@ TEST_F(EarlierFields, OfCellsAndTensorsAreTaken) {
   EXPECT_EQ(checked_field_entries(folder, sample_grids(), 1), 1);
 }
 
+TEST_F(EarlierFields, ThatARestartWouldLoseAreRefused) {
+  std::vector<std::string> all;
+  for (const auto& grid : sample_grids())
+    for (const auto& field : grid.fields) all.push_back(grid.name + "." + field.name);
+  EXPECT_NO_THROW(require_no_lost_fields(folder_, all, 100));
+  const auto lost = all.back();
+  all.back() = "fluid.another";
+  EXPECT_NO_THROW(require_no_lost_fields(folder_, all, -1)) << "no entry is that early";
+  try {
+    require_no_lost_fields(folder_, all, 0);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              (folder_ / "fields.h5").string() + ": " + lost +
+                  ": is a field that this restart does not write, and would remove; ask for it in output.fields, or "
+                  "continue in another folder: -o DIR");
+  }
+}
+
 TEST_F(EarlierFields, OfAnotherMeshAreRefused) {
   auto grids = sample_grids();
   grids[0].points[2][1] *= 1 + 1e-15;

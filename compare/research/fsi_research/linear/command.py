@@ -10,7 +10,7 @@ from typing import Dict, List, Optional, Sequence, Set, Tuple
 
 from fsi_compare.base.errors import InputError, printable
 from fsi_compare.base.files import folder, is_file, is_folder, make_folder, output_folder, replacing, together
-from fsi_compare.base.options import Commands, add_command, add_output
+from fsi_compare.base.options import Commands, add_command, add_count, add_output
 from fsi_compare.base.folder_lock import locked
 from ..catalogue.names import MATERIALS, METHODS, pick
 from fsi_compare.study.mesh_levels import MESHES
@@ -103,6 +103,7 @@ def add_parser(commands: Commands, version: str) -> None:
         "--program", metavar="PATH", type=Path, help="fsi-linear-study (default: beside this program, else on the path)"
     )
     command.add_argument("--threads", metavar="N", type=int, help="of fsi-linear-study; 0: one per core (its default)")
+    add_count(command, "--jobs", "runs at once (default: 1); more than one spoils the seconds", 1)
     command.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
     command.add_argument("--version", action="version", version=f"fsi-compare {version}")
 
@@ -183,7 +184,7 @@ def solve(
             requests.append(
                 replace(base, name=name, case=case, material=material, mesh=mesh, settings=level, solvers=asked)
             )
-    outcomes = run_study(program, options.output / "runs", requests, options.quiet)
+    outcomes = run_study(program, options.output / "runs", requests, options.quiet, options.jobs)
 
     load_matplotlib()
     from . import grid as grids, solver_pictures, solver_tables  # matplotlib takes a second to load
@@ -203,7 +204,7 @@ def stress(
 ) -> int:
     planned = stress_study.plan(options.output, program, base, materials, meshes, options.case_dir)
     requests = [p.request for p in planned if not p.failure]
-    runs = iter(run_study(program, options.output / "runs", requests, options.quiet))
+    runs = iter(run_study(program, options.output / "runs", requests, options.quiet, options.jobs))
     outcomes = [Outcome(p.request, None, p.failure) if p.failure else next(runs) for p in planned]
     table = stress_study.stress_table(planned, outcomes, base.solvers)
     with together(options.output) as place:

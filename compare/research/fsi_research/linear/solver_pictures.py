@@ -5,6 +5,7 @@ from typing import Any, Dict, List, Sequence, Tuple
 
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator
 
 from ..catalogue import paper
 from ..catalogue.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MULTILEVEL
@@ -63,6 +64,9 @@ def iterations_figure(grid: Grid, key: System) -> Figure:
             axes.plot(*_columns(_paper_points(grid.meshes, material, method)), **_paper_line(material))
         axes.set_title(method)
         log_axes(axes, least=(12, 4))
+        low, high = axes.get_xlim()
+        if high > 30 * low:  # numbers of five digits between powers of ten would touch in so small a panel
+            axes.xaxis.set_major_locator(LogLocator(subs=(1,)))
         note_coinciding(axes, own, [MATERIALS[material] for material in grid.materials])
         axes.set_xlabel("unknowns")
         axes.set_ylabel("iterations")
