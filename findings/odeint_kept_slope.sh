@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # One runge_kutta_dopri5 of Boost.Odeint that advances two states in turn, such as the pressures of two vessels, or particles
-# in a flow, gives wrong results for both, by factors, and says nothing. It keeps the slope at the end of its last step, and
-# takes that for the slope at the start of the next one, whatever state do_step is given. runge_kutta4 and the two other methods
-# below keep nothing, so a program that is right with one of them goes wrong when dopri5 is put in its place. A stepper for each
-# state is right, and so is reset() before each step.
+# in a flow, gives wrong results for both, one of them by a factor of five, and says nothing. It keeps the slope at the end of
+# its last step, and takes that for the slope at the start of the next one, whatever state do_step is given. runge_kutta4 and
+# the two other methods below keep nothing, so a program that is right with one of them goes wrong when dopri5 is put in its
+# place. A stepper for each state is right, and so is reset() before each step.
 # A guess would be that do_step(system, x, t, dt) depends on its arguments alone, or that the stepper notices another state.
 # Seen with Boost 1.74 (Debian 12): x' = -x from 1 and from 10, ten steps of 0.1; x(1) is 0.36788 times the start.
 # Output seen, x(1) by the start: runge_kutta4, cash_karp54, fehlberg78 0.36788 both; dopri5 0.07277 and 0.40087; a stepper
