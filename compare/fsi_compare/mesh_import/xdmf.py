@@ -12,7 +12,7 @@ import numpy as np
 from ..base.errors import InputError
 from ..base.files import exists
 from .groups import corner_keys
-from .raw_mesh import KINDS, NODES, Blocks, RawMesh
+from .raw_mesh import KINDS, NODES, Blocks, RawMesh, nothing
 
 # Names of topologies in lower case without underscores: meshio's kind.
 TOPOLOGIES = {"polyvertex": "vertex", "quadrilateral": "quad"} | {k: k for k in ("hexahedron", "wedge", "pyramid")}
@@ -30,7 +30,8 @@ REMEDY = "write the mesh anew, for one as .vtu"
 
 
 def read_xdmf(path: Path) -> RawMesh:
-    """Grids of one geometry as one mesh, a series in time by its first. Raises InputError."""
+    """Grids of one geometry as one mesh, a series in time by its first time, with the names of a collection's blocks.
+    Raises InputError."""
     try:
         return _Document(path).mesh()
     except ElementTree.ParseError as error:
@@ -56,8 +57,9 @@ class _Document:
         points: np.ndarray | None = None
         blocks: Blocks = []
         data: dict[str, list[tuple[int, np.ndarray, np.ndarray]]] = {}  # name -> block, places, values
+        named: dict[str, list[tuple[int, np.ndarray]]] = {}  # a collection's block -> block, places
         point_data: dict[str, np.ndarray] = {}
-        for grid in self.grids:
+        for part, grid in self.grids:
             own = self._points(grid)
             if points is None:
                 points = own
@@ -73,6 +75,8 @@ class _Document:
             if not where:  # that of the first grid
                 where = [(0, np.arange(len(blocks[0][1])), np.arange(len(blocks[0][1])))] if len(blocks) == 1 else []
                 count = sum(len(places) for _, _, places in where)
+            if part:
+                named.setdefault(part, []).extend((block, at) for block, at, _ in where)
             for attribute in grid.findall("Attribute"):
                 name, centre = attribute.get("Name", ""), attribute.get("Center", "Node").lower()
                 values = self._scalars(attribute, name)
@@ -87,14 +91,24 @@ class _Document:
         if points is None:
             raise InputError(self.path, "Geometry", "is missing", REMEDY)
         cell_data = {name: _spread(blocks, entries) for name, entries in data.items()}
-        return RawMesh(points, blocks, cell_data, point_data, passed_over=list(self.passed_over))
+        sets = {name: [_union(entries, i) for i in range(len(blocks))] for name, entries in named.items()}
+        top = max((KINDS[kind][0] for kind, _ in blocks if kind in KINDS), default=0)
+        solid = [i for i, (kind, _) in enumerate(blocks) if kind in KINDS and KINDS[kind][0] == top]
+        # A name of all cells tells none apart: that of the only block, or of the mesh beside its tags.
+        sets = {n: of for n, of in sets.items() if any(len(of[i]) < len(blocks[i][1]) for i in solid)}
+        return RawMesh(points, blocks, cell_data, point_data, sets, passed_over=list(self.passed_over))
 
-    def _uniform(self, parent: ElementTree.Element) -> list[ElementTree.Element]:
-        found = []
+    def _uniform(self, parent: ElementTree.Element, block: str = "") -> list[tuple[str, ElementTree.Element]]:
+        """Uniform grids within, of a series in time those of its first time, each with the name of the block of a
+        collection that it is, or is in; empty: none."""
+        found: list[tuple[str, ElementTree.Element]] = []
+        temporal = parent.get("CollectionType", "").lower() == "temporal"
         for grid in parent.findall("Grid"):
-            kind = grid.get("GridType", "Uniform").lower()
-            temporal = kind == "collection" and grid.get("CollectionType", "").lower() == "temporal"
-            found += [grid] if kind == "uniform" else self._uniform(grid)[: 1 if temporal else None]
+            name = block if temporal or parent.tag != "Grid" else grid.get("Name", block)
+            uniform = grid.get("GridType", "Uniform").lower() == "uniform"
+            found += [(name, grid)] if uniform else self._uniform(grid, name)
+            if temporal and found:
+                break
         return found
 
     def _points(self, grid: ElementTree.Element) -> np.ndarray | None:
@@ -228,6 +242,11 @@ def _placed(blocks: Blocks, kind: str, nodes: np.ndarray) -> tuple[int, np.ndarr
                 return i, order[at]
     blocks.append((kind, nodes))
     return len(blocks) - 1, np.arange(len(nodes))
+
+
+def _union(entries: list[tuple[int, np.ndarray]], block: int) -> np.ndarray:
+    """Places in a block."""
+    return np.unique(np.concatenate([nothing(), *(at for own, at in entries if own == block)]))
 
 
 def _spread(blocks: Blocks, entries: list[tuple[int, np.ndarray, np.ndarray]]) -> list[np.ndarray]:

@@ -15,6 +15,7 @@ from ..mesh_import.raw_mesh import SIDES, Block
 from ..mesh_import.sources import Source, join, read_sources
 
 FLAT = np.cos(np.radians(5.0))  # a facet's normal along the face's mean one, of a flat face
+IN_PLANE = 1e-6  # of the mesh's size: how far off their plane the drivers let nodes of a plane of symmetry lie
 
 
 @dataclass
@@ -29,6 +30,7 @@ class Face:
     normal: tuple[float, float, float] = (0.0, 0.0, 0.0)  # mean, out of its medium, of length 1
     flat: bool = False
     on_interface: bool = False
+    axis: str = ""  # x, y or z: each facet lies in a plane normal to it
 
 
 @dataclass
@@ -120,6 +122,9 @@ def _face(
         face.flat = bool(np.all(counted @ unit >= FLAT * sizes))
     if across.all():
         return face, None
+    spans = np.ptp(mesh.points[triangles[~across]], axis=1).max(axis=0)
+    size = float(np.ptp(mesh.points, axis=0).max())
+    face.axis = next((axis for axis, span in zip("xyz", spans) if span <= IN_PLANE * size), "")
     starts = np.cumsum([0] + [len(block.nodes) for block in group.parts])
     parts = [Block(b.kind, b.nodes[~across[i:j]]) for b, i, j in zip(group.parts, starts[:-1], starts[1:])]
     return face, Group(group.name, group.dimension, [block for block in parts if len(block.nodes)])

@@ -112,6 +112,7 @@ class _Reader:
         self.openings: list[dict[str, Any]] = []
         self.supports: dict[str, dict[str, Any]] = {}
         self.closed: list[str] = []
+        self.symmetric: dict[str, str] = {}  # groups of planes of symmetry, by the face's name
         self.backflow = 0.2
 
     def read(self) -> PeerCase:
@@ -388,8 +389,18 @@ class _Reader:
     def _given_velocity(self, face: Face, entry: Entry) -> None:
         dependence = entry.word("Time_dependence", "Steady")
         flux, profile = entry.yes("Impose_flux", False), entry.word("Profile", "Flat")
+        fixed = self._fixed(entry)
         if dependence == "Steady":
             value = entry.number("Value", 0.0)
+            if value == 0 and fixed == face.axis:
+                self.symmetric[face.name] = f"symmetry_{fixed}"
+                self.case.said.append(f"{face.given}: a plane of symmetry, called symmetry_{fixed} here")
+                return
+            if value == 0 and len(fixed) < 3:
+                along = f"holds the velocity along {' and '.join(fixed)} only"
+                problem = f"{along}, and the face is no plane of symmetry, which is normal to that one axis"
+                remedy = "take it out where the face is a wall; turn the mesh where it is such a plane"
+                raise entry.need("Effective_direction").refuse(problem, remedy)
             if value == 0:
                 self.closed.append(face.name)
                 self.case.said.append(f"{face.given}: a rigid wall, fluid.closed")
@@ -464,6 +475,10 @@ class _Reader:
             raise found.refuse(f"'{found.text}' is no direction", "write, for one, (0, 0, 1)")
         return numbers
 
+    def _fixed(self, entry: Entry) -> str:
+        """Axes along which a Dirichlet condition holds; all without a direction."""
+        return "".join(axis for axis, part in zip("xyz", self._direction(entry)) if part) or "xyz"
+
     def _wave(self, entry: Entry) -> tuple[Waveform, str]:
         series, coefficients = entry.find("Temporal_values_file_path"), entry.find("Fourier_coefficients_file_path")
         if series is not None:
@@ -497,9 +512,7 @@ class _Reader:
         if given in ("Dir", "Dirichlet"):
             if dependence != "Steady" or entry.number("Value", 0.0):
                 raise entry.refuse("moves a face of the wall", "give a load or a support: Value 0, Neu or Robin")
-            direction = self._direction(entry)
-            fixed = [axis for axis, part in zip("xyz", direction) if part] if any(direction) else list("xyz")
-            support["fixed"] = [axis for axis in "xyz" if axis in {*support.get("fixed", []), *fixed}]
+            support["fixed"] = [axis for axis in "xyz" if axis in {*support.get("fixed", []), *self._fixed(entry)}]
             self.case.said.append(f"{face.given}: fixed along {', '.join(support['fixed'])}")
         elif given in ("Neu", "Neumann", "Robin", "Rbn"):
             if given in ("Robin", "Rbn"):
@@ -554,6 +567,8 @@ class _Reader:
         told |= {"mesh_motion": {"method": "stiffened"} if kind == "FSI" else {}, "time": time}
         told |= {"output": {"every": self.every} if self.every > 0 else {}}
         sections |= {name: entries for name, entries in told.items() if entries}
+        for group in mesh.groups:
+            group.name = self.symmetric.get(group.name, group.name)
         self.case.said += mesh.said + [ELEMENTS[mesh.order]]
         self.case.mesh = mesh
 

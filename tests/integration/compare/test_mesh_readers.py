@@ -116,6 +116,44 @@ class Readers(FolderCase):
         found = found_mesh("a.xdmf", read, 1.0)
         self.assertEqual(list(found.cells), ["v:1", "v:2", "v:5", "v:9", "all"])
 
+    def test_xdmf_of_blocks_is_read_whole_and_with_their_names(self):
+        """Of a series in time at its first; a name of all cells is none."""
+
+        def grid(name, cells, geometry=self.GEOMETRY):
+            cells = np.asarray(cells)
+            return f'<Grid Name="{name}">{geometry}{self.topology("tetrahedron", cells.ravel(), len(cells))}</Grid>'
+
+        def collection(kind, *grids, name="c"):
+            return f'<Grid Name="{name}" GridType="Collection" CollectionType="{kind}">{"".join(grids)}</Grid>'
+
+        blocks = [grid("lumen", CELLS[:1]), grid("wall", CELLS[1:])]
+        later = [grid("lumen", CELLS[:1, ::-1]), grid("late", CELLS[1:])]
+        for text, parts in (
+            (collection("Spatial", *blocks), ["lumen", "wall"]),
+            (collection("Temporal", collection("Spatial", *blocks), collection("Spatial", *later)), ["lumen", "wall"]),
+            (
+                collection(
+                    "Spatial",
+                    collection("Temporal", blocks[0], later[0], name="a"),
+                    collection("Temporal", blocks[1], later[1], name="b"),
+                ),
+                ["a", "b"],
+            ),
+            (collection("Temporal", grid("t0", CELLS), grid("t1", CELLS[:1])), []),
+            (collection("Spatial", grid("one", CELLS)), []),
+            ("".join(blocks), []),
+        ):
+            read = self.read("a.xdmf", self.xdmf(text))
+            np.testing.assert_array_equal(np.concatenate([nodes for _, nodes in read.blocks]), CELLS)
+            found = found_mesh("a.xdmf", read, 1.0)
+            self.assertEqual(list(found.cells), [*parts, "all"])
+            for name, nodes in zip(parts, CELLS):
+                rows = [block.nodes[places] for block, places in zip(found.blocks, found.cells[name])]
+                np.testing.assert_array_equal(np.concatenate(rows), [nodes])
+        moved = grid("wall", CELLS[1:], self.GEOMETRY.replace("0 0 0", "0 0 2", 1))
+        text = self.xdmf(collection("Temporal", collection("Spatial", blocks[0], moved)))
+        self.expect_refusal("a.xdmf", text, "has grids of several geometries, of which 'wall' is one")
+
     def test_xdmf_that_is_wrong(self):
         good = self.GEOMETRY + self.topology("tetrahedron", CELLS.ravel(), 2)
         for grid, words in (

@@ -229,6 +229,31 @@ class PeerCases(FolderTest):
         # The other end has no condition: free of traction, as there.
         self.assertEqual(case["opening"][1], {"surface": "lumen_outlet", "backflow": 0.0})
 
+    def test_a_face_whose_normal_velocity_is_zero_is_a_plane_of_symmetry(self):
+        """Where its normal is an axis; else it is refused, never a wall. A direction that holds all is one."""
+        held = "<Type> Dir </Type> <Value> 0.0 </Value> <Effective_direction> {} </Effective_direction>"
+        pressure = "<Type> Neu </Type> <Value> 2e4 </Value>"
+        conditions = {"lumen_inlet": pressure, "lumen_outlet": held.format("(0, 0, 1)"), "lumen_wall": peer.CLAMP}
+        _, folder, case = self.made(peer.rigid(conditions))
+        self.assertEqual(case["fluid"]["closed"], ["lumen_wall"])
+        self.assertEqual([opening["surface"] for opening in case["opening"]], ["lumen_inlet"])
+        names = set(re.findall(r'^2 \d+ "(.*)"$', (folder / "mesh.msh").read_text(), re.MULTILINE))
+        self.assertEqual(names, {"lumen_inlet", "lumen_wall", "symmetry_z"})
+        self.assertIn("lumen_outlet: a plane of symmetry, called symmetry_z here", (folder / "import.log").read_text())
+        for program in DRIVERS:
+            process = attempt(program, folder / "case.toml", "--check")
+            self.assertEqual(process.returncode, 0, process.stderr)
+        _, folder, case = self.made(peer.rigid({**conditions, "lumen_wall": held.format("1 1 -1")}))
+        self.assertEqual(case["fluid"]["closed"], ["lumen_wall"])
+        for face, direction, axes in (
+            ("lumen_outlet", "(1, 0, 0)", "x"),
+            ("lumen_outlet", "(0, 1, 1)", "y and z"),
+            ("lumen_wall", "(0, 0, 1)", "z"),
+        ):
+            text = peer.rigid({**conditions, face: held.format(direction)})
+            words = f"holds the velocity along {axes} only, and the face is no plane of symmetry"
+            self.refused(text, f"Add_BC {face}/Effective_direction: {words}", "take it out where the face is a wall")
+
     def test_a_case_is_no_mesh(self):
         (self.base / "solver.xml").write_text(peer.fsi())
         for options in (("--list",), ("-o", "out.msh")):
