@@ -178,7 +178,7 @@ TEST_F(Openings, HeadersWithUnitsOfSomethingElseAreRefused) {
   EXPECT_EQ(
       said("time_kPa,flow"),
       "a.csv:1: opening.left.flow_rate.file: column 1: kPa is a unit of pressure, not of time; give it in ms: ms, "
-      "s, us, min, msec or sec");
+      "s, us, min, msec, sec, second, seconds, millisecond, milliseconds, minute or minutes");
   for (const std::string header : {"t,velocity_m_per_s", "t,flow [m/s]", "t,v_cm/s"})
     EXPECT_NE(said(header).find("is a unit of velocity, not of flow rate"), std::string::npos) << said(header);
   for (const std::string header : {"t,flow_gallons_per_min", "t,flow [gpm]", "t,Q (barrels/d)"})
