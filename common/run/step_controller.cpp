@@ -16,7 +16,7 @@ namespace fsi {
 
 namespace {
 
-// Of the scene's time.
+// Of the time that steps must resolve.
 constexpr double first_share = 1.0 / 32, largest_share = 1;
 constexpr double its_tolerance = 0.01;  // of the first step, which goes with the root of the tolerance
 
@@ -54,7 +54,7 @@ template <int n>
 void StepController<n>::keep_scheme() {
   if (!loads_.axis().is_adaptive()) return;
   const TimeData& time = *setup_.time;
-  const double swing = scene_time(setup_, scene_);
+  const double swing = resolved_time(setup_, scene_);
   StepLimits limits;
   limits.largest = time.largest_step.value_or(largest_share * swing);
   const ErrorTerms terms = scene_.integrator->error_terms();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "fem/elements.hpp"
@@ -185,7 +186,10 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
     for (int a = 0; a < nodes; ++a)
       if (on[a]) boundary.mesh.fix(a);
   }
-  const auto closed = nodes_on<Element>(fluid, closed_facets<Element>(mesh, not_closed));
+  const auto closed_here = closed_facets<Element>(mesh, not_closed);
+  const auto closed_areas = nodal_areas<Element>(fluid.nodes, in_part<Element>(fluid, closed_here));
+  boundary.closed_area = std::accumulate(closed_areas.begin(), closed_areas.end(), 0.0);
+  const auto closed = nodes_on<Element>(fluid, closed_here);
   for (int a = 0; a < nodes; ++a)
     if (closed[a]) {
       boundary.velocity.fix(a);

@@ -123,6 +123,7 @@ void build_fluid(const Case& setup, FluidParts<Element> parts, Scene<Element::co
   }
   scene.interface = std::move(boundary.interface);
   scene.interface_areas = std::move(boundary.interface_areas);
+  scene.closed_area = boundary.closed_area;
   scene.interface_ghosts = parts.interface_ghosts;
   scene.velocity_conditions = std::move(boundary.velocity);
   scene.mesh_conditions = std::move(boundary.mesh);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "case/openings.hpp"
+#include "case/scene_period.hpp"
 #include "fem/dimensions.hpp"
 #include "scene/wave_speed.hpp"
 #include "time/shifted_midpoint.hpp"
@@ -32,10 +33,8 @@ double largest_radius(const PartNodes& part, const Point& origin, const Point& a
   return std::sqrt(part.processes().largest(largest));
 }
 
-/// Of a fluid without wall, mm: its largest distance from the z axis, where the axis of such a tube lies; half the smaller
-/// extent of a plane one.
-double radius_of_fluid(const Case& setup, const PartNodes& part) {
-  if (setup.geometry != Geometry::plane) return largest_radius(part, {0, 0, 0}, {0, 0, 1});
+/// Half the smaller extent of a plane part, mm.
+double half_gap(const PartNodes& part) {
   double smallest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 2; ++k) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -49,6 +48,13 @@ double radius_of_fluid(const Case& setup, const PartNodes& part) {
   return smallest / 2;
 }
 
+/// Of a fluid without wall, mm; infinite where it sticks nowhere.
+template <int n>
+double radius_of_fluid(const Case& setup, const Scene<n>& scene) {
+  if (setup.geometry == Geometry::plane) return half_gap(scene.fluid->nodes());
+  return 2 * scene.fluid->volume() / scene.closed_area;
+}
+
 /// Shortest time between two jumps of the load, the start counted among them, ms; infinite when there is no jump.
 double shortest_pulse(const Case& setup) {
   double shortest = std::numeric_limits<double>::infinity();
@@ -59,6 +65,12 @@ double shortest_pulse(const Case& setup) {
       last = jump;
     }
   }
+  return shortest;
+}
+
+double shortest_period(const Case& setup) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const auto& [key, period] : periods_of_openings(setup)) shortest = std::min(shortest, period);
   return shortest;
 }
 
@@ -85,8 +97,7 @@ double scene_frequency(const Case& setup, const Scene<n>& scene) {
            largest_radius(scene.wall->nodes(), setup.structure->axis_origin, setup.structure->axis_direction);
   }
   const AleFluid& form = scene.fluid->form();
-  const double decay =
-      form.viscosity / form.density * std::pow(2.405 / radius_of_fluid(setup, scene.fluid->nodes()), 2);
+  const double decay = form.viscosity / form.density * std::pow(2.405 / radius_of_fluid(setup, scene), 2);
   return std::max(decay / midpoint_share, 1 / shortest_pulse(setup));
 }
 
@@ -94,6 +105,12 @@ template <int n>
 double scene_time(const Case& setup, const Scene<n>& scene) {
   const double frequency = scene_frequency(setup, scene);
   return frequency > 0 ? 1 / frequency : setup.time.value().end;
+}
+
+template <int n>
+double resolved_time(const Case& setup, const Scene<n>& scene) {
+  constexpr double share_of_period = 1.0 / 8;
+  return std::min(scene_time(setup, scene), share_of_period * shortest_period(setup));
 }
 
 template <int n>
@@ -141,6 +158,7 @@ std::unique_ptr<const TimeIntegrator> make_time_scheme(const Case& setup, const 
 #define FSI_INSTANTIATE(n)                                                                     \
   template double scene_frequency<n>(const Case&, const Scene<n>&);                            \
   template double scene_time<n>(const Case&, const Scene<n>&);                                 \
+  template double resolved_time<n>(const Case&, const Scene<n>&);                              \
   template std::string time_scheme_of<n>(const Case&, const Scene<n>&);                        \
   template std::string about_time_scheme<n>(const Case&, const Scene<n>&, const std::string&); \
   template std::unique_ptr<const TimeIntegrator> make_time_scheme<n>(const Case&, const Scene<n>&, const std::string&);

@@ -13,9 +13,9 @@ namespace fsi {
 ///   fluid and wall:  c_w / R, the wave speed (wave_speed.hpp) over the radius 2 V_f / A,
 ///   wall alone:      sqrt(E / ((1 - nu^2) rho_s)) / R, R the largest distance from its axis,
 ///   fluid alone:     the larger of nu (2.405 / R)^2 over midpoint_share, so that the midpoint rule's damping is the decay
-///                    of the slowest flow in a pipe, R its largest distance from the z axis (half its smaller extent in
-///                    the plane), and of one over the shortest time between jumps of the load: without waves only these
-///                    make stabilised velocities alternate.
+///                    of the slowest flow in a pipe, R = 2 V / A of the volume V and the area A that the fluid sticks to
+///                    (half the smaller extent in the plane), and of one over the shortest time between jumps of the
+///                    load: without waves only these make stabilised velocities alternate.
 template <int n>
 double scene_frequency(const Case& setup, const Scene<n>& scene);
 
@@ -23,6 +23,10 @@ double scene_frequency(const Case& setup, const Scene<n>& scene);
 /// wave travels the radius. To be called by all processes, as are the functions below that take a scene.
 template <int n>
 double scene_time(const Case& setup, const Scene<n>& scene);
+
+/// That adaptive steps must resolve, ms: the scene's time, and an eighth of the shortest period of a load.
+template <int n>
+double resolved_time(const Case& setup, const Scene<n>& scene);
 
 /// The scheme of a case in time: as named, else
 ///   midpoint  for equal steps whose shift keeps theta within midpoint_bound, and for adaptive ones unless

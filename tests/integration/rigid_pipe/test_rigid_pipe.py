@@ -1,16 +1,19 @@
 """A fluid between rigid walls: the flow rises to Poiseuille's, and nothing of a wall is built."""
 
+import re
 import unittest
 from pathlib import Path
 
 import numpy as np
 from programs import (
     DRIVERS,
+    MESH,
     MONOLITHIC,
     POINTS,
     FolderTest,
     arrays,
     calls,
+    execute,
     make_mesh,
     newton_history,
     run,
@@ -128,6 +131,53 @@ class RigidPipe(FolderTest):
         for folder in self.folders:
             self.assertEqual(calls(folder)["factorisation: coupled"], 1)
             self.assertEqual(len(newton_history(folder)), STEPS)
+
+
+SHAPE = """
+SetFactory("OpenCASCADE");
+DefineConstant[ x = 0 ];
+Cylinder(1) = {x, 0, 0, 0, 0, 12, 1};
+Mesh.MeshSizeMax = 0.7;
+Physical Volume("fluid") = {1};
+Physical Surface("wall") = {1};
+Physical Surface("outlet") = {2};
+Physical Surface("inlet") = {3};
+"""
+
+
+class Place(FolderTest):
+    """How steps are chosen for a rigid vessel depends on its radius and on its loads, not on where it lies."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.case = cls.base / "pipe.toml"
+        cls.case.write_text(CASE.read_text().replace('scheme = "euler"', "#"))
+        (cls.base / "shape.geo").write_text(SHAPE)
+        cls.meshes = []
+        for x in (0, 100):
+            cls.meshes.append(cls.base / f"{x}.msh")
+            made = execute(MESH, "geo", cls.base / "shape.geo", "-q", "--set", f"x={x}", "-o", cls.meshes[-1])
+            assert made.returncode == 0, made.stderr
+
+    def march(self, mesh, *settings, case=None):
+        return run(MONOLITHIC, case or self.case, self.base / "run", f"mesh.file={mesh}", "output.every=0", *settings)
+
+    def test_the_scheme_is_the_same_wherever_the_vessel_lies(self):
+        found = []
+        for mesh in self.meshes:
+            log = (self.march(mesh, "time.end=2") / "run.log").read_text()
+            found.append(float(re.search(r"tr-bdf2.* the scene's time of (\S+) ms", log)[1]))
+        self.assertAlmostEqual(found[0], 0.25 * RADIUS**2 * DENSITY / (2.405**2 * VISCOSITY), delta=0.1 * found[0])
+        self.assertAlmostEqual(found[1], found[0], delta=1e-3 * found[0])
+
+    def test_adaptive_steps_resolve_a_period(self):
+        """Of a fluid so thin that its own time is 4 s: an eighth of the period is the longest step."""
+        load = "[[opening]]\nsurface = 'inlet'\npressure = [[0, 0.1], [4, -0.1], [8, 0.1]]\nperiod = 8"
+        case = self.base / "periodic.toml"
+        case.write_text(re.sub(r"\[inlet\]\npressure.*", load, self.case.read_text()))
+        folder = self.march(self.meshes[1], "fluid.viscosity=1e-5", "time.step=adaptive", "time.end=32", case=case)
+        self.assertLessEqual(np.diff(table(folder, "iterations.csv")[:, 1]).max(), 1 + 1e-9)
 
 
 if __name__ == "__main__":
