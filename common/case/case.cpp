@@ -10,6 +10,15 @@
 
 namespace fsi {
 
+namespace {
+
+/// To twelve digits, as the ends of steps are.
+double rounded(double time) {
+  return std::strtod(fmt::format("{:.12g}", time).c_str(), nullptr);
+}
+
+}  // namespace
+
 double wall_stabilisation(const Case& setup) {
   assert(setup.structure);
   // A pressure that is continuous where layers meet leaks from one to the other, the more the larger alpha is.
@@ -22,6 +31,20 @@ int TimeData::steps() const {
   return static_cast<int>(std::lround(std::ceil(end / step - 1e-9)));
 }
 
+std::vector<double> further_output_times(const Case& setup) {
+  std::vector<double> times = setup.output.times;
+  if (!setup.time || !setup.time->periodic_change) return times;
+  const double period = *setup.time->period, end = setup.time->end, same = 1e-9 * end;
+  const auto given = static_cast<std::ptrdiff_t>(times.size());
+  for (int k = 1; k * period < end - same; ++k) {
+    const double time = rounded(k * period);
+    const auto next = std::lower_bound(times.begin(), times.begin() + given, time - same);
+    if (next == times.begin() + given || *next > time + same) times.push_back(time);
+  }
+  std::inplace_merge(times.begin(), times.begin() + given, times.end());
+  return times;
+}
+
 std::vector<double> output_times(const Case& setup) {
   std::vector<double> times;
   if (!setup.time) return times;
@@ -30,12 +53,11 @@ std::vector<double> output_times(const Case& setup) {
   if (!setup.output.interval && !of_its_own) return times;
   const double interval = setup.output.interval.value_or(end / 12);
   const int count = static_cast<int>(std::ceil(end / interval - 1e-9));
-  // Rounded to twelve digits, as the ends of steps are.
-  for (int k = 0; k < count; ++k) times.push_back(std::strtod(fmt::format("{:.12g}", k * interval).c_str(), nullptr));
+  for (int k = 0; k < count; ++k) times.push_back(rounded(k * interval));
   times.push_back(end);
   const auto intervals = static_cast<std::ptrdiff_t>(times.size());
   const double same = 1e-9 * end;
-  for (double time : setup.output.times) {
+  for (double time : further_output_times(setup)) {
     const auto next = std::lower_bound(times.begin(), times.begin() + intervals, time - same);
     if (next == times.begin() + intervals || *next > time + same) times.push_back(time);
   }

@@ -276,9 +276,13 @@ struct Case {
 /// alpha of the stabilisation of a case's wall: as given, or the standard of its kind (docs/theory.md, section 4.2).
 double wall_stabilisation(const Case& setup);
 
+/// Times of entries of fields.h5 besides the regular ones, ms, ascending: output.times, and the ends of periods where one
+/// of them ends the run.
+std::vector<double> further_output_times(const Case& setup);
+
 /// Times of entries of fields.h5 at which steps end, ms, ascending: multiples of output.interval from 0 on,
-/// output.times and the end. With adaptive steps the default interval is a twelfth of the run. Empty where entries are
-/// counted in steps, and in statics.
+/// further_output_times() and the end. With adaptive steps the default interval is a twelfth of the run. Empty where
+/// entries are counted in steps, and in statics.
 std::vector<double> output_times(const Case& setup);
 
 }  // namespace fsi

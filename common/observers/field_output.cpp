@@ -362,7 +362,7 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const Deri
     planned = planned_field_steps(
         axis.planned_steps(), setup.output.every,
         [&axis](std::int64_t step) { return axis.planned_time_of(static_cast<int>(step)); },
-        steps_at(setup.output.times, axis));
+        steps_at(further_output_times(setup), axis));
   if (restarted_from.empty())
     writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned, scene.processes());
   else
