@@ -173,6 +173,12 @@ std::string RunCheckpoints<n>::difference_to(const Checkpoint& head) const {
     difference +=
         ", which the shape of the wall decides where the case names no frame; structure.fibre_frame names that of the "
         "earlier run";
+  const bool start_differs =
+      difference.rfind("opening.", 0) == 0 && difference.find(".initial_") < difference.find(' ');
+  if (start_differs)
+    difference +=
+        "; time.start = \"lumped\" finds it, from time.period: continue with the time.start and time.period of the "
+        "earlier run";
   return difference;
 }
 

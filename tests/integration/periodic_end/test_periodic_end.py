@@ -6,7 +6,19 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from programs import DRIVERS, MONOLITHIC, PARTITIONED, FolderTest, attempt, make_mesh, restart, run, summary, times
+from programs import (
+    DRIVERS,
+    MONOLITHIC,
+    PARTITIONED,
+    FolderTest,
+    arrays,
+    attempt,
+    make_mesh,
+    restart,
+    run,
+    summary,
+    times,
+)
 
 CASE = Path(__file__).with_name("periodic_end.toml")
 PERIOD, PHASES = 12, 32
@@ -215,6 +227,33 @@ class PeriodicEnd(FolderTest):
             r"outlet remembers 500 ms, 41.7 periods \(distal times compliance\): time.start = "
             r"\"lumped\".* about \d+ periods later",
         )
+
+    def test_fields_have_the_end_of_each_period(self):
+        """Whatever else they are written for: the run ends there, and statistics are of the period that ends."""
+        rigid = self.base / "fields.toml"
+        rigid.write_text(RIGID.replace("every = 0", 'every = 1000\nfields = ["pressure"]\nstatistics = true'))
+        settings = (*self.settings, "opening.outlet.windkessel.compliance=0.5")
+        for steps in (("time.step=0.25",), ("time.step=0.7",), ("time.step=0.7", "output.interval=50")):
+            folder = run(MONOLITHIC, rigid, self.base / f"fields-{len(steps)}-{steps[0]}", *settings, *steps)
+            written = arrays(folder / "fields.h5")
+            finished = written["steps/written/fluid.tawss"] == 1
+            entries, ends = written["steps/time"][finished], [float(time) for time in times(folder)]
+            self.assertEqual(entries[-1], ends[-1])
+            periods = [c["end_ms"] for c in summary(folder)["periodicity"]["changes"]]
+            for end in [PERIOD, *periods]:
+                self.assertIn(min(time for time in ends if time >= end - 1e-9), entries)
+            shear = written[f"fluid/tawss/{written['steps/number'][finished][-1]:08}"]
+            self.assertGreater(shear.max(), 0)
+
+    def test_a_restart_with_another_start_names_the_key(self):
+        rigid = self.base / "start.toml"
+        rigid.write_text(RIGID)
+        folder = run(MONOLITHIC, rigid, self.base / "start", *self.settings, 'time.start="lumped"', "time.end=36")
+        refused = attempt(
+            MONOLITHIC, rigid, "--restart", folder, folder=folder, settings=[*self.settings, "time.end=48"]
+        )
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("continue with the time.start and time.period of the earlier run", refused.stderr)
 
     def test_what_is_refused(self):
         windkessel = "opening.outlet.windkessel.initial_pressure=1"
