@@ -73,8 +73,9 @@ std::string one_line(std::string text) {
 }
 
 bool CaseSource::is_overridden(const std::string& key) const {
-  for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', dot + 1))
-    if (overridden.count(key.substr(0, dot)) > 0) return true;
+  constexpr const char* within = ".[";  // sections, and elements of lists
+  for (auto end = key.find_first_of(within); end != std::string::npos; end = key.find_first_of(within, end + 1))
+    if (overridden.count(key.substr(0, end)) > 0) return true;
   return overridden.count(key) > 0;
 }
 

@@ -31,13 +31,13 @@ struct ElementInput {
   TableInput table;
 };
 
-const TableKind* table_kind(ElementCourse course) {
+const TableKind* table_kind(ElementCourse course, Geometry geometry = Geometry::three_dimensional) {
   static const TableKind elastance{"elastance", "elastances", quantity::elastance(), ColumnKind::elastance};
   switch (course) {
     case ElementCourse::pressure:
       return &pressure_kind();
     case ElementCourse::flow:
-      return &flow_rate_kind();
+      return &flow_rate_kind(geometry == Geometry::plane);
     case ElementCourse::elastance:
       return &elastance;
     case ElementCourse::none:
@@ -59,12 +59,13 @@ KeyValue<ElementInput> ends() {
           [](const ElementInput& input) { return fmt::format("[{}, {}]", input.data.from, input.data.to); }};
 }
 
-std::vector<CaseKey<ElementInput>> keys_of_kind(const NetworkElementKind& kind) {
+std::vector<CaseKey<ElementInput>> keys_of_kind(const NetworkElementKind& kind,
+                                                Geometry geometry = Geometry::three_dimensional) {
   std::vector<CaseKey<ElementInput>> keys;
   const Place<ElementInput, ParameterValues> values{
       [](ElementInput& input) -> ParameterValues& { return input.data.values; }};
   for (const auto& parameter : kind.parameters) keys.push_back(parameter_key(parameter, values));
-  const TableKind* table = table_kind(kind.course);
+  const TableKind* table = table_kind(kind.course, geometry);
   if (table == nullptr) return keys;
   const auto unlisted = [](const ElementInput&) { return std::string(); };  // list_elements() does
   keys.push_back(leaf<ElementInput>(
@@ -90,7 +91,7 @@ std::vector<CaseKey<ElementInput>> common_keys() {
           ends())};
 }
 
-NetworkElementData read_element(const CaseEntry& entry) {
+NetworkElementData read_element(const CaseEntry& entry, Geometry geometry) {
   ElementInput input;
   if (!entry.is_section()) entry.refuse("is no section", "write [[network.element]] with name, kind and between");
   input.data.name = entry.key().substr(std::string("network.element.").size());
@@ -100,9 +101,9 @@ NetworkElementData read_element(const CaseEntry& entry) {
   if (!entry.has("kind")) entry.refuse_missing("kind", "add it (" + keys.front().about + ")");
   keys.front().read(entry.child("kind", keys.front().about), input);
   const NetworkElementKind& kind = network_element_kinds().at(input.data.kind);
-  for (auto& key : keys_of_kind(kind)) keys.push_back(std::move(key));
+  for (auto& key : keys_of_kind(kind, geometry)) keys.push_back(std::move(key));
   read_keys(entry, keys, input);
-  if (const TableKind* table = table_kind(kind.course)) {
+  if (const TableKind* table = table_kind(kind.course, geometry)) {
     finish_table(entry, *table, input.table);
     input.data.course = input.table.table;
     if (!input.table.table.jumps().empty())
@@ -117,7 +118,7 @@ NetworkElementData read_element(const CaseEntry& entry) {
   return input.data;
 }
 
-NetworkData read_network(const CaseEntry& entry) {
+NetworkData read_network(const CaseEntry& entry, Geometry geometry) {
   NetworkData network;
   const std::vector<std::string> known{"ground_pressure", "element"};
   refuse_unknown_keys(entry, known);
@@ -125,7 +126,8 @@ NetworkData read_network(const CaseEntry& entry) {
     entry.refuse_missing("element", "add [[network.element]] with name, kind and between, one for each element");
   if (entry.has("ground_pressure"))
     network.ground_pressure = entry.child("ground_pressure", "in kPa").number(quantity::pressure());
-  for (const CaseEntry& child : entry.child("element").children()) network.elements.push_back(read_element(child));
+  for (const CaseEntry& child : entry.child("element").children())
+    network.elements.push_back(read_element(child, geometry));
   if (network.elements.empty()) entry.child("element").refuse("is empty", "add [[network.element]]");
   return network;
 }
@@ -211,7 +213,7 @@ CaseKey<Case> network_key() {
           optional,
           "lumped elements behind openings: a list [[network.element]], joined at nodes by name",
           [](const CaseEntry& entry, Case& scene) {
-            scene.network = std::make_shared<const NetworkData>(read_network(entry));
+            scene.network = std::make_shared<const NetworkData>(read_network(entry, scene.geometry));
           },
           list_network,
           KeyRole::physics,

@@ -120,7 +120,7 @@ def read_case(path: Path, settings: Mapping[str, Any] = MappingProxyType({})) ->
         end=float(time.get("end", 0.0)),
         scheme=str(time.get("scheme", "midpoint")),
         period=float(max(periods)) if periods else None,
-        flow_interval=flow_interval(path, openings),
+        flow_interval=flow_interval(path, openings, entries.get("network")),
     )
 
 

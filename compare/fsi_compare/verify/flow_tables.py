@@ -15,13 +15,14 @@ TIMES |= {"second": 1e3, "seconds": 1e3, "millisecond": 1.0, "milliseconds": 1.0
 UNREADABLE = "give a CSV file with a header and two columns"
 
 
-def flow_interval(case: Path, openings: Any) -> float | None:
-    """The smallest of all tables of flow rates, each by the median of its intervals, ms; None: no table, or none that
-    can be read here, which the driver then says."""
+def flow_interval(case: Path, openings: Any, network: Any = None) -> float | None:
+    """The smallest of all tables of flow rates, of openings and of sources in a network, each by the median of its
+    intervals, ms; None: no table, or none that can be read here, which the driver then says."""
     found = []
-    for opening in openings if isinstance(openings, list) else []:
+    elements = network.get("element") if isinstance(network, dict) else None
+    for source in (one for of in (openings, elements) if isinstance(of, list) for one in of):
         try:
-            times = _times(case.parent, opening["flow_rate"])
+            times = _times(case.parent, source["flow_rate"])
         except (InputError, ValueError, TypeError, LookupError, OverflowError):
             continue
         interval = float(np.median(np.diff(times))) if len(times) > 2 and np.isfinite(times).all() else 0.0

@@ -179,7 +179,13 @@ class _Judging:
         whole = None if quantity.held_by is None else self._of_curve(quantity, quantity.held_by)
         orders, held = self._orders(quantity), whole if quantity.is_norm else None
         bar = bar_of(values, quantity.scale, *orders, self.facts.element, self.additive, curve=held)
-        if bar is not None and whole is not None and not bar.given and whole.given:
+        if (
+            bar is not None
+            and whole is not None
+            and not bar.given
+            and whole.given
+            and _bounds(whole, bar.value, values)
+        ):
             bar = inherited(bar, whole)
         return None if bar is None else self._doubted(quantity, bar, values)
 
@@ -217,6 +223,13 @@ class _Judging:
         if advice:
             bar = replace(bar, verdict=NOT_IN_RANGE, advice=advice)
         return Judged(self.driver, quantity, bar, values, self.own[quantity.curve])
+
+
+def _bounds(whole: Bar, own: float, values: Sequence[Value]) -> bool:
+    """Whether the curve's bar holds the number of each finer member, as it must where both are read at the same levels:
+    a norm over a kink in time depends on the levels themselves."""
+    finer = [v.value for v in values if v.mesh <= 1 and v.step <= 1 and not (v.looser or v.other)]
+    return all(abs(value - own) <= whole.total for value in finer)
 
 
 def bands(family: FamilyRuns, curves: Curves, judged: Sequence[Judged]) -> list[Band]:

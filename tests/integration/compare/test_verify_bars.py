@@ -209,7 +209,9 @@ class Waves(unittest.TestCase):
         return Curve("line: pressure", "Pa", times, y, s)
 
     def judged(self, a, b=0.0, p=2.0):
-        curves = {Member(h, dt): {"line: pressure": self.curve(h, dt, a, b, p)} for h, dt in self.FAMILY}
+        return self.judged_of({Member(h, dt): {"line: pressure": self.curve(h, dt, a, b, p)} for h, dt in self.FAMILY})
+
+    def judged_of(self, curves):
         runs = {
             m: types.SimpleNamespace(done=True, summary={"mesh": {"nodes": round(1e6 / m.mesh**2)}}) for m in curves
         }
@@ -250,6 +252,19 @@ class Waves(unittest.TestCase):
             if one.quantity.whole is None:
                 error = abs(one.bar.value - one.quantity.of(self.curve(1e-3, 1.0, 0.0, 0.0, 2.0)))
                 self.assertTrue(one.bar.given and error <= one.bar.total + 1e-12, name)
+
+    def test_norm_over_a_kink_has_no_bar_of_its_curve(self):
+        """A flow that rises within two steps is exact at the levels of each member; its norm is that of the levels."""
+
+        def flow(dt):
+            times = np.arange(1, round(20 / dt) + 1) * dt
+            return Curve("inlet: flow", "mm^3/ms", times, np.minimum(times / 2, 1.0)[:, None], np.zeros(1))
+
+        curves = {Member(h, dt): {"inlet: flow": flow(dt)} for h, dt in self.FAMILY}
+        found = self.judged_of(curves)
+        self.assertTrue(found["curve"].bar.given)
+        self.assertFalse(found["L2 norm"].bar.given)
+        self.assertTrue(found["at the end"].bar.given)
 
     def test_norm_is_not_better_known_than_its_curve(self):
         """Values that fall by order 2 are extrapolated by the order of a curve that falls by less, and refused with it."""

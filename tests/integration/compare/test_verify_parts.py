@@ -590,6 +590,8 @@ tip = [0, 1, 2]
         self.assertEqual(read_case(path).flow_interval, 2.5)
         given = {"opening": [{"surface": "inlet", "flow_rate": [[0, 0], [4, 1.5], [10, 1.5]]}]}
         self.assertEqual(read_case(path, given).flow_interval, 5)
+        source = {"name": "pump", "kind": "flow", "between": ["ground", "inlet"], "flow_rate": [[0, 0], [1, 2], [2, 0]]}
+        self.assertEqual(read_case(path, {**given, "network": {"element": [source]}}).flow_interval, 1)
 
     def test_tables_of_flows_are_read_as_the_drivers_read_them(self):
         path, table = self.base / "case.toml", self.base / "beat.csv"

@@ -85,6 +85,16 @@ TEST_F(TableFiles, InTheRightUnitsSayNothing) {
   EXPECT_TRUE(read("t,q_mm2_per_ms\n0,1\n", "flow_rate", "geometry = \"plane\"\n").remarks.empty());
 }
 
+TEST_F(TableFiles, OfPlaneScenesHaveFlowsOfDepthInNetworksToo) {
+  const std::string plane = "geometry = \"plane\"\n";
+  const std::string source =
+      "resistance = 1\n[[network.element]]\nname = \"pump\"\nkind = \"flow\"\nbetween = [\"ground\", "
+      "\"left\"]\nflow_rate";
+  const Case setup = read("t,q_m2_per_s\n0,1\n1,2\n", source, plane);
+  ASSERT_TRUE(setup.network);
+  EXPECT_EQ(setup.network->elements.at(0).course->points.back(), std::pair(1.0, 2000.0));
+}
+
 TEST_F(TableFiles, WithoutAUnitAreDoubtedAsNumbersAre) {
   const Case setup = read("time,pressure\n0,100\n1,120\n", "pressure");
   ASSERT_EQ(setup.warnings.size(), 1u);
