@@ -1,8 +1,8 @@
 """Which constants of a gmsh script say how fine its mesh is, and the script for a mesh that is finer by a factor.
 
 A constant of `DefineConstant[ name = number, ... ]` is a size where it stands in the fourth place of a Point or in a
-Mesh.MeshSize option, and a count where it stands behind `Transfinite ... =` or in `Layers{ }`. Sizes are divided by the
-factor, counts multiplied. Ratios of neighbouring cells (`Using Progression`) are taken to the power 1/factor, since
+Mesh.MeshSize option, and a count where it stands behind `Transfinite ... =` or in `Layers{ }`, where one that something
+is divided by is a size, too. Sizes are divided by the factor, counts multiplied. Ratios of neighbouring cells (`Using Progression`) are taken to the power 1/factor, since
 twice as many cells of the same ratio would refine one end alone. A size or count that stands anywhere else is refused:
 the vessel would change with it."""
 
@@ -31,6 +31,7 @@ FREE = (  # where a size may stand besides: it changes no vessel
     re.compile(r"Printf\s*\(([^;]*)\)\s*;"),
 )
 WORD = re.compile(r"\b[A-Za-z_]\w*")
+DIVISOR = re.compile(r"/\s*([A-Za-z_]\w*)")
 UNREAD = re.compile(r'"[^"\n]*"|//[^\n]*|/\*.*?\*/', re.DOTALL)  # texts and comments
 PROGRESSION = re.compile(rf"Using\s+Progression\s+({NUMBER})")
 ELSEWHERE = re.compile(r"\b(?:Include|Merge)\b")
@@ -60,7 +61,10 @@ def read_sizes(script: Path) -> GeoSizes:
     text = read_text(script, "give a gmsh script that is there", "give a gmsh script")
     text = UNREAD.sub(" ", text)
     constants = {n: value.strip() for block in CONSTANTS.findall(text) for n, value in CONSTANT.findall(block)}
-    sizes, counts = (_used(script, text, constants, patterns) for patterns in (SIZES, COUNTS))
+    of_sizes, of_counts = ([one for pattern in of for one in pattern.findall(text)] for of in (SIZES, COUNTS))
+    lengths = {name for one in of_counts for name in DIVISOR.findall(one) if name in constants}  # of cells
+    sizes = _numbers(script, constants, lengths | _words(of_sizes))
+    counts = _numbers(script, constants, _words([one for one in of_counts if not lengths & _words([one])]))
     both = sorted(set(sizes) & set(counts))
     if both:
         raise InputError(script, both[0], "is both a size and a count of cells", "give each a constant of its own")
@@ -78,11 +82,11 @@ def read_sizes(script: Path) -> GeoSizes:
     return GeoSizes(script, sizes, counts, graded)
 
 
-def _used(
-    script: Path, text: str, constants: dict[str, str], patterns: Sequence["re.Pattern[str]"]
-) -> dict[str, float]:
-    expressions = " ".join(expression for pattern in patterns for expression in pattern.findall(text))
-    words = WORD.findall(expressions)
+def _words(expressions: Sequence[str]) -> set[str]:
+    return set(WORD.findall(" ".join(expressions)))
+
+
+def _numbers(script: Path, constants: dict[str, str], words: set[str]) -> dict[str, float]:
     used = {name: value for name, value in constants.items() if name in words}
     for name, value in used.items():
         if not re.fullmatch(NUMBER, value):
