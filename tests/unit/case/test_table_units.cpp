@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "case/case_reader.hpp"
+#include "case/network_data.hpp"
 #include "case/table_units.hpp"
 #include "support/temporary_folder.hpp"
 
