@@ -560,7 +560,7 @@ const std::vector<BadCase>& bad_cases() {
        coupled_case,
        "",
        "",
-       "--set: output.times[1]: is not a number",
+       "--set: output.times[1]: \"x\" is a string; give a number",
        {"output.times=[0.25, \"x\"]"}},
       {"SetBareWord",
        coupled_case,

@@ -88,12 +88,12 @@ TEST_F(TableFiles, InTheRightUnitsSayNothing) {
 
 TEST_F(TableFiles, OfPlaneScenesHaveFlowsOfDepthInNetworksToo) {
   const std::string plane = "geometry = \"plane\"\n";
-  const std::string source =
-      "resistance = 1\n[[network.element]]\nname = \"pump\"\nkind = \"flow\"\nbetween = [\"ground\", "
-      "\"left\"]\nflow_rate";
-  const Case setup = read("t,q_m2_per_s\n0,1\n1,2\n", source, plane);
+  const std::string elements =
+      "[[network.element]]\nname = \"leak\"\nkind = \"resistor\"\nbetween = [\"left\", \"ground\"]\nresistance = 1\n"
+      "[[network.element]]\nname = \"pump\"\nkind = \"flow\"\nbetween = [\"ground\", \"left\"]\nflow_rate";
+  const Case setup = read("t,q_m2_per_s\n0,1\n1,2\n", elements, plane);
   ASSERT_TRUE(setup.network);
-  EXPECT_EQ(setup.network->elements.at(0).course->points.back(), std::pair(1.0, 2000.0));
+  EXPECT_EQ(setup.network->elements.at(1).course->points.back(), std::pair(1.0, 2000.0));
 }
 
 TEST_F(TableFiles, WithoutAUnitAreDoubtedAsNumbersAre) {
