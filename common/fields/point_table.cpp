@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 #include "base/names.hpp"
 #include "fields/field_units.hpp"
 
