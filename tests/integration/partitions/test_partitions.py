@@ -16,7 +16,6 @@ from programs import (
     FolderTest,
     attempt,
     driver_command,
-    execute,
     make_mesh,
     restart,
     run,
@@ -324,7 +323,6 @@ class Refusals(Processes):
         self.assertIn("monolithic.linear_solver", process.stderr)
         self.assertIn("one process", process.stderr)
         self.assertFalse((self.base / "paper").exists())
-        self.assertNotIn("not in this build", execute(MONOLITHIC, "--help").stdout)
 
 
 class WithoutMpi(FolderTest):
@@ -337,8 +335,13 @@ class WithoutMpi(FolderTest):
             )
             self.assertEqual(summary(folder)["processes"], 1)
 
-    def test_the_help_says_that_petsc_is_missing(self):
-        self.assertIn("petsc is not in this build", execute(MONOLITHIC, "--help").stdout)
+    def test_petsc_is_refused(self):
+        for program, key in zip(DRIVERS, ("monolithic", "partitioned")):
+            settings = (*scene(self.base, "p1", "plane"), f"{key}.linear_solver=petsc")
+            refused = attempt(program, NEO_HOOKEAN, folder=self.base / "petsc", settings=settings)
+            self.assertEqual(refused.returncode, 1)
+            self.assertIn('linear_solver: "petsc" is not in this build, which is without MPI', refused.stderr)
+            self.assertFalse((self.base / "petsc").exists())
 
     def test_several_are_refused(self):
         environment = {**os.environ, "OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": "0"}
