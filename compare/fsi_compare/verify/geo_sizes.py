@@ -31,7 +31,7 @@ FREE = (  # where a size may stand besides: it changes no vessel
     re.compile(r"Printf\s*\(([^;]*)\)\s*;"),
 )
 WORD = re.compile(r"\b[A-Za-z_]\w*")
-DIVISOR = re.compile(r"/\s*([A-Za-z_]\w*)")
+DIVISOR = re.compile(r"/\s*(\([^()]*\)|[A-Za-z_]\w*)")
 UNREAD = re.compile(r'"[^"\n]*"|//[^\n]*|/\*.*?\*/', re.DOTALL)  # texts and comments
 PROGRESSION = re.compile(rf"Using\s+Progression\s+({NUMBER})")
 ELSEWHERE = re.compile(r"\b(?:Include|Merge)\b")
@@ -62,7 +62,7 @@ def read_sizes(script: Path) -> GeoSizes:
     text = UNREAD.sub(" ", text)
     constants = {n: value.strip() for block in CONSTANTS.findall(text) for n, value in CONSTANT.findall(block)}
     of_sizes, of_counts = ([one for pattern in of for one in pattern.findall(text)] for of in (SIZES, COUNTS))
-    lengths = {name for one in of_counts for name in DIVISOR.findall(one) if name in constants}  # of cells
+    lengths = constants.keys() & _words([name for one in of_counts for name in DIVISOR.findall(one)])  # of cells
     sizes = _numbers(script, constants, lengths | _words(of_sizes))
     counts = _numbers(script, constants, _words([one for one in of_counts if not lengths & _words([one])]))
     both = sorted(set(sizes) & set(counts))

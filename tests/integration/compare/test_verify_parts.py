@@ -151,14 +151,15 @@ class Scripts(FolderCase):
         self.assertEqual(found.settings(2.0, {"across": 8}), {"size": 0.2, "fine": 0.05, "across": 16, "along": 40})
 
     def test_lengths_of_cells_that_counts_are_made_of_are_sizes(self):
-        text = """DefineConstant[ size = 0.4, wall = 0.1, length = 12, n = 6 ];
+        text = """DefineConstant[ size = 0.4, wall = 0.1, inner = 0.2, length = 12, n = 6 ];
         Mesh.MeshSizeMax = size;
+        Transfinite Curve{3} = Round(length / (2 * inner));
         Transfinite Curve{1} = Ceil(2 / wall) + 1;
         Transfinite Curve{2} = n;
         Extrude { 0, length, 0 } { Curve{1}; Layers{ Round(length / size) }; }
         """
         found = read_sizes(self.script(text))
-        self.assertEqual((found.sizes, found.counts), ({"size": 0.4, "wall": 0.1}, {"n": 6}))
+        self.assertEqual((found.sizes, found.counts), ({"size": 0.4, "wall": 0.1, "inner": 0.2}, {"n": 6}))
 
     def test_grading_keeps_its_shape(self):
         """n cells of ratio q and 2 n of ratio q^(1/2) have the same first to last."""

@@ -265,6 +265,7 @@ class PeriodicEnd(FolderTest):
                 ["time.end=30"],
                 "time.end: 30 ms is less than three periods of 12 ms, whose changes are compared; give at least 36",
             ),
+            (["time.period=1e-6"], "ms are more than a million periods of 1e-06 ms; give at most 1"),
             (['time.start="lumped"', windkessel], 'is found by time.start = "lumped"; leave one of the two out'),
             (['time.start="lumped"', "opening.third.pressure=1"], "needs one opening whose pressure is given"),
         ):
