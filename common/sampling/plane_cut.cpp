@@ -173,7 +173,6 @@ class PlaneCutOf : public PlaneCut {
         const auto& [a, b] = SimplexEdges<Dim>::vertices[e];
         double& middle = values[Dim + 1 + e];
         middle = 2 * middle - 0.5 * (values[a] + values[b]);
-        if (std::abs(middle) <= 4 * rounding * size_) middle = 0;
       }
     return values;
   }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <random>
 
 #include "fem/nodal_layout.hpp"
 #include "mesh/curved_cells.hpp"
@@ -80,6 +81,30 @@ TEST(PlaneCut, OnAFaceOrBetweenCellsCountsEveryFacetOnce) {
       EXPECT_NEAR(cut->look({}, fluid).pressure, 3 + 2 * z, 1e-11) << z;
     }
   EXPECT_FALSE(plane_cut(tube.part, {0, 0, 4.1}, {0, 0, 1}, false));
+}
+
+// Mesh generators place nodes to some 1e-12 of a length: of the nodes of an edge in the plane some then lie off it by more
+// than what counts as on it, and the quadratic between them is on the other side where they are not.
+TEST(PlaneCut, NextToNodesThatLieNearlyInItMissesNothing) {
+  auto tube = straight_vessel<2>(4, 2, 4);
+  const double inlet = plane_cut(tube.part, {0, 0, 0.5}, {0, 0, 1}, false)
+                           ->look({}, std::vector<double>(MixedLayout<3>::size(tube.part.node_count())))
+                           .area;
+  std::mt19937 numbers(3);
+  std::uniform_int_distribution<int> off(-2, 2);
+  for (Point& x : tube.part.nodes) x[2] += 3.1e-12 * off(numbers);
+  const auto fluid = flow_array<3>(
+      tube.part,
+      [](const Point&) {
+        return Point{0, 0, 1};
+      },
+      sloping, space);
+  for (const double z : {1.0, 2.0, 3.0})
+    for (const double sign : {-1.0, 1.0}) {
+      const auto row = plane_cut(tube.part, {0, 0, z}, {0, 0, sign}, false)->look({}, fluid);
+      EXPECT_NEAR(row.area, inlet, 1e-6) << z;
+      EXPECT_NEAR(row.flow, sign * inlet, 1e-6) << z;
+    }
 }
 
 TEST(PlaneCut, FollowsAMeshThatMoves) {
