@@ -1,6 +1,8 @@
 #include "mesh/symmetry_planes.hpp"
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/group_names.hpp"
@@ -55,7 +57,49 @@ SymmetryPlanes<Dim, Order> symmetry_planes(const SimplexMesh<Dim, Order>& mesh) 
   return planes;
 }
 
-#define INSTANTIATE(Dim, Order) template SymmetryPlanes<Dim, Order> symmetry_planes(const SimplexMesh<Dim, Order>&);
+template <int Dim, int Order>
+std::vector<MirrorPlane> mirror_planes(const SimplexMesh<Dim, Order>& mesh) {
+  std::vector<MirrorPlane> planes;
+  for (const auto& plane : symmetry_planes(mesh)) {
+    const auto& facets = plane.group->facets;
+    planes.push_back(
+        {plane.normal, dot(plane.normal, mesh.nodes[facets[0][0]]), std::vector<char>(mesh.nodes.size(), 0)});
+    for (const auto& facet : facets)
+      for (const int node : facet) planes.back().holds[node] = 1;
+  }
+  return planes;
+}
+
+std::vector<MirrorPlane> of_part(std::vector<MirrorPlane> planes, const PartNodes& part) {
+  for (MirrorPlane& plane : planes) {
+    std::vector<char> here;
+    for (const int node : part.mesh_node) here.push_back(plane.holds[node]);
+    plane.holds = std::move(here);
+  }
+  return planes;
+}
+
+Point projected(Point x, const std::vector<const MirrorPlane*>& planes) {
+  constexpr double parallel = 1e-6;                  // the sine of an angle
+  std::vector<std::pair<Point, double>> orthogonal;  // unit normals and offsets, by Gram and Schmidt
+  for (const MirrorPlane* plane : planes) {
+    Point normal = plane->normal;
+    double offset = plane->offset;
+    for (const auto& [other, at] : orthogonal) {
+      const double along = dot(plane->normal, other);
+      normal = normal - along * other;
+      offset -= along * at;
+    }
+    const double length = norm(normal);
+    if (length > parallel) orthogonal.emplace_back((1 / length) * normal, offset / length);
+  }
+  for (const auto& [normal, offset] : orthogonal) x = x - (dot(normal, x) - offset) * normal;
+  return x;
+}
+
+#define INSTANTIATE(Dim, Order)                                                        \
+  template SymmetryPlanes<Dim, Order> symmetry_planes(const SimplexMesh<Dim, Order>&); \
+  template std::vector<MirrorPlane> mirror_planes(const SimplexMesh<Dim, Order>&);
 FSI_FOR_EACH_MESH(INSTANTIATE)
 #undef INSTANTIATE
 

@@ -12,6 +12,7 @@
 #include "mesh/disjoint_sets.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/point_math.hpp"
+#include "mesh/symmetry_planes.hpp"
 #include "sampling/point_sampling.hpp"
 #include "sampling/wall_sampling.hpp"
 
@@ -48,6 +49,21 @@ int pieces_of(const Facets& surface) {
   return count;
 }
 
+/// The middle of an opening, with its images in the planes of symmetry that it reaches.
+template <int Dim, int Order>
+Point middle_of(const SimplexMesh<Dim, Order>& mesh, const std::string& opening) {
+  const auto& facets = *mesh.facets(opening);
+  const auto planes = mirror_planes(mesh);
+  std::vector<const MirrorPlane*> reached;
+  for (const MirrorPlane& plane : planes) {
+    const auto is_in_it = [&](int node) { return plane.holds[node] != 0; };
+    if (std::any_of(facets.begin(), facets.end(),
+                    [&](const auto& facet) { return std::any_of(facet.begin(), facet.end(), is_in_it); }))
+      reached.push_back(&plane);
+  }
+  return projected(centre_of(mesh.nodes, facets), reached);
+}
+
 /// Where the centre line of a scene runs: the axis of a tube; in plane scenes the straight line from the middle of the
 /// first opening to that of the second.
 template <class Element>
@@ -57,8 +73,8 @@ Axis axis_of(const Case& setup, const MeshOf<Element>& mesh, const std::vector<s
   if constexpr (Element::axisymmetric) axis = {};
   if constexpr (Element::dim == 2 && !Element::axisymmetric)
     if (!openings.empty()) {
-      axis.origin = centre_of(mesh.nodes, *mesh.facets(openings[0]));
-      axis.direction = centre_of(mesh.nodes, *mesh.facets(openings[1])) - axis.origin;
+      axis.origin = middle_of(mesh, openings[0]);
+      axis.direction = middle_of(mesh, openings[1]) - axis.origin;
     }
   return axis;
 }

@@ -93,7 +93,8 @@ class Requests {
       std::array<FacetsOf<Element>, 2> ends;
       for (std::size_t end = 0; end < 2; ++end) ends[end] = opening(key, line.centerline[end]);
       try {
-        return centre_line<dim, order>(*parts_.fluid, ends[0], ends[1], line.points, Element::axisymmetric);
+        return centre_line<dim, order>(*parts_.fluid, ends[0], ends[1], line.points, Element::axisymmetric,
+                                       of_part(mirror_planes(mesh_), *parts_.fluid));
       } catch (const ConvergenceError& failure) {
         warn(key, failure.what());
         return std::nullopt;

@@ -31,8 +31,8 @@ class Levels {
  public:
   using Values = std::array<double, Dim + 1>;
 
-  Levels(const Submesh<Dim, Order>& part, std::vector<double> h, bool turned)
-      : part_(part), h_(std::move(h)), turned_(turned) {}
+  Levels(const Submesh<Dim, Order>& part, std::vector<double> h, bool turned, const std::vector<MirrorPlane>& planes)
+      : part_(part), h_(std::move(h)), turned_(turned), planes_(planes) {}
 
   /// Centroids of the surfaces, in the order of the levels, which ascend.
   std::vector<Point> centroids(const std::vector<double>& levels) const {
@@ -89,12 +89,29 @@ class Levels {
     const auto main =
         std::max_element(sums.begin(), sums.end(), [](const Sum& a, const Sum& b) { return a.flux < b.flux; });
     if (!(main->area > 0)) not_found("a surface across it has no area");
-    return (1 / main->area) * main->moment;
+    std::vector<const MirrorPlane*> reached;
+    for (const MirrorPlane& plane : planes_)
+      for (std::size_t k = 0; k < cells.size(); ++k)
+        if (piece[k] == main - sums.begin() && reaches(plane, cells[k], level)) {
+          reached.push_back(&plane);
+          break;
+        }
+    return projected((1 / main->area) * main->moment, reached);
+  }
+
+  /// Whether a level cuts an edge of a cell that lies in a plane.
+  bool reaches(const MirrorPlane& plane, int cell, double level) const {
+    const auto f = values(cell, level);
+    bool below = false, above = false;
+    for (int i = 0; i <= Dim; ++i)
+      if (plane.holds[part_.cells[cell][i]] != 0) (f[i] < 0 ? below : above) = true;
+    return below && above;
   }
 
   const Submesh<Dim, Order>& part_;
   std::vector<double> h_;
   bool turned_;
+  const std::vector<MirrorPlane>& planes_;
 };
 
 /// Edge of a regular cell of the mean volume, mm.
@@ -125,10 +142,11 @@ std::vector<Point> distinct(const std::vector<Point>& points) {
 
 template <int Dim, int Order>
 CurvePoints centre_line(const Submesh<Dim, Order>& part, const std::vector<typename Submesh<Dim, Order>::Facet>& from,
-                        const std::vector<typename Submesh<Dim, Order>::Facet>& to, int count, bool turned) {
+                        const std::vector<typename Submesh<Dim, Order>::Facet>& to, int count, bool turned,
+                        const std::vector<MirrorPlane>& planes) {
   const Levels<Dim, Order> surfaces(
       part, harmonic_coordinate<Dim>(part.nodes, vertices_of_cells(part), facet_nodes(from), facet_nodes(to), turned),
-      turned);
+      turned, planes);
   std::vector<double> levels = evenly_spaced(0, 1, first_levels);
   levels.front() = end_level;
   levels.back() = 1 - end_level;
@@ -159,7 +177,8 @@ CurvePoints centre_line(const Submesh<Dim, Order>& part, const std::vector<typen
 // NOLINTBEGIN(bugprone-macro-parentheses)
 #define INSTANTIATE(Dim, Order)                                                                                \
   template CurvePoints centre_line(const Submesh<Dim, Order>&, const std::vector<Submesh<Dim, Order>::Facet>&, \
-                                   const std::vector<Submesh<Dim, Order>::Facet>&, int, bool);
+                                   const std::vector<Submesh<Dim, Order>::Facet>&, int, bool,                  \
+                                   const std::vector<MirrorPlane>&);
 FSI_FOR_EACH_MESH(INSTANTIATE)
 #undef INSTANTIATE
 // NOLINTEND(bugprone-macro-parentheses)

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "mesh/submesh.hpp"
+#include "mesh/symmetry_planes.hpp"
 
 namespace fsi {
 
@@ -22,9 +23,12 @@ struct CurvePoints {
 /// \param to      facets of the opening where it ends
 /// \param count   number of points, at least 2
 /// \param turned  whether triangles stand for a body of revolution: the centroids then lie on its axis
+/// \param planes  of symmetry, in the part's node numbers. A surface that reaches some has the centroid of itself with
+///                its images: that projected onto them
 /// \throws ConvergenceError if the part does not connect the openings, or harmonic_coordinate() does
 template <int Dim, int Order>
 CurvePoints centre_line(const Submesh<Dim, Order>& part, const std::vector<typename Submesh<Dim, Order>::Facet>& from,
-                        const std::vector<typename Submesh<Dim, Order>::Facet>& to, int count, bool turned = false);
+                        const std::vector<typename Submesh<Dim, Order>::Facet>& to, int count, bool turned = false,
+                        const std::vector<MirrorPlane>& planes = {});
 
 }  // namespace fsi

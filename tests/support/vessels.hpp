@@ -25,9 +25,8 @@ Vessel<Dim, Order> fluid_of(const SimplexMesh<Dim, Order>& mesh) {
   return vessel;
 }
 
-/// A tube of radius 1 along z from 0 to `length`.
-template <int Order>
-Vessel<3, Order> straight_vessel(double length, int across, int along) {
+/// A tube of radius 1 along z from 0 to `length`, or a sector of it, in a wall of one layer.
+inline TetrahedralMesh tube_mesh(double length, int across, int along, int degrees = 360) {
   ArteryShape shape;
   shape.inner_radius = 1;
   shape.media = 0.2;
@@ -38,11 +37,17 @@ Vessel<3, Order> straight_vessel(double length, int across, int along) {
   cells.media = 1;
   cells.around = 6 * across;
   cells.axial = along;
-  const auto tube = generate_artery(shape, cells);
+  return generate_artery(shape, cells, degrees);
+}
+
+/// The fluid of such a tube.
+template <int Order>
+Vessel<3, Order> straight_vessel(double length, int across, int along) {
+  const auto tube = tube_mesh(length, across, along);
   if constexpr (Order == 1)
     return fluid_of(tube);
   else
-    return fluid_of(with_curved_edges(tube, shape.inner_radius));
+    return fluid_of(with_curved_edges(tube, 1));
 }
 
 /// The tube bent about the y axis through (bend, 0, 0): its axis runs on a circle from (0, 0, 0) along z towards +x.

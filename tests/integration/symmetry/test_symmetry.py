@@ -1,5 +1,6 @@
 """A sector between planes of symmetry computes what the whole tube does on the mirrored mesh, in any position."""
 
+import csv
 import re
 import unittest
 
@@ -19,7 +20,7 @@ from programs import (
     table,
     wall,
 )
-from scenes import ELEMENTS, TUBE, forms, write_channel
+from scenes import ELEMENTS, LENGTH, TUBE, forms, write_channel
 
 CELLS = (*TUBE, "--axial-cells", 4)
 # Degrees, and cells around: the planes of 60 and 45 are not all normal to an axis.
@@ -39,6 +40,12 @@ def turned(file, of, rotation):
     text = of.read_text().replace("symmetry_x", "symmetry_1").replace("symmetry_y", "symmetry_2")
     file.write_text(re.sub(r"(?m)^(\d+) (\S+) (\S+) (\S+)$", place, text))
     return file
+
+
+def column_of(folder, name, column):
+    """Numbers of a table that has words, too."""
+    with (folder / name).open() as file:
+        return np.array([float(row[column]) for row in csv.DictReader(file)])
 
 
 def energies(folder):
@@ -169,6 +176,20 @@ class Symmetry(FolderTest):
                     )
                     self.assertGreater(np.abs(whole).max(), 1e-3)  # uJ
                     self.assertLess(np.abs(6 * part - whole).max() / np.abs(whole).max(), 1e-9)
+
+    def test_lines_of_a_sector_are_those_of_the_whole(self):
+        """A centre line that is sought in the fluid, and that of half a plane channel, which its plane of symmetry holds."""
+        line = 'output.lines.sought={ centerline = ["inlet", "outlet"], points = 9 }'
+        part, whole = (self.march(MONOLITHIC, ARTERY, "p1", self.meshes[1, 60, m], line) for m in (False, True))
+        for column, error in (("x_mm", 1e-6), ("y_mm", 1e-6), ("z_mm", 1e-6), ("pressure_Pa", 1e-5)):
+            found, expected = column_of(part, "lines.csv", column), column_of(whole, "lines.csv", column)
+            np.testing.assert_allclose(found, expected, rtol=0, atol=error * max(np.abs(expected).max(), 1))
+        channel = write_channel(self.base / "half.msh", 1)
+        point = f"output.points.middle=[{LENGTH / 2}, 0.0, 0.0]"
+        folder = self.march(MONOLITHIC, ARTERY, "p1", channel, "geometry=plane", point)
+        at_point = column_of(folder, "points.csv", "pressure_Pa")
+        self.assertGreater(np.abs(at_point).max(), 1)
+        np.testing.assert_allclose(pressure(folder)[:, 90], at_point, rtol=0, atol=1e-9 * np.abs(at_point).max())
 
     def test_restart(self):
         for program in DRIVERS:

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "base/error.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/point_math.hpp"
@@ -110,6 +112,34 @@ TEST(CentreLine, OfATorusConvergesToItsCircle) {
   const double quadratic = torus_error<2>(3, 12, length);
   std::printf("quadratic cells: %.2e mm\n", quadratic);
   EXPECT_LT(quadratic, coarse);
+}
+
+TEST(CentreLine, BetweenPlanesOfSymmetryIsThatOfTheWholeTube) {
+  for (const int degrees : {180, 90, 60}) {  // one plane; two at right angles; two, one of them oblique
+    const auto mesh = tube_mesh(4, 2, 6, degrees);
+    const auto tube = fluid_of(mesh);
+    const auto line =
+        centre_line<3, 1>(tube.part, tube.inlet, tube.outlet, 9, false, of_part(mirror_planes(mesh), tube.part));
+    for (int i = 0; i < 9; ++i) {
+      const Point& x = line.at[i];
+      EXPECT_NEAR(x[1], 0, 1e-12) << degrees;
+      EXPECT_NEAR(x[2], 0.5 * i, 1e-7) << degrees;
+      if (degrees < 180) {
+        EXPECT_NEAR(x[0], 0, 1e-12) << degrees;
+      }
+    }
+  }
+  // A bend that its own plane cuts into halves.
+  constexpr double bend = 5, arc = 5 * pi / 2;
+  std::array<CurvePoints, 2> lines;
+  for (const int part : {0, 1}) {
+    const auto mesh = tube_mesh(arc, 3, 12, part == 0 ? 360 : 180);
+    auto tube = fluid_of(mesh);
+    bend_about(bend, tube.part);
+    lines[part] =
+        centre_line<3, 1>(tube.part, tube.inlet, tube.outlet, 20, false, of_part(mirror_planes(mesh), tube.part));
+  }
+  for (int i = 0; i < 20; ++i) EXPECT_LT(distance(lines[0].at[i], lines[1].at[i]), 1e-3) << i;
 }
 
 TEST(CentreLine, OfATubeInTheHalfPlaneLiesOnItsAxis) {
