@@ -37,13 +37,15 @@ hid_t native_type<std::uint8_t>() {
   return H5T_NATIVE_UINT8;
 }
 
-/// No locks, so that ParaView can read finished steps of a running computation; no error messages of the library.
-/// Called before any other function of the library.
+/// No locks, so that ParaView can read finished steps of a running computation; no error messages of the library. The
+/// format of files that every version reads: later ones, which HDF5 2 takes by itself, keep the time of day in groups,
+/// so that no two runs have the same bytes. Called before any other function of the library.
 Hdf5Handle access_properties() {
   begin_hdf5();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   Hdf5Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(properties.id(), false, true);
+  H5Pset_libver_bounds(properties.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
   return properties;
 }
 
