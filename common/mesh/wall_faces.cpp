@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -133,16 +135,31 @@ ThicknessRange range_between(const std::string& name, const std::vector<Point>& 
 
 template <int Dim, int Order>
 struct Layer {
-  int region;
+  std::string name;
   std::vector<BoundaryFacet<Dim, Order>> boundary;
 };
 
-/// The wall's regions from inside outwards, each with neighbours before and behind it alone; empty where they lie
+/// The wall's layers, each with the parts NAME/REGION that were cut out of it (scene/wall_regions.hpp).
+template <int Dim, int Order>
+std::vector<Layer<Dim, Order>> unordered_layers(const SimplexMesh<Dim, Order>& mesh, const std::vector<int>& regions) {
+  const auto name = [&](int region) { return mesh.regions[static_cast<std::size_t>(region)]; };
+  const auto is_part = [&](int part, int layer) { return name(part).rfind(name(layer) + "/", 0) == 0; };
+  std::vector<Layer<Dim, Order>> layers;
+  for (const int region : regions) {
+    if (std::any_of(regions.begin(), regions.end(), [&](int other) { return is_part(region, other); })) continue;
+    std::vector<int> all{region};
+    std::copy_if(regions.begin(), regions.end(), std::back_inserter(all),
+                 [&](int other) { return is_part(other, region); });
+    layers.push_back({name(region), boundary_facets(mesh, all)});
+  }
+  return layers;
+}
+
+/// The wall's layers from inside outwards, each with neighbours before and behind it alone; empty where they lie
 /// otherwise.
 template <int Dim, int Order>
 std::vector<Layer<Dim, Order>> layers_of(const SimplexMesh<Dim, Order>& mesh, const FacetsOfWall<Dim, Order>& wall) {
-  std::vector<Layer<Dim, Order>> layers, left;
-  for (const int region : wall.regions) left.push_back({region, boundary_facets(mesh, {region})});
+  std::vector<Layer<Dim, Order>> layers, left = unordered_layers(mesh, wall.regions);
   auto reached = keys_of<Dim>(wall.inner);
   const auto is_next = [&](const Layer<Dim, Order>& layer) {
     return std::any_of(layer.boundary.begin(), layer.boundary.end(),
@@ -199,10 +216,10 @@ std::vector<ThicknessRange> thickness_ranges(const SimplexMesh<Dim, Order>& mesh
       far = chosen<Dim, Order>(layers[k].boundary, of_next, true);
     }
     auto next = face_of<Dim, Order>(mesh, far);
-    ranges.push_back(range_between(mesh.regions[layers[k].region], mesh.nodes, near, next, processes));
+    ranges.push_back(range_between(layers[k].name, mesh.nodes, near, next, processes));
     near = std::move(next);
   }
-  ranges.push_back(range_between(layers.size() == 1 ? mesh.regions[layers[0].region] : "wall", mesh.nodes,
+  ranges.push_back(range_between(layers.size() == 1 ? layers[0].name : "wall", mesh.nodes,
                                  face_of<Dim, Order>(mesh, wall.inner), face_of<Dim, Order>(mesh, wall.outer),
                                  processes));
   return ranges;

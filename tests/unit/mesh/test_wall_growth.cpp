@@ -285,6 +285,24 @@ TEST(WallFaces, ThicknessOfAnArteryAndItsLayers) {
   }
 }
 
+// A part of a layer has faces that are none of the layer's: those around it, and those that it takes from the layer's own.
+TEST(WallFaces, APartCutOutOfALayerBelongsToItsThickness) {
+  auto mesh = coarse_artery();
+  const auto whole = thickness_ranges(mesh);
+  const int media = mesh.region_index("media"), part = static_cast<int>(mesh.regions.size());
+  mesh.regions.push_back("media/plaque");
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    if (mesh.cell_region[c] == media && mesh.nodes[mesh.cells[c][0]][0] > 0.5) mesh.cell_region[c] = part;
+  const auto ranges = thickness_ranges(mesh);
+  ASSERT_EQ(ranges.size(), whole.size());
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    EXPECT_EQ(ranges[i].name, whole[i].name);
+    EXPECT_EQ(ranges[i].least.distance, whole[i].least.distance);
+    EXPECT_EQ(ranges[i].most.distance, whole[i].most.distance);
+    EXPECT_EQ(ranges[i].least_seen_from_inside.distance, whole[i].least_seen_from_inside.distance);
+  }
+}
+
 TEST(WallFaces, AreNoneWithoutAWall) {
   auto mesh = creased_block(0, 4);
   EXPECT_TRUE(thickness_ranges(mesh).empty());
