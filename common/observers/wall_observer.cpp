@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fem/dimensions.hpp"
+#include "time/time_text.hpp"
 
 namespace fsi {
 
@@ -100,9 +101,8 @@ class WallObserver : public Observer {
 
   std::string text_of_place(const ValueInTime& value) const {
     const Point& x = value.at.where;
-    return fmt::format("near ({:.4g}, {:.4g}, {:.4g}) mm {}", x[0], x[1], x[2],
-                       scene_.is_static() ? fmt::format("at {:.4g} of the load", value.time)
-                                          : fmt::format("at t = {:.6g} ms", value.time));
+    return fmt::format("near ({:.4g}, {:.4g}, {:.4g}) mm at {}", x[0], x[1], x[2],
+                       time_text(value.time, scene_.is_static()));
   }
   std::string text_of_strain(const ValueInTime& value) const {
     return fmt::format("{:.3g} % {}", 100 * value.at.value, text_of_place(value));

@@ -15,6 +15,7 @@
 #include "linear/choice/general_solvers.hpp"
 #include "run/program.hpp"
 #include "scene/time_scheme.hpp"
+#include "time/time_text.hpp"
 
 namespace fsi {
 
@@ -116,7 +117,8 @@ void announce(RunParts<n>& parts, const RunCheckpoints<n>& checkpoints, Console&
   }
   if (parts.lock && !parts.lock->said().empty()) log.warning(parts.lock->said());
   if (parts.state.step == 0) return;
-  log.info(fmt::format("restarted after step {}, t = {:g} ms", parts.state.step, parts.state.time));
+  log.info(fmt::format("restarted after step {}, {}", parts.state.step,
+                       time_text(parts.state.time, parts.scene.is_static())));
   for (const auto& warning : checkpoints.warnings()) log.warning(warning);
   if (!checkpoints.left_aside().empty()) log.info(checkpoints.left_aside());
   if (!checkpoints.step_change().empty()) {

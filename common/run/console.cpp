@@ -61,8 +61,8 @@ void Console::line(const std::string& text) {
   write(printable(text) + "\n");
 }
 
-void Console::working(std::int64_t step, double time, const std::string& what) {
-  if (style_ == Style::terminal) rewrite(fmt::format("step {}/{}, t = {:g} ms: {}", step, last_step_, time, what));
+void Console::working(std::int64_t step, const std::string& time, const std::string& what) {
+  if (style_ == Style::terminal) rewrite(fmt::format("step {}/{}, {}: {}", step, last_step_, time, what));
 }
 
 void Console::progress(const std::string& text) {
@@ -72,12 +72,12 @@ void Console::progress(const std::string& text) {
     line(text);
 }
 
-void Console::step_done(const StepRecord& record) {
+void Console::step_done(const StepRecord& record, const std::string& time) {
   if (style_ == Style::quiet) return;
   ++steps_done_;
   seconds_done_ += record.wall_seconds;
   const double seconds_left = seconds_done_ / steps_done_ * static_cast<double>(last_step_ - record.step);
-  const auto text = fmt::format("step {}/{}, t = {:g} ms: {}, {:.3g} s, {} left", record.step, last_step_, record.time,
+  const auto text = fmt::format("step {}/{}, {}: {}, {:.3g} s, {} left", record.step, last_step_, time,
                                 iterations_text(record), record.wall_seconds, readable_duration(seconds_left));
   progress(text);
 }

@@ -36,12 +36,14 @@ class Console {
   void expect(std::int64_t last_step) { last_step_ = last_step; }
   /// A line of its own, e.g. the scene's size; not in quiet mode.
   void line(const std::string& text);
-  /// What goes on inside a step, e.g. (3, 0.375, "newton 2, residual 1e-5"). Shown on a terminal only.
-  void working(std::int64_t step, double time, const std::string& what);
+  /// What goes on inside a step, e.g. (3, "t = 0.375 ms", "newton 2, residual 1e-5"). Shown on a terminal only.
+  /// \param time  by time_text()
+  void working(std::int64_t step, const std::string& time, const std::string& what);
   /// Rewrites the line on a terminal, else prints a line; nothing when quiet. For all but the iterations of a step.
   void progress(const std::string& text);
   /// A finished step: time, iterations, estimated time left.
-  void step_done(const StepRecord& record);
+  /// \param time  of the record, by time_text()
+  void step_done(const StepRecord& record, const std::string& time);
 
  private:
   void rewrite(const std::string& text);

@@ -28,6 +28,7 @@
 #include "run/run_parts.hpp"
 #include "scene/time_scheme.hpp"
 #include "time/balance.hpp"
+#include "time/time_text.hpp"
 
 namespace fsi {
 
@@ -140,10 +141,12 @@ class Run {
     if (checkpoints_.writes_any() && !in_place(line)) checkpoints_.save();
   }
 
+  std::string said(double time) const { return time_text(time, parts_.scene.is_static()); }
+
   void step() {
     const auto start = Clock::now();
     console_->expect(last_step());
-    console_->working(state().step + 1, parts_.loads.time_of(state().step + 1), "solving");
+    console_->working(state().step + 1, said(parts_.loads.time_of(state().step + 1)), "solving");
     checkpoints_.keep_finished();
     const StepReport report = [&] {
       const Activity activity("solving a step");
@@ -163,12 +166,12 @@ class Run {
     if (checkpoints_.is_due(is_finished())) checkpoints_.save();
     complete_ = state().step;
     const auto& errors = parts_.march.errors();
-    log_->info(fmt::format("step {}  t = {:g} ms  coupling {}  newton {}{}", record.step, record.time,
+    log_->info(fmt::format("step {}  {}  coupling {}  newton {}{}", record.step, said(record.time),
                            record.outer_iterations, record.newton_iterations,
                            errors && errors->known ? "  error: " + errors->text() : ""));
     console_->expect(last_step());
     for (const auto& entry : report.history) log_->info("  " + entry);
-    console_->step_done(record);
+    console_->step_done(record, said(record.time));
     account_.add_seconds(seconds_since(start));
     watch_console();
     const double waited = longest_time_between_looks();
@@ -209,7 +212,7 @@ class Run {
       return std::nullopt;
     };
     if (is_stopped()) return leave_out("which was interrupted");
-    console_->working(state().step, state().time, "settling the pressures of the last level");
+    console_->working(state().step, said(state().time), "settling the pressures of the last level");
     log_->info(
         fmt::format("a step behind the end settles the pressures of t = {:g} ms, and is not kept", state().time));
     parts_.stepper->keep_balances(false);

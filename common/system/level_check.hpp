@@ -15,14 +15,15 @@
 #include "time/state.hpp"
 #include "time/step_data.hpp"
 #include "time/stepper.hpp"
+#include "time/time_text.hpp"
 
 namespace fsi {
 
 /// "step 3 (to t = 0.5 ms)", "load step 2 (to 0.4 of the load)"
 template <int n>
 std::string name_of_step(const Scene<n>& scene, int step, const StepData& data) {
-  return scene.is_static() ? fmt::format("load step {} (to {:g} of the load)", step, data.time)
-                           : fmt::format("step {} (to t = {:g} ms)", step, data.time);
+  const bool is_static = scene.is_static();
+  return fmt::format("{}step {} (to {})", is_static ? "load " : "", step, time_text(data.time, is_static));
 }
 
 /// Takes the solution of a step's last stage as TimeIntegrator::accept() does, unless the new level is not admissible.

@@ -95,6 +95,8 @@ class CollapsedWall(FolderTest):
         log = (self.base / "linear" / "run.log").read_text()
         self.assertRegex(log, r"layer wall: .* a strain of 10 % near \(0\.\d+, 0\.\d+, 0\.\d+\) mm at 0.5 of the load")
         self.assertRegex(log, r"in this run the largest strain is 20 % near")
+        self.assertIn("step 1  0.5 of the load  coupling", log)
+        self.assertIn("step 2/2, 1 of the load: ", process.stdout)
 
     def test_a_folded_block_is_no_solution(self):
         process = attempt(

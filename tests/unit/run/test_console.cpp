@@ -19,9 +19,9 @@ class ConsoleOutput : public FolderTest {
     {
       Console console(4, style, stream);
       console.line("8 nodes");
-      console.working(1, 0.125, "newton 1");
-      console.step_done({1, 0.125, 1, 3, 0, 2.0});
-      console.step_done({2, 0.25, 5, 10, 120, 4.0});
+      console.working(1, "t = 0.125 ms", "newton 1");
+      console.step_done({1, 0.125, 1, 3, 0, 2.0}, "t = 0.125 ms");
+      console.step_done({2, 0.25, 5, 10, 120, 4.0}, "t = 0.25 ms");
     }
     std::fclose(stream);
     return contents_of(folder_ / "out");
@@ -62,7 +62,7 @@ TEST_F(ConsoleOutput, EndsAtTheFirstLineThatCannotBeWritten) {
     EXPECT_EQ(console.error(), 0);
     console.line("8 nodes");
     EXPECT_EQ(console.error(), ENOSPC);
-    console.step_done({1, 0.125, 1, 3, 0, 2.0});
+    console.step_done({1, 0.125, 1, 3, 0, 2.0}, "t = 0.125 ms");
     EXPECT_EQ(console.error(), ENOSPC);
   }
   std::fclose(stream);
