@@ -102,6 +102,24 @@ std::vector<CaseKey<OutputData>> derived_output_keys() {
   };
 }
 
+namespace {
+
+/// Fields of stresses know the elastic law alone.
+void warn_of_viscous_layers(const CaseEntry& fields, const std::string& field, const StructureData& structure) {
+  const auto resists_rates = [](const auto& layer) {
+    return layer.second.viscosity > 0 || !layer.second.maxwell.empty();
+  };
+  const auto layer = std::find_if(structure.layers.begin(), structure.layers.end(), resists_rates);
+  if (layer == structure.layers.end()) return;
+  fields.warn(
+      fmt::format("\"{}\" is the stress of the elastic law: it lacks what viscosity and Maxwell branches add in "
+                  "layer {}",
+                  field, layer->first),
+      "take it as that of a wall at rest, or leave it out");
+}
+
+}  // namespace
+
 void check_derived_output(const CaseEntry& whole_case, Case& scene) {
   auto& wanted = scene.output.derived;
   if (wanted.error_indicator && scene.output.every == 0)
@@ -118,6 +136,9 @@ void check_derived_output(const CaseEntry& whole_case, Case& scene) {
   if (const auto found = has({"cauchy_stress", "principal_stress", "von_mises_stress", "fibre_stress", "thickness"});
       found != scene.output.fields.end() && !scene.structure)
     output.child("fields").refuse("\"" + *found + "\" is of a wall, and the scene has none", "leave it out");
+  if (const auto found = has({"cauchy_stress", "principal_stress", "von_mises_stress", "fibre_stress"});
+      found != scene.output.fields.end() && scene.time)
+    warn_of_viscous_layers(output.child("fields"), *found, *scene.structure);
   if (wanted.period && !wanted.statistics)
     output.child("period").refuse("belongs to statistics", "set output.statistics = true as well, or leave it out");
   if (!wanted.statistics) return;

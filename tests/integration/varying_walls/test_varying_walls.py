@@ -413,7 +413,9 @@ class BadFields(VaryingTest):
         )
         self.assertEqual(answer.returncode, 1, answer.stderr)
         self.assertFalse((self.base / "none").exists())
-        self.assertEqual(answer.stderr.count("\n"), 1, answer.stderr)
+        # Viscous layers, whose stresses are asked for, are warned of.
+        errors = [line for line in answer.stderr.splitlines() if ": warning: " not in line]
+        self.assertEqual(len(errors), 1, answer.stderr)
         return answer.stderr
 
     def test_files(self):

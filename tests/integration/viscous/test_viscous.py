@@ -177,9 +177,17 @@ class Viscous(ViscousTest):
             self.assertEqual(refused.returncode, 1, refused.stderr)
             self.assertIn(change.split("=")[0], refused.stderr)
 
-    def test_the_log_says_which_viscosity_stands_for_all(self):
-        folder = run(MONOLITHIC, self.case(), self.base / "said", *scene(self.base, "p1", "axisymmetric"))
-        self.assertIn("kPa ms, that of carreau-yasuda at 100 1/s", (folder / "run.log").read_text())
+    def test_the_log_says_which_viscosity_stands_for_all_and_what_stresses_lack(self):
+        settings = scene(self.base, "p1", "axisymmetric")
+        folder = run(MONOLITHIC, self.case(), self.base / "said", *settings)
+        log = (folder / "run.log").read_text()
+        self.assertIn("kPa ms, that of carreau-yasuda at 100 1/s", log)
+        self.assertNotIn("elastic law", log)
+        for walls, lacking in ((VISCOUS, True), (MAXWELL, True), (WALL, False)):
+            fields = 'output.fields=["von_mises_stress"]'
+            folder = run(MONOLITHIC, self.case(walls=walls), self.base / "stress", *settings, fields, "time.end=0.125")
+            warned = "it lacks what viscosity and Maxwell branches add in layer" in (folder / "run.log").read_text()
+            self.assertEqual(warned, lacking)
 
     def test_a_constant_law_is_the_constant(self):
         """The loops of a law, with one that does not change, give what a constant viscosity gives, to rounding."""
