@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <utility>
 
 namespace fsi {
 
@@ -15,6 +16,17 @@ namespace {
 /// To twelve digits, as the ends of steps are.
 double rounded(double time) {
   return std::strtod(fmt::format("{:.12g}", time).c_str(), nullptr);
+}
+
+/// Both ascending; of `further` only what is farther than `same` from all of `times`.
+std::vector<double> merged_times(std::vector<double> times, const std::vector<double>& further, double same) {
+  const auto given = static_cast<std::ptrdiff_t>(times.size());
+  for (const double time : further) {
+    const auto next = std::lower_bound(times.begin(), times.begin() + given, time - same);
+    if (next == times.begin() + given || *next > time + same) times.push_back(time);
+  }
+  std::inplace_merge(times.begin(), times.begin() + given, times.end());
+  return times;
 }
 
 }  // namespace
@@ -32,17 +44,11 @@ int TimeData::steps() const {
 }
 
 std::vector<double> further_output_times(const Case& setup) {
-  std::vector<double> times = setup.output.times;
-  if (!setup.time || !setup.time->periodic_change) return times;
+  if (!setup.time || !setup.time->periodic_change) return setup.output.times;
   const double period = *setup.time->period, end = setup.time->end, same = 1e-9 * end;
-  const auto given = static_cast<std::ptrdiff_t>(times.size());
-  for (int k = 1; k * period < end - same; ++k) {
-    const double time = rounded(k * period);
-    const auto next = std::lower_bound(times.begin(), times.begin() + given, time - same);
-    if (next == times.begin() + given || *next > time + same) times.push_back(time);
-  }
-  std::inplace_merge(times.begin(), times.begin() + given, times.end());
-  return times;
+  std::vector<double> ends;
+  for (int k = 1; k * period < end - same; ++k) ends.push_back(rounded(k * period));
+  return merged_times(setup.output.times, ends, same);
 }
 
 std::vector<double> output_times(const Case& setup) {
@@ -55,14 +61,7 @@ std::vector<double> output_times(const Case& setup) {
   const int count = static_cast<int>(std::ceil(end / interval - 1e-9));
   for (int k = 0; k < count; ++k) times.push_back(rounded(k * interval));
   times.push_back(end);
-  const auto intervals = static_cast<std::ptrdiff_t>(times.size());
-  const double same = 1e-9 * end;
-  for (double time : further_output_times(setup)) {
-    const auto next = std::lower_bound(times.begin(), times.begin() + intervals, time - same);
-    if (next == times.begin() + intervals || *next > time + same) times.push_back(time);
-  }
-  std::inplace_merge(times.begin(), times.begin() + intervals, times.end());
-  return times;
+  return merged_times(std::move(times), further_output_times(setup), 1e-9 * end);
 }
 
 }  // namespace fsi

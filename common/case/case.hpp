@@ -138,6 +138,8 @@ struct StructureData {
 
 /// [time]; absent in a static case
 struct TimeData {
+  static constexpr int most_steps = 1'000'000;  ///< each output time and each end of a period ends one
+
   double step = 0;               ///< ms; 0: adaptive
   double end = 0;                ///< ms
   std::optional<int> predictor;  ///< order of the extrapolated start of each step: 0, 1 or 2; empty: the driver chooses

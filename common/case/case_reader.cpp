@@ -93,9 +93,6 @@ void check_gravity(const CaseEntry& whole_case, const Case& scene) {
     structure.child("gravity").refuse("points out of the plane of the scene", "give [g_x, g_y, 0]");
 }
 
-/// Each output time ends a step, so that there can be no more of them than steps.
-constexpr double most_output_times = 1e6;
-
 /// Named times lie in the run, and no closer together than its steps may be.
 void check_named_times(const CaseEntry& whole_case, const Case& scene) {
   const auto& times = scene.output.times;
@@ -108,9 +105,9 @@ void check_named_times(const CaseEntry& whole_case, const Case& scene) {
       entry.refuse(fmt::format("{} ms does not lie in the run", time),
                    fmt::format("give times > 0 and <= time.end, {}", end));
   for (std::size_t i = 1; i < times.size(); ++i)
-    if (const double apart = times[i] - times[i - 1]; apart * most_output_times < end)
+    if (const double apart = times[i] - times[i - 1]; apart * TimeData::most_steps < end)
       entry.refuse(fmt::format("{:.12g} and {:.12g} are {:.3g} ms apart", times[i - 1], times[i], apart),
-                   fmt::format("leave {:.12g} ms between times", end / most_output_times));
+                   fmt::format("leave {:.12g} ms between times", end / TimeData::most_steps));
 }
 
 void check_output_times(const CaseEntry& whole_case, const Case& scene) {
@@ -123,9 +120,9 @@ void check_output_times(const CaseEntry& whole_case, const Case& scene) {
     interval.refuse("asks for fields, and output.every = 0 writes none", "remove one of the two");
   if (!scene.time) return;
   const double times = scene.time->end / *scene.output.interval;
-  if (times > most_output_times)
+  if (times > TimeData::most_steps)
     interval.refuse(fmt::format("{} would end {:.3g} steps for the sake of output", *scene.output.interval, times),
-                    fmt::format("give at least {:.12g}", scene.time->end / most_output_times));
+                    fmt::format("give at least {:.12g}", scene.time->end / TimeData::most_steps));
 }
 
 /// Elements that are stable by themselves have nothing to stabilise.

@@ -59,11 +59,10 @@ void check_periodic_end(const CaseEntry& whole_case, Case& scene) {
     section.child("end").refuse(fmt::format("{:g} ms is less than three periods of {:g} ms, whose changes are compared",
                                             time.end, *time.period),
                                 fmt::format("give at least {:g}", 3 * *time.period));
-  constexpr double most_periods = 1e6;  // each end of a period ends a step
-  if (time.end > most_periods * *time.period)
+  if (time.end > TimeData::most_steps * *time.period)
     section.child("end").refuse(
         fmt::format("{:g} ms are more than a million periods of {:g} ms", time.end, *time.period),
-        fmt::format("give at most {:g}", most_periods * *time.period));
+        fmt::format("give at most {:g}", TimeData::most_steps * *time.period));
 }
 
 }  // namespace fsi

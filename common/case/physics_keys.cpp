@@ -28,7 +28,6 @@ namespace fsi {
 
 namespace {
 
-constexpr int most_steps = 1'000'000;
 constexpr double smallest_part_of_end = 1e-9;  // of an adaptive step; times are told apart to 12 digits
 using presence::optional, presence::required;
 
@@ -223,7 +222,7 @@ void check_adaptive(const CaseEntry& entry, const TimeData& time) {
       entry.child(key).refuse(fmt::format("{} is less than {:g} of the end, {}", *value, part, time.end),
                               fmt::format("give at least {:.12g}", part * time.end));
   };
-  require_progress("largest_step", time.largest_step, 1.0 / most_steps);
+  require_progress("largest_step", time.largest_step, 1.0 / TimeData::most_steps);
   require_progress("first_step", time.first_step, smallest_part_of_end);
   require_progress("smallest_step", time.smallest_step, smallest_part_of_end);
   require("largest_step", time.largest_step, "end", time.end);
@@ -258,9 +257,9 @@ void check_time(const CaseEntry& entry, TimeData& time) {
   if (time.end < time.step)
     end.refuse(fmt::format("{} is less than one step of {}", time.end, time.step), "give an end >= step");
   const double steps = time.end / time.step;
-  if (steps > most_steps)
+  if (steps > TimeData::most_steps)
     entry.child("step").refuse(fmt::format("{} would take {:.3g} steps to {}", time.step, steps, time.end),
-                               fmt::format("give a step that takes at most {}", most_steps));
+                               fmt::format("give a step that takes at most {}", TimeData::most_steps));
 }
 
 /// A parameter of one of the schemes.
@@ -321,7 +320,7 @@ std::vector<CaseKey<TimeData>> time_keys() {
 std::vector<CaseKey<StaticData>> static_keys() {
   return {
       leaf("load_steps", optional, "equal steps in which the load is raised, default {}",
-           whole(at(&StaticData::load_steps), 1, most_steps), KeyRole::running),
+           whole(at(&StaticData::load_steps), 1, TimeData::most_steps), KeyRole::running),
       leaf("retries", optional,
            "times that a load step which finds no solution is halved before the run gives up, default {}",
            whole(at(&StaticData::retries), 0, 20), KeyRole::running),

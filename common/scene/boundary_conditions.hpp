@@ -96,7 +96,7 @@ struct FluidBoundary {
   DirichletConditions<Element::components> velocity, mesh;
   std::vector<InterfaceNode> interface;
   std::vector<double> interface_areas;  ///< that belongs to each of its nodes, mm^2
-  double closed_area = 0;               ///< mm^2, on which it sticks to nothing that moves
+  double closed_area = 0;               ///< mm^2, on which it sticks to a rigid wall
   std::vector<OpenBoundary<Element::components>> open;
   std::vector<InflowNodes> inflows;                   ///< of the openings whose flow is given
   VanishingComponents<Element::components> mirrored;  ///< normal to planes of symmetry, radial on the axis

@@ -53,7 +53,7 @@ class Scene {
   std::vector<InterfaceNode> interface;  ///< this process's first, then ghosts; each ascending in the fluid's numbers
   std::size_t interface_ghosts = 0;      ///< how many at the end are other processes'
   std::vector<double> interface_areas;   ///< that belongs to each of them, mm^2
-  double closed_area = 0;                ///< mm^2, of all processes: where the fluid sticks to nothing that moves
+  double closed_area = 0;                ///< mm^2, of all processes: where the fluid sticks to a rigid wall
   std::array<int, n> axes{};             ///< of space, 0 to 2, that the components of vectors lie along
   Conditions velocity_conditions;        ///< of the fluid's velocity
   Conditions mesh_conditions;            ///< of the mesh displacement
