@@ -1,6 +1,5 @@
 """A half plane of radius (x) and axis (z), turned about the axis."""
 
-
 import numpy as np
 
 OPEN = 90.0  # degrees that are left out, about the direction of x, so that one sees inside

@@ -8,8 +8,8 @@ import numpy as np
 from ..base.errors import printable
 from ..base.numbers import is_number, number_of
 from ..results.openings import Opening
-from ..results.picture import PER_KPA
 from ..results.run import RunResults
+from ..results.units import PER_KPA, time_words
 from ..runs.steadiness import cycle_change, period_of, sawtooth
 from .column import Column
 from .layout import Table
@@ -58,7 +58,8 @@ def _steps(run: RunResults) -> str:
         return "none"
     sizes = np.diff(np.concatenate([[0.0], time]))
     size = f"{sizes[0]:g}" if np.ptp(sizes) < 1e-6 * sizes.mean() else f"{sizes.min():.3g} to {sizes.max():.3g}"
-    return f"{len(time):,} of {size} ms, to {time[-1]:g} ms"
+    size, end = (time_words(words, run.static) for words in (size, f"{time[-1]:g}"))
+    return f"{len(time):,} of {size}, to {end}"
 
 
 def _choices(run: RunResults) -> str:
@@ -248,10 +249,8 @@ def _pressure(kind: str, unit: str) -> Column[OfOpening]:
 
 
 def _flow(head: str, of: Callable[[np.ndarray], Any]) -> Column[OfOpening]:
-    def value(record: OfOpening) -> float:
-        return float(of(record.opening.flow[record.window]))
-
-    return Column(head, f"{head}_flow", value, ".4g", "mm^3/ms", "flow outwards, {unit}")
+    group = "flow outwards, {unit}"
+    return Column(head, f"{head}_flow", lambda r: float(of(r.opening.flow[r.window])), ".4g", "mm^3/ms", group)
 
 
 OPENINGS: Sequence[Column[OfOpening]] = (
@@ -269,8 +268,6 @@ def openings_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     records = []
     cycles: dict[str, float] = {}
     for run, label in zip(runs, labels):
-        if not run.openings:
-            continue
         period = _period(run)
         if period:
             cycles[label] = period

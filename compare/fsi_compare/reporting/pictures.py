@@ -15,6 +15,7 @@ from matplotlib.ticker import MaxNLocator
 from ..base import interruption
 from ..base.errors import shortened
 from ..base.files import replacing
+from ..results.units import time_words
 from ..runs.pressure_waves import PressureWaves
 from .coinciding import labels_that_say_so
 
@@ -82,6 +83,7 @@ def pressure_figure(
     quantity: str = "pressure in Pa",
     place: str = "z in mm",
     styles: Sequence[int] = (),
+    static: bool = False,
 ) -> Figure:
     """One panel per time, in reading order; the legend has its own strip below the panels. `styles`: numbers of the
     runs' line styles; without them those of their places."""
@@ -96,7 +98,7 @@ def pressure_figure(
         for i, (wave, label, style) in enumerate(zip(waves, labels, styles or range(len(waves)))):
             axes.plot(wave.z, wave.at(time), label=label, zorder=2 + 0.01 * i, **LINES[style % len(LINES)])
         axes.axhline(0, color="#999999", linewidth=0.6, zorder=1)
-        axes.set_title(f"t = {time_text(time)} ms")
+        axes.set_title(time_words(time_text(time), static, "t = "))
         axes.set_xlim(min(wave.z[0] for wave in waves), max(wave.z[-1] for wave in waves))
         axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 3, 5, 10]))
         axes.set_xlabel(place)

@@ -8,6 +8,7 @@ from typing import Any, Sequence
 
 import numpy as np
 
+from ..results.units import time_words
 from ..runs.levels import thinned
 from .pictures import LINES
 from .scene_packing import in_16_bits, short
@@ -55,6 +56,7 @@ class Panel:
 class Player:
     runs: list[str]  # names
     panels: list[Panel]
+    static: bool = False
 
     def values(self) -> dict[str, Any]:
         """The data of the page's element, and notes on what was left out to keep the page small."""
@@ -62,7 +64,8 @@ class Player:
         notes: list[str] = []
         runs = [{"name": name, **_style(i)} for i, name in enumerate(self.runs)]
         shown = [self._panel(panel, self._levels(panels), notes) for panel in panels]
-        content = {"times": short(self._times(panels)), "runs": runs, "panels": shown}
+        clock = time_words("{}", self.static, "t = ")
+        content = {"times": short(self._times(panels)), "clock": clock, "runs": runs, "panels": shown}
         return {"content": content, "notes": list(dict.fromkeys(notes))}
 
     def _levels(self, panels: Sequence[Panel]) -> int:

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from ..base.errors import InputError
 from ..results.line import Line
 from ..results.run import RunResults
+from ..results.units import time_words
 from .pictures import LINES
 
 Runs = Sequence[RunResults]
@@ -30,7 +31,7 @@ def plot_line(
             axes.set_ylabel(f"{quantity} in {found.units[quantity]}")
             drawn += 1
     _require(drawn, line)
-    axes.set_title(f"t = {time:g} ms")
+    axes.set_title(time_words(f"{time:g}", all(run.static for run in runs), "t = "))
     return _finished(axes, "z in mm" if line in OF_RUNS else f"mm along {line}")
 
 

@@ -36,13 +36,14 @@ def add_waves(report: Report, runs: Sequence[RunResults], labels: Sequence[str],
     """The player of these runs and its pictures; `times` in ms are those of the pictures, which all lines must reach.
     What no run has is left out."""
     shown = [panel for panel in panels(runs) if panel.lines or panel.series]
-    report.player(Player(list(labels), shown))
+    static = all(run.static for run in runs)
+    report.player(Player(list(labels), shown, static))
     stems: list[str] = []
     for panel in shown:
         at = list(times) or picture_times(panel.lines) if panel.lines else []
         if at:
             stems.append(stem_of(panel.title, stems))
-            report.figure(stems[-1], functools.partial(line_figure, panel, labels, at), f"{panel.title}.")
+            report.figure(stems[-1], functools.partial(line_figure, panel, labels, at, static), f"{panel.title}.")
     series = [panel for panel in shown if panel.series]
     for first in range(0, len(series), MOST_PANELS):
         stems.append(stem_of("over time", stems))
@@ -140,12 +141,12 @@ def picture_times(lines: Sequence[MovingLine]) -> list[float]:
     return [levels[round(i * (len(levels) - 1) / PICTURES)] for i in range(1, PICTURES + 1)]
 
 
-def line_figure(panel: Panel, labels: Sequence[str], times: Sequence[float]) -> Figure:
+def line_figure(panel: Panel, labels: Sequence[str], times: Sequence[float], static: bool) -> Figure:
     """Curves keep the line styles of their runs' places in the player."""
     waves = [PressureWaves(line.times, line.x, line.values) for line in panel.lines]
     runs = [line.run for line in panel.lines]
-    words = [f"{quantity} in {unit}" if unit else quantity for quantity, unit in (panel.y, panel.x)]
-    return pressure_figure(waves, [labels[run] for run in runs], times, panel.title, words[0], words[1], runs)
+    y, x = (f"{quantity} in {unit}" if unit else quantity for quantity, unit in (panel.y, panel.x))
+    return pressure_figure(waves, [labels[run] for run in runs], times, panel.title, y, x, runs, static)
 
 
 def series_figure(shown: Sequence[Panel], labels: Sequence[str]) -> Figure:

@@ -149,10 +149,10 @@ def element_of(run: RunResults) -> str:
 
 
 def end_of(run: RunResults) -> float | None:
-    """ms, the last time that a line or an opening has; None where there is neither."""
+    """ms, the last time that a line or an opening has; None where there is neither, and in a static run."""
     ends = [line.times[-1] for line in (run.centre_line, run.wall_line) if line is not None]
     ends += [opening.time[-1] for opening in run.openings.values()]
-    return float(max(ends)) if ends else None
+    return float(max(ends)) if ends and not run.static else None
 
 
 def add_differences(page: "Report", lines: Table, samples: Table) -> None:

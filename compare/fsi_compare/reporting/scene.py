@@ -12,6 +12,7 @@ from ..drawing.sweep import angles
 from ..results.picture import Scene
 from ..results.quantities import Quantity
 from ..results.scene_parts import Part, views_of
+from ..results.units import time_words
 from ..runs.levels import thinned
 from .scene_packing import packed_counts, packed_numbers, plain_bytes, short
 from .scene_thinning import MOST_TRIANGLES, thinned_part
@@ -111,7 +112,7 @@ class ReportScene:
         content |= {"first": scene.first, "start": scene.peak(scene.first), "views": self._views()}
         content |= {"plane": self._plane(), "box": self._box(), "flat": scene.meshes.flat}
         content |= {"turned": scene.meshes.geometry == "axisymmetric", "angles": short(angles())}
-        content |= {"percentile": PERCENTILE, "maps": maps}
+        content |= {"percentile": PERCENTILE, "maps": maps, "clock": time_words("{}", scene.static, "t = ")}
         return {"content": content, "notes": list(dict.fromkeys(self.notes))}
 
     def _run(self, run: RunScene) -> dict[str, Any]:

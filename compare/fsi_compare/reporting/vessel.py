@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from ..results.picture import Scene, picture
 from ..results.run import RunResults
 from ..results.surfaces import ASK
+from ..results.units import time_words
 from .layout import Table
 from .places import apart_table, places_table
 from .report import Report
@@ -30,8 +31,7 @@ class Vessel(NamedTuple):
 def vessel_of(runs: Sequence[RunResults], labels: Sequence[str]) -> Vessel:
     """Reads the meshes of the first few runs that have fields. Raises InputError for files that cannot be read."""
     places = [i for i, run in enumerate(runs) if run.fields][:MOST_RUNS]
-    scenes = [Scene(runs[i].meshes, str(runs[i].folder / "fields.h5")) for i in places]
-    return Vessel([labels[i] for i in places], scenes)
+    return Vessel([labels[i] for i in places], [runs[i].scene for i in places])
 
 
 def add_vessel(
@@ -64,6 +64,7 @@ def stills_of(vessel: Vessel) -> list[Still]:
         time = scene.peak(key)
         words = scene.quantity(key).words
         draw = functools.partial(picture, scene, key, time, title=name)
-        caption = f"{words[0].upper()}{words[1:]} of {name} at {time:g} ms, where it is largest."
+        clock = time_words(f"{time:g}", scene.static)
+        caption = f"{words[0].upper()}{words[1:]} of {name} at {clock}, where it is largest."
         found.append((f"vessel_{key}", draw, caption))
     return found

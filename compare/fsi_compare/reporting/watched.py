@@ -10,13 +10,13 @@ import numpy as np
 from ..base.errors import InputError, printable
 from ..base.folder_lock import is_left
 from ..results.run import open_run
+from ..results.units import PER_KPA, time_words
 
 KILLED = "killed"  # it still says that it runs, and holds its folder no more
 OVER = ("done", "interrupted", "not converged", "failed", KILLED)  # how a run ends
 PLANNED = re.compile(r", (\d+) steps\s*$")
 LAST = 10  # steps that the speed is the mean of
 BLOCKS, PLAIN = "▁▂▃▄▅▆▇█", "_.-=+*#@"
-PA_PER_KPA = 1000.0
 
 
 @dataclass(frozen=True)
@@ -34,6 +34,7 @@ class State:
     steps: int = 0
     planned: int | None = None
     time: float = 0.0  # ms
+    clock: str = "t = 0 ms"  # the time in words
     step_seconds: float | None = None
     curves: list[Curve] = field(default_factory=list)
 
@@ -61,12 +62,13 @@ def state_of(folder: Path) -> State:
     if not rows.rows:
         return state
     state.steps, state.time = int(rows["step"][-1]), float(rows["time"][-1])
+    state.clock = time_words(f"{state.time:g}", run.static, "t = ")
     state.step_seconds = float(rows["wall"][-LAST:].mean())
     passes = "outer_iterations" if run.program == "fsi-partitioned" else "newton_iterations"
     state.curves.append(Curve("passes" if passes.startswith("outer") else "Newton iterations", "", rows[passes]))
     try:
         for name, opening in run.openings.items():
-            state.curves.append(Curve(f"pressure, {printable(name)}", "kPa", opening.mean_pressure / PA_PER_KPA))
+            state.curves.append(Curve(f"pressure, {printable(name)}", "kPa", opening.mean_pressure / PER_KPA["Pa"]))
             state.curves.append(Curve(f"flow outwards, {printable(name)}", "mm^3/ms", opening.flow))
     except (InputError, ValueError):  # rows of one step are written one by one
         pass
@@ -104,7 +106,7 @@ def lines_of(state: State, left: str, width: int, marks: str = BLOCKS) -> Sequen
     """The lines of the terminal; `left`: words for the seconds that are left."""
     of = f" of {state.planned}" if state.planned else ""
     speed = f", {state.step_seconds:.3g} s a step" if state.step_seconds is not None else ""
-    lines = [f"{state.program}, {state.status}: step {state.steps}{of}, t = {state.time:g} ms{speed}{left}"]
+    lines = [f"{state.program}, {state.status}: step {state.steps}{of}, {state.clock}{speed}{left}"]
     names = max((len(curve.name) for curve in state.curves), default=0)
     for curve in state.curves:
         ends = f"{curve.values.min():.4g} to {curve.values.max():.4g} {curve.unit}".rstrip()

@@ -12,44 +12,44 @@ from ..mesh_import.raw_mesh import SIDES
 CORNERS = {3: 3, 6: 3, 4: 4, 10: 4}
 SIDES_OF = {3: SIDES["triangle"][1], 6: SIDES["triangle6"][1], 4: SIDES["tetra"][1], 10: SIDES["tetra10"][1]}
 IN_FOUR = [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]]  # straight parts of a quadratic triangle
-PARTS = {3: [[0, 1]], 6: [[0, 2], [2, 1]], 4: [[0, 1, 2]], 10: IN_FOUR}  # of a side, in its own numbers
+PARTS = {(2, 2): [[0, 1]], (2, 3): [[0, 2], [2, 1]], (3, 3): [[0, 1, 2]], (3, 6): IN_FOUR}  # by corners and nodes
+TURNED = [1, 0, 2, 3, 5, 4]  # nodes of a face the other way around, as many as it has
 SMOOTH = 0.94  # cosine of the angle between faces of one piece, 20 degrees
 
 
 @dataclass(frozen=True)
 class Boundary:
-    """Faces of cells, by the numbers of the mesh's nodes."""
+    """Faces of cells, or triangles of a flat mesh, by the numbers of the mesh's nodes."""
 
-    faces: np.ndarray  # corners, (faces, dimension), outwards by the right hand
-    parts: np.ndarray  # straight parts of each face, (faces, parts, dimension): one of a linear cell
+    nodes: np.ndarray  # (faces, nodes of one), corners first, outwards by the right hand; then middles of edges
+    corners: int  # of a face: the dimension
+
+    @property
+    def faces(self) -> np.ndarray:
+        """Their corners, (faces, corners)."""
+        return self.nodes[:, : self.corners]
 
     def some(self, which: np.ndarray) -> "Boundary":
         """The faces that a mask or numbers choose."""
-        return Boundary(self.faces[which], self.parts[which])
+        return Boundary(self.nodes[which], self.corners)
 
     def straight(self) -> np.ndarray:
-        """(faces * parts, dimension)."""
-        return self.parts.reshape(-1, self.parts.shape[-1])
+        """Straight parts of the faces, (faces * parts, corners): one of a linear face."""
+        return self.nodes[:, PARTS[self.corners, self.nodes.shape[1]]].reshape(-1, self.corners)
 
 
 def boundary_of(points: np.ndarray, cells: np.ndarray, up: np.ndarray) -> Boundary:
     """Boundary of cells with 3, 4, 6 or 10 nodes (see MediumFields.cells); `up`: see normals_of()."""
-    nodes = cells.shape[1]
-    corners = CORNERS[nodes]
-    sides = np.concatenate([cells[:, list(side)] for side in SIDES_OF[nodes]])
-    faces, parts = sides[:, : corners - 1], sides[:, PARTS[nodes]]
+    corners = CORNERS[cells.shape[1]]
+    sides = np.concatenate([cells[:, list(side)] for side in SIDES_OF[cells.shape[1]]])
+    faces = sides[:, : corners - 1]
     _, first, counts = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
     alone = np.sort(first[counts == 1])
-    faces, parts, owners = faces[alone], parts[alone], cells[alone % len(cells)][:, :corners]
+    sides, faces, owners = sides[alone], faces[alone], cells[alone % len(cells)][:, :corners]
     outwards = points[faces].mean(axis=1) - points[owners].mean(axis=1)
     inside_out = np.einsum("ij,ij->i", normals_of(points, faces, up), outwards) < 0
-    faces[inside_out], parts[inside_out] = faces[inside_out, ::-1], parts[inside_out, :, ::-1]
-    return Boundary(faces, parts)
-
-
-def straight_cells(cells: np.ndarray) -> np.ndarray:
-    """Triangles of a two-dimensional mesh with straight sides, (triangles, 3): four of each quadratic one."""
-    return cells if cells.shape[1] == 3 else cells[:, IN_FOUR].reshape(-1, 3)
+    sides[inside_out] = sides[inside_out][:, TURNED[: sides.shape[1]]]
+    return Boundary(sides, corners - 1)
 
 
 def normals_of(points: np.ndarray, faces: np.ndarray, up: np.ndarray) -> np.ndarray:

@@ -1,7 +1,8 @@
 """Which faces of the fluid's boundary are its openings. `fields.h5` has no names of surfaces; an opening is a flat
 piece of the boundary whose flow and mean pressure are those of a name in `openings.csv` or `flow.csv`."""
 
-from typing import Mapping
+from itertools import compress
+from typing import Mapping, Sequence
 
 import numpy as np
 
@@ -9,95 +10,104 @@ from ..runs.levels import thinned
 from .boundary import Boundary, normals_of, smooth_pieces
 from .fields import MediumFields
 from .openings import Opening
+from .units import PER_KPA
 
-FLAT = 1e-3  # of the normals of a flat piece: how far they are from their mean
-AGREES = 0.05  # of the largest flow and pressure of any opening; the parts of a quadratic face are straight here
+FLAT = 1e-3  # of the normals of a flat piece: how far apart their components are
+# Of the largest flow and pressure of any opening; where the mesh's motion was not written, an opening may have moved.
+AGREES, AGREES_UNMOVED = 1e-4, 0.05
+TELLS, EXACT = 3.0, 1e-9  # one fit is better than another: how many times; and what is rounding
 LEVELS = 4  # times at which flow and pressure are compared
-PA_PER_KPA = 1000.0
 
 
 def flat_pieces(points: np.ndarray, boundary: Boundary, up: np.ndarray) -> list[np.ndarray]:
     """Numbers of the faces of each flat piece."""
     normals = normals_of(points, boundary.faces, up)
-    numbers = smooth_pieces(boundary.faces, normals)
     units = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
-    found = []
-    for number in range(numbers.max() + 1 if len(numbers) else 0):
-        faces = np.flatnonzero(numbers == number)
-        mean = normals[faces].sum(axis=0)
-        mean = mean / max(float(np.linalg.norm(mean)), 1e-300)
-        if np.all(np.linalg.norm(units[faces] - mean, axis=1) < FLAT):
-            found.append(faces)
-    return found
+    numbers = smooth_pieces(boundary.faces, normals)
+    pieces = (np.flatnonzero(numbers == number) for number in np.unique(numbers))
+    return [faces for faces in pieces if np.ptp(units[faces], axis=0).max() < FLAT]
 
 
 def named_openings(
-    fluid: MediumFields,
-    boundary: Boundary,
-    pieces: list[np.ndarray],
-    openings: Mapping[str, Opening],
-    up: np.ndarray,
-    turned: bool,
+    fluid: MediumFields, boundary: Boundary, openings: Mapping[str, Opening], up: np.ndarray, turned: bool
 ) -> dict[str, np.ndarray]:
-    """Faces by the name of the opening; those that match none are left out. `turned`: axisymmetric, x is the radius."""
-    levels = _levels(fluid, openings)
+    """Numbers of an opening's faces by its name, 'left or right 1' where each of several fits; what matches none is left
+    out. `turned`: axisymmetric, x is the radius."""
+    levels, pieces = _levels(fluid, openings), flat_pieces(fluid.points, boundary, up)
     if not len(levels) or not pieces:
         return {}
-    measured = np.array([_measured(fluid, boundary.some(piece), levels, up, turned) for piece in pieces])
-    given = np.array([_given(opening, levels) for opening in openings.values()])
-    scale = np.nanmax(np.abs(given), axis=(0, 2))
-    scale[~(scale > 0)] = np.inf
-    apart = np.abs(measured[:, None] - given[None]) / scale[None, None, :, None]
-    misfit = np.nanmax(np.nan_to_num(apart, nan=0.0), axis=(2, 3))
+    measured = _measured(fluid, [boundary.some(piece) for piece in pieces], levels, up, turned)
+    curves = [(opening.time, (opening.flow, opening.mean_pressure)) for opening in openings.values()]
+    given = np.array([[np.interp(levels, time, row) for row in rows] for time, rows in curves])
+    scale = np.abs(given).max(axis=(0, 2))
+    scale[scale == 0] = np.nan
+    apart = np.abs(measured[:, None] - given) / scale[:, None]
+    if np.isnan(apart).all():  # nothing tells an opening from a wall
+        return {}
+    misfit = np.nan_to_num(apart, nan=0.0).max(axis=(2, 3))
+    fits = misfit < (AGREES if "displacement" in fluid.names else AGREES_UNMOVED)
+    for axis in (0, 1):  # no other piece fits the name better, no other name the piece
+        fits &= misfit <= np.maximum(TELLS * misfit.min(axis=axis, keepdims=True), EXACT)
     found: dict[str, np.ndarray] = {}
-    taken: list[int] = []
-    names = list(openings)
-    for flat in np.argsort(misfit, axis=None):
-        piece, name = int(flat) // len(names), names[int(flat) % len(names)]
-        if misfit.flat[flat] < AGREES and piece not in taken and name not in found:
-            found[name] = pieces[piece]
-            taken.append(piece)
-    return {name: found[name] for name in names if name in found}
+    for row in sorted(set(map(tuple, fits.tolist())), reverse=True):
+        alike = np.flatnonzero((fits == row).all(axis=1))
+        name = " or ".join(compress(openings, row))
+        if len(alike) <= row.count(True):  # else there are walls among them
+            found |= {f"{name} {i}" if len(alike) > 1 else name: pieces[piece] for i, piece in enumerate(alike, 1)}
+    return found
 
 
 def _levels(fluid: MediumFields, openings: Mapping[str, Opening]) -> np.ndarray:
     """Some times that fields and openings both have."""
-    if not openings or not {"velocity", "pressure"} & set(fluid.names):
-        return np.zeros(0)
-    first = max(float(opening.time[0]) for opening in openings.values())
-    last = min(float(opening.time[-1]) for opening in openings.values())
+    first = max((float(opening.time[0]) for opening in openings.values()), default=np.inf)
+    last = min((float(opening.time[-1]) for opening in openings.values()), default=0.0)
     times = fluid.times[(fluid.times >= first * (1 - 1e-9)) & (fluid.times <= last * (1 + 1e-9))]
     return times[thinned(len(times), LEVELS)]
 
 
-def _given(opening: Opening, levels: np.ndarray) -> np.ndarray:
-    """(2, levels): flow and mean pressure."""
-    return np.array([np.interp(levels, opening.time, row) for row in (opening.flow, opening.mean_pressure)])
-
-
-def _measured(fluid: MediumFields, piece: Boundary, levels: np.ndarray, up: np.ndarray, turned: bool) -> np.ndarray:
-    """Flow and mean pressure of a piece of the boundary, (2, levels); NaN for a field that is not there."""
-    parts = piece.straight()
-    normals = normals_of(fluid.points, parts, up)
-    area = np.linalg.norm(normals, axis=1)
-    if turned:
-        radius = fluid.points[parts][:, :, 0]  # values and radius are linear along an edge
-        weights = 2 * np.pi * area[:, None] * (radius / 6 + radius.sum(axis=1, keepdims=True) / 6)
-    else:
-        weights = np.repeat(area[:, None] / parts.shape[1], parts.shape[1], axis=1)
-    units = normals / np.maximum(area[:, None], 1e-300)
-    rows = np.full((2, len(levels)), np.nan)
+def _measured(
+    fluid: MediumFields, pieces: Sequence[Boundary], levels: np.ndarray, up: np.ndarray, turned: bool
+) -> np.ndarray:
+    """Flow and mean pressure of pieces of the boundary where they are, (pieces, 2, levels); NaN for a field that is not
+    there. As the drivers have it: integrals of u . n and p over faces, which may be curved, with p linear in them."""
+    places, weights = _rule(pieces[0].corners)
+    count = pieces[0].nodes.shape[1]
+    shapes, (origin, *ends) = _shapes(places, count), np.eye(pieces[0].corners)
+    slopes = [0.5 * (_shapes(places + end - origin, count) - _shapes(places - end + origin, count)) for end in ends]
+    rows = np.full((len(pieces), 2, len(levels)), np.nan)
+    names = [name if name in fluid.names else None for name in ("velocity", "pressure", "displacement")]
     for i, time in enumerate(levels):
-        velocity, pressure = (_at(fluid, time, name) for name in ("velocity", "pressure"))
-        if velocity is not None:
-            rows[0, i] = np.sum(weights * np.einsum("fpi,fi->fp", velocity[parts], units))
-        if pressure is not None:
-            rows[1, i] = PA_PER_KPA * np.sum(weights * pressure[parts]) / weights.sum()
+        velocity, pressure, displacement = (fluid.at(float(time), name) if name else None for name in names)
+        points = fluid.points if displacement is None else fluid.points + displacement
+        for row, piece in zip(rows, pieces):
+            x = points[piece.nodes]
+            normals = np.cross(slopes[0] @ x, slopes[1] @ x if len(slopes) > 1 else up) * weights[:, None]
+            if turned:
+                normals *= 2 * np.pi * (shapes @ x)[:, :, :1]
+            if velocity is not None:
+                row[0, i] = np.sum(shapes @ velocity[piece.nodes] * normals)
+            if pressure is not None:
+                areas = np.linalg.norm(normals, axis=2)
+                row[1, i] = PER_KPA["Pa"] * np.sum(pressure[piece.faces] @ places.T * areas) / areas.sum()
     return rows
 
 
-def _at(fluid: MediumFields, time: float, name: str) -> np.ndarray | None:
-    return fluid.at(float(time), name) if name in fluid.names else None
+def _rule(corners: int) -> tuple[np.ndarray, np.ndarray]:
+    """Barycentric coordinates (points, corners) and weights of a rule of degree 6 on an edge or triangle."""
+    x, weights = (values / 2 for values in np.polynomial.legendre.leggauss(4))
+    x = x + 0.5
+    if corners == 2:
+        return np.stack([1 - x, x], axis=1), weights
+    u, v = (values.ravel() for values in np.meshgrid(x, x))
+    return np.stack([(1 - u) * (1 - v), u, (1 - u) * v], axis=1), np.outer(weights, weights).ravel() * (1 - u)
+
+
+def _shapes(places: np.ndarray, count: int) -> np.ndarray:
+    """Shape functions of a face with that many nodes at barycentric coordinates, (points, count)."""
+    if places.shape[1] == count:
+        return places
+    middles = 4 * places * np.roll(places, -1, axis=1)
+    return np.hstack([places * (2 * places - 1), middles])[:, :count]
 
 
 def middle_of(points: np.ndarray, faces: np.ndarray, up: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -29,10 +29,12 @@ def openings_of(table: Table) -> dict[str, Opening]:
 
 
 def inlet_and_outlet(table: Table) -> dict[str, Opening]:
-    """Reads `flow.csv`, where the flow of the inlet is positive inwards."""
+    """Reads `flow.csv`, where the flow of the inlet is positive inwards, and zeros stand for an end that is no
+    opening."""
     found = {}
     for name, outwards in (("inlet", -1.0), ("outlet", 1.0)):
         if f"{name}_flow" in table:
-            flow = outwards * table[f"{name}_flow"]
-            found[name] = Opening(name, table["time"], flow, table[f"{name}_pressure"], None)
+            flow, pressure = outwards * table[f"{name}_flow"], table[f"{name}_pressure"]
+            if np.any(flow) or np.any(pressure):
+                found[name] = Opening(name, table["time"], flow, pressure, None)
     return found

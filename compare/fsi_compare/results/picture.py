@@ -14,14 +14,13 @@ from ..runs.levels import thinned
 from .quantities import Quantity
 from .scene_parts import FIRST, CutPlane, Part, camera_of, middle_plane, parts_of, scene_quantities, views_of
 from .surfaces import Surfaces, displaced
+from .units import PER_KPA, time_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PIXELS, BORDER = (900, 580), 8  # of a picture, and around what it shows
 MOST_LEVELS = 40  # that the range of colours is found from
-UNITS = {"kPa": ("kPa", "Pa", "mmHg")}  # that a unit can be shown in
-PER_KPA = {"kPa": 1.0, "Pa": 1000.0, "mmHg": 7.50062}
 VISIBLE = 0.05  # of the scene's size
 INCHES_WIDE, MOST_HIGH = 7.0, 4.6
 
@@ -29,10 +28,11 @@ INCHES_WIDE, MOST_HIGH = 7.0, 4.6
 class Scene:
     """Parts of one run that pictures are made from, read once for many pictures."""
 
-    def __init__(self, meshes: Surfaces, file: str, plane: CutPlane | None = None) -> None:
+    def __init__(self, meshes: Surfaces, file: str, static: bool) -> None:
         self.meshes = meshes
         self.file = file
-        self.plane = plane or middle_plane(meshes)
+        self.static = static
+        self.plane = middle_plane(meshes)
         self.parts = parts_of(meshes, self.plane)
         self.quantities = scene_quantities(meshes)
         self._ranges: dict[str, tuple[Scale, float]] = {}
@@ -174,7 +174,8 @@ def picture(
     bar_unit = "" if shown_unit == "1" else shown_unit
     words = quantity.words + (f" in {bar_unit}" if bar_unit else "")
     moves = any("displacement" in medium.names for medium in scene.meshes.media.values())
-    notes = [title, f"t = {at:g} ms", f"displacement x {factor:g}" if factor != 1 and moves else ""]
+    clock = time_words(f"{at:g}", scene.static, "t = ")
+    notes = [title, clock, f"displacement x {factor:g}" if factor != 1 and moves else ""]
     return framed(image, scale, times_unit, words, bar_unit, " · ".join(filter(None, notes)), span is None)
 
 
@@ -192,8 +193,8 @@ def unit_of(own: str, wanted: str | None) -> tuple[str, float]:
     """(unit, how many of it are one of the own). Raises InputError."""
     if wanted is None or wanted == own:
         return own, 1.0
-    if wanted not in UNITS.get(own, ()):
-        remedy = f"give {' or '.join(UNITS.get(own, (own,)))}"
+    if own not in PER_KPA or wanted not in PER_KPA:
+        remedy = f"give {' or '.join(PER_KPA) if own in PER_KPA else own}"
         raise InputError("", "unit", f"'{wanted}' does not fit a field in {own}", remedy)
     return wanted, PER_KPA[wanted] / PER_KPA[own]
 

@@ -93,6 +93,11 @@ class RunResults:
         return self.iterations["time"]
 
     @property
+    def static(self) -> bool:
+        """Whether its times are shares of a load. Only a wall at rest has energies without a kinetic one."""
+        return {"wall_isochoric_energy", "wall_kinetic_energy"} & set(self.energy or ()) == {"wall_isochoric_energy"}
+
+    @property
     def energy(self) -> Table | None:
         """The energy balance of each time step, uJ (docs/energy.md)."""
         return self._optional("energy.csv")
@@ -172,7 +177,7 @@ class RunResults:
     @cached_property
     def scene(self) -> Scene:
         """What pictures are made from, and its quantities by name: `run.scene.quantities`. Raises InputError."""
-        return Scene(self.meshes, str(self.folder / "fields.h5"))
+        return Scene(self.meshes, str(self.folder / "fields.h5"), self.static)
 
     def picture(
         self,

@@ -9,9 +9,9 @@ import numpy as np
 
 from ..base.errors import InputError
 from ..base.suggestions import hint
-from .boundary import CORNERS, Boundary, boundary_of, straight_cells
+from .boundary import CORNERS, Boundary, boundary_of
 from .fields import MediumFields
-from .opening_faces import flat_pieces, named_openings
+from .opening_faces import named_openings
 from .openings import Opening
 from .plane_cut import cut_by_plane
 
@@ -114,7 +114,7 @@ class Surfaces:
     @property
     def names(self) -> list[str]:
         """Names that get() knows."""
-        return [*self._boundaries, *(f"{medium} section" for medium in self.media if self.flat)]
+        return list(self._boundaries)
 
     @property
     def openings(self) -> list[str]:
@@ -125,9 +125,6 @@ class Surfaces:
         """The surface of this name. Raises InputError."""
         if name not in self.names:
             raise InputError(self._folder, "", f"has no surface '{name}'", hint(name, self.names))
-        if name not in self._boundaries:
-            medium = self.media[name.removesuffix(" section")]
-            return made(name, medium, straight_cells(medium.cells))
         which, boundary = self._boundaries[name]
         return made(name, self.media[which], boundary.straight())
 
@@ -135,7 +132,7 @@ class Surfaces:
         """The cut of a three-dimensional medium by a plane, in the reference configuration."""
         of = self.media[medium]
         found = cut_by_plane(of.points, of.cells, np.asarray(origin, float), np.asarray(normal, float))
-        return Surface(f"{medium} cut", of, found.ends, found.weight, found.triangles)
+        return Surface(f"{medium} cut", of, *found)
 
     def faces(self, name: str) -> np.ndarray:
         """Corners of the faces of a boundary, by the nodes of its medium, (faces, dimension)."""
@@ -161,6 +158,8 @@ class Surfaces:
             if inner.any():
                 found["inner"] = ("wall", whole.some(inner))
             found["outer"] = ("wall", whole.some(~inner))
+        sections = self.media if self.flat else ()
+        found |= {f"{name} section": (name, Boundary(self.media[name].cells, 3)) for name in sections}
         return {name: (medium, part) for name, (medium, part) in found.items() if len(part.faces)}
 
     @cached_property
@@ -169,9 +168,9 @@ class Surfaces:
         fluid = self.media["fluid"]
         whole, interface = self._wholes["fluid"], self._shared["fluid"]
         free = np.flatnonzero(~interface)
-        pieces = [free[piece] for piece in flat_pieces(fluid.points, whole.some(free), self.up)]
         turned = self.geometry == "axisymmetric"
-        return whole, named_openings(fluid, whole, pieces, self._known_openings, self.up, turned), interface
+        found = named_openings(fluid, whole.some(free), self._known_openings, self.up, turned)
+        return whole, {name: free[faces] for name, faces in found.items()}, interface
 
     @cached_property
     def _wholes(self) -> dict[str, Boundary]:

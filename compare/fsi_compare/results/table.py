@@ -8,6 +8,7 @@ import numpy as np
 from ..base.errors import InputError
 from ..base.suggestions import hint
 from ..runs.columns import number, numbers, read_fields
+from ..runs.samples import NAMES
 from .units import split_unit
 
 
@@ -93,7 +94,9 @@ def read_table(path: Path, finished: bool = True) -> Table:
 
 
 def _column(path: Path, name: str, fields: Sequence[str]) -> np.ndarray:
-    """One whose first field says a word holds words."""
+    """Names are words; so is a column whose first field says one."""
+    if name in NAMES:
+        return np.array(fields)
     try:
         number(next((field for field in fields if field), "0"))
     except ValueError:

@@ -3,7 +3,13 @@
 import re
 
 SYMBOLS = ("ms", "s", "mm", "mg", "Pa", "kPa", "uN", "mN", "N", "uJ", "mJ", "uW", "mW", "deg", "rad", "MiB")
+PER_KPA = {"kPa": 1.0, "Pa": 1000.0, "mmHg": 7.50062}  # units that a pressure can be shown in
 _FACTOR = re.compile(rf"({'|'.join(SYMBOLS)})([2-9]?)$")
+
+
+def time_words(time: str, static: bool, symbol: str = "") -> str:
+    """'4 ms', with a symbol 't = 4 ms'; in a static run, whose times are shares of its load, '0.25 of the load'."""
+    return f"{time} of the load" if static else f"{symbol}{time} ms"
 
 
 def split_unit(header: str) -> tuple[str, str]:

@@ -17,7 +17,7 @@ from .pressure_waves import PressureWaves
 POINTS, LINES, PLANES = "points.csv", "lines.csv", "planes.csv"
 CENTRE_LINE = "centerline"  # the line that a tube gets which does not follow its axis
 TIME = "time_ms"
-NAMES = ("point", "line", "plane", "opening", "surface")
+NAMES = ("point", "line", "plane", "opening", "surface", "element")  # columns of words, though one be named 1
 PLACES = ("s_mm", "x_mm", "y_mm", "z_mm")
 
 

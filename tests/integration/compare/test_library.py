@@ -12,7 +12,9 @@ from folder_case import FolderCase
 from synthetic import TIMES, Z, gaussian, write_run
 
 import fsi_compare
-from fsi_compare.reporting.run_player import panels
+from fsi_compare.reporting.first_read import case_lines
+from fsi_compare.reporting.plots import plot_line
+from fsi_compare.reporting.run_player import line_figure, panels
 from fsi_compare.results.table import read_table
 from fsi_compare.results.units import split_unit
 
@@ -78,6 +80,38 @@ class Tables(FolderCase):
         np.testing.assert_array_equal(openings["b"].mean_pressure, [-99, -98, -97])
         self.assertIsNone(openings["a"].windkessel_pressure)
         np.testing.assert_array_equal(openings["b"].windkessel_pressure, [5, 10, 15])
+
+    def test_names_that_look_like_numbers(self):
+        points = "time_ms,point,x_mm,y_mm,z_mm,pressure_Pa\n1,1,0,0,0,5\n1,w,0,0,1,6\n"
+        run = self.run_with("points.csv", points)
+        self.assertEqual({name: table["pressure"].tolist() for name, table in run.points.items()}, {"1": [5], "w": [6]})
+        header = "time_ms,opening,flow_mm3_per_ms,mean_pressure_Pa,windkessel_pressure_Pa\n"
+        (run.folder / "openings.csv").write_text(header + "1,1,2,3,0\n1,2,-2,4,0\n")
+        (run.folder / "network.csv").write_text("time_ms,element,volume_mm3\n1,inf,2\n1,coil,\n")
+        self.assertEqual(", ".join(run.openings), "1, 2")
+        self.assertEqual(run.table("network")["element"].tolist(), ["inf", "coil"])
+
+    def test_closed_ends_are_no_openings(self):
+        header = "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms,inlet_pressure_Pa,outlet_pressure_Pa\n"
+        run = self.run_with("flow.csv", header + "1,0,0,0,0\n2,3,0,400,0\n")
+        self.assertEqual({name: one.flow.tolist() for name, one in run.openings.items()}, {"inlet": [0, -3]})
+        (run.folder / "flow.csv").write_text(header + "1,0,0,0,0\n2,0,0,0,0\n")
+        self.assertEqual(fsi_compare.open_run(run.folder).openings, {})
+
+    def test_static_runs(self):
+        run = self.run_with("energy.csv", "step,time_ms,wall_isochoric_energy_uJ,remainder_uJ\n1,0.5,2,0\n2,1,4,0\n")
+        (run.folder / "iterations.csv").write_text("step,time_ms\n1,0.5\n2,1\n")
+        (run.folder / "wall_displacement.csv").write_text("time_ms,z_mm,radial_mm\n0.5,0,1\n0.5,1,2\n1,0,2\n1,1,4\n")
+        self.assertTrue(run.static)
+        self.assertIn("**steps**: 2 of 0.5 of the load, to 1 of the load", case_lines([run], ["run"]))
+        self.assertEqual(plot_line([run], 0.5, "wall_line", "radial").get_title(), "0.5 of the load")
+        shown = next(panel for panel in panels([run]) if panel.title.startswith("Radial"))
+        axes = line_figure(shown, ["run"], [0.5], run.static).axes
+        self.assertEqual(axes[0].get_title(), "0.50 of the load")
+        (run.folder / "energy.csv").write_text("step,wall_kinetic_energy_uJ,wall_isochoric_energy_uJ\n1,2,3\n")
+        run = fsi_compare.open_run(run.folder)
+        self.assertFalse(run.static)
+        self.assertIn("**steps**: 2 of 0.5 ms, to 1 ms", case_lines([run], ["run"]))
 
     def test_samples(self):
         """Two lines, one of two points and one of three, and a plane, at two times."""

@@ -83,6 +83,37 @@ class OfAChannel(FolderCase):
         self.assertEqual(len(run.surface("interface").triangles), 4 * 2 * 2 * 6)  # four of each face
         self.assertEqual(run.meshes.openings, ["in<b>", "out"])
 
+    def of_two_outlets(self, up, down):
+        """A parabola of velocity flows out at both ends: its flows are `up` at z = 0, `down` at the other."""
+        points, cells = quadratic(*channel()["fluid"])
+        speed = lambda p, t: 6 * t * p[:, 0] * (1 - p[:, 0]) * (-up + (up + down) * p[:, 2] / LENGTH)
+        along = lambda p, t: np.stack([0 * p[:, 0], 0 * p[:, 0], speed(p, t)], axis=1)
+        fields = {"velocity": ("mm/ms", along), "pressure": ("kPa", lambda p, t: np.full(len(p), t))}
+        write_fields(self.folder, {"fluid": (points, cells)}, {"fluid": fields})
+        rows = [f"{t},{name},{flow * t},{1000 * t},0" for t in TIMES[1:] for name, flow in (("down", down), ("up", up))]
+        head = "time_ms,opening,flow_mm3_per_ms,mean_pressure_Pa,windkessel_pressure_Pa"
+        (self.folder / "openings.csv").write_text("\n".join([head, *rows, ""]))
+        return open_run(self.folder)
+
+    def test_openings_that_differ_little(self):
+        run = self.of_two_outlets(1.0, 1.002)
+        self.assertEqual(run.meshes.openings, ["down", "up"])
+        self.assertEqual(set(run.surface("up").points[:, 2]), {0.0})
+        self.assertEqual(set(run.surface("down").points[:, 2]), {LENGTH})
+
+    def test_openings_that_cannot_be_told_apart(self):
+        run = self.of_two_outlets(1.0, 1.0)
+        self.assertEqual(run.meshes.openings, ["down or up 1", "down or up 2"])
+        self.assertAlmostEqual(area(run.surface("openings")), 2 * WIDTH**2, places=9)
+        with self.assertRaisesRegex(
+            InputError, "has no surface 'up'.* It has lumen, openings, down or up 1, down or up 2"
+        ):
+            run.surface("up")
+
+    def test_nothing_tells_openings_from_walls(self):
+        write_fields(self.folder, factor=0.0)
+        self.assertEqual(open_run(self.folder).meshes.openings, [])
+
     def test_cut(self):
         for mesh in (channel(), {name: quadratic(*part) for name, part in channel().items()}):
             write_fields(self.folder, mesh)
@@ -117,6 +148,11 @@ class OfAChannel(FolderCase):
         self.assertTrue(
             any(text.startswith("wall shear stress in Pa (colours end at the 99th percentile") for text in texts)
         )
+
+    def test_picture_of_a_static_run(self):
+        (self.folder / "energy.csv").write_text("step,time_ms,wall_isochoric_energy_uJ\n1,1,2\n")
+        texts = [text.get_text() for text in open_run(self.folder).picture("displacement", 0.5).texts]
+        self.assertIn("run · 0.5 of the load", texts)
 
     def test_thinner_surfaces_keep_nodes(self):
         write_fields(self.folder, channel((8, 8, 32)))

@@ -53,6 +53,19 @@ class Watching(FolderCase):
         self.assertRegex(lines[2], r"pressure, in +▁▅█  3 \(1 to 3 kPa\)")
         self.assertTrue(all(len(line) <= 80 for line in lines))
 
+    def test_static_run_and_numbered_opening(self):
+        self.rows(2, "running")
+        (self.folder / "energy.csv").write_text("step,time_ms,wall_isochoric_energy_uJ\n1,0.5,2\n2,1,4\n")
+        table = self.folder / "openings.csv"
+        table.write_text(table.read_text().replace(",in,", ",1,"))
+        lines = lines_of(state_of(self.folder), "", 80)
+        self.assertEqual(lines[0], "fsi-monolithic, running: step 2 of 8, 1 of the load, 0.25 s a step")
+        self.assertIn("pressure, 1 ", lines[2])
+        self.rows(8, "done")
+        page = self.base / "watch.html"
+        self.assertEqual(self.call("watch", self.folder, "--page", page)[0], 0)
+        self.assertIn("step 8 of 8, 4 of the load", page.read_text())
+
     def test_before_the_first_step(self):
         self.rows(0, "running")
         self.assertEqual(state_of(self.folder).steps, 0)

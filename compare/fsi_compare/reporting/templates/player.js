@@ -1,6 +1,6 @@
 // Moves the reader of a report through time. Plain JavaScript on inline SVG; nothing is loaded. What it shows stands beside it
 // as JSON, made by player.py:
-//   {times: [ms], runs: [{name, color, dash, width}],
+//   {times: [ms], clock: "t = {} ms", runs: [{name, color, dash, width}],
 //    panels: [{title, kind: "line" | "series", x, y, xUnit, yUnit, curves: [{run, times?, x, values}]}]}
 // Values are packed: {low, step, data: base64 of 16-bit numbers}, value = low + step * number, 65535: none. x and times are
 // {low, step, count} when they are equally spaced, else {numbers}.
@@ -346,9 +346,8 @@
     var made = data.panels.map(function (spec) { return new Panel(spec, data, state); });
     function show() {
       state.time = data.times[Number(slider.value)];
-      var text = shown(state.time) + " ms";
-      output.textContent = "t = " + text;
-      slider.setAttribute("aria-valuetext", text);
+      output.textContent = data.clock.replace("{}", shown(state.time));
+      slider.setAttribute("aria-valuetext", output.textContent.replace("t = ", ""));
       made.forEach(function (panel) { panel.draw(); });
     }
     function stop() {

@@ -1,6 +1,6 @@
 // The vessel in space: controls, legend, what is read. Data by scene.py: {runs: [{name, times, apart, parts}], quantities, views,
-// box, plane, flat, turned, angles, maps}. Where the library or WebGL is missing the stills of the page stay, with a line that
-// says why.
+// box, plane, flat, turned, angles, maps, clock: "t = {} ms"}. Where the library or WebGL is missing the stills of the page
+// stay, with a line that says why.
 (function () {
   "use strict";
 
@@ -249,8 +249,8 @@
       });
     });
     this.slider.value = this.state.time;
-    this.clock.textContent = "t = " + shown(t) + " ms";
-    this.slider.setAttribute("aria-valuetext", shown(t) + " ms");
+    this.clock.textContent = this.data.clock.replace("{}", shown(t));
+    this.slider.setAttribute("aria-valuetext", this.clock.textContent.replace("t = ", ""));
     this.showLegend(scale);
     this.read();
     if (this.playing) this.view.renderMoving();
