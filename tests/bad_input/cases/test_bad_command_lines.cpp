@@ -71,7 +71,7 @@ TEST_P(BadCommandLine, IsRefusedInOneLine) {
     parse(GetParam().arguments);
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), GetParam().message);
+    EXPECT_STRCASEEQ(error.what(), GetParam().message);  // CLI11 2.6 says "At most"
   }
 }
 
