@@ -55,7 +55,8 @@ class WallObserver : public Observer {
   }
 
   void keep(RestartArchive& archive) override {
-    if (!archive.wants({"extremes"})) return;
+    if (!archive.wants({"extremes"}))
+      return archive.warn("the wall's extremes are those since the restart: the earlier run has left none");
     std::vector<double> numbers;
     for (const LayerRecord& layer : layers_)
       for (const auto& [at, time] : {layer.least, layer.greatest, layer.strain, layer.rotation})

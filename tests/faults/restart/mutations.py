@@ -38,6 +38,7 @@ class Mutation:
     change: Optional[Callable] = None  # of the folder
     settings: tuple = ()
     other_program: bool = False
+    warning: str = ""  # that the log of the run must have
 
 
 def checksum(data):
@@ -102,7 +103,7 @@ def sealed_checkpoints(file, choose):
         arrays = {f"arrays/{name}": h5[f"arrays/{name}"][()] for name in h5["arrays"]}
         reals = [f"reals/{name}" for name in h5.get("reals", [])]
     for name, values in arrays.items():
-        optional = "stepper." in name or "march." in name or "table." in name
+        optional = name == "arrays/extremes" or any(part in name for part in ("stepper.", "march.", "table."))
         for bad in (math.nan, math.inf):
             if values.size:
                 place = choose.randrange(values.size)
