@@ -60,7 +60,8 @@ void warn_of_start_pressure(const CaseEntry& whole_case, const Case& scene) {
     // without load does.
     if (conditions.pressure && (scene.prestress || (listed && conditions.pressure->period > 0)))
       warn(entry.child("pressure"), first_value(*conditions.pressure), false);
-    if (scene.prestress && !conditions.law && !conditions.pressure && !conditions.flow_rate)
+    // Of those that the mesh may lack, nothing is known here.
+    if (scene.prestress && opening.is_free() && opening.demanded)
       warn(entry, 0, false, opening.surface + ", which is free of traction,");
   }
 }

@@ -35,8 +35,11 @@ std::optional<std::vector<Point>> positions(const std::vector<PatchPoint>& patch
   return points;
 }
 
+constexpr double most_bent = 0.1;  // what straightened coordinates may change of the gradient of X, which is one
+
 /// Makes weights in straightened coordinates exact for linear fields again: the gradient of X is one.
-void keep_linear_fields(const std::vector<PatchPoint>& patch, const std::vector<int>& axes, PointWeights& weights) {
+/// \returns false where it was so far from it that these are no coordinates of this patch; the weights are then as before
+bool keep_linear_fields(const std::vector<PatchPoint>& patch, const std::vector<int>& axes, PointWeights& weights) {
   const auto dim = static_cast<Eigen::Index>(axes.size());
   Eigen::Matrix3d of_position = Eigen::Matrix3d::Identity();
   of_position.topLeftCorner(dim, dim).setZero();
@@ -44,6 +47,7 @@ void keep_linear_fields(const std::vector<PatchPoint>& patch, const std::vector<
     for (Eigen::Index r = 0; r < dim; ++r)
       for (Eigen::Index c = 0; c < dim; ++c)
         of_position(r, c) += (patch[i].position[axes[r]] - patch[0].position[axes[r]]) * weights[i][c];
+  if (!((of_position - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= most_bent)) return false;
   const Eigen::Matrix3d inverse = of_position.inverse();
   for (auto& weight : weights) {
     std::array<double, 3> corrected{0, 0, 0};
@@ -51,6 +55,7 @@ void keep_linear_fields(const std::vector<PatchPoint>& patch, const std::vector<
       for (Eigen::Index c = 0; c < dim; ++c) corrected[c] += weight[r] * inverse(r, c);
     weight = corrected;
   }
+  return true;
 }
 
 /// The nodes of a single cell determine the element's polynomial, unless rounding hides its thickness.
@@ -72,14 +77,13 @@ class WeightSearch {
 
   /// \returns whether the polynomial has the degree above the element's in all directions
   bool find(int node) {
-    const SurfaceShape* shape = shapes_ ? shapes_->at(node) : nullptr;
-    bool full = find_full(node, shape);
-    if (!full && !find_reduced(node, shape)) {  // the first ring reaches the centre of curvature
-      shape = nullptr;
-      full = find_full(node, shape);
-      if (!full && !find_reduced(node, shape)) throw too_flat(patches_.points().front().position);
+    if (const SurfaceShape* shape = shapes_ ? shapes_->at(node) : nullptr) {
+      const bool full = find_full(node, shape);
+      // Else the first ring reaches the centre of curvature, or the shape is not that of the patch.
+      if ((full || find_reduced(node, shape)) && keep_linear_fields(patches_.points(), axes_, weights_)) return full;
     }
-    if (shape) keep_linear_fields(patches_.points(), axes_, weights_);
+    const bool full = find_full(node, nullptr);
+    if (!full && !find_reduced(node, nullptr)) throw too_flat(patches_.points().front().position);
     return full;
   }
   /// Per point of the patch, for its first points: the patch may have grown since.

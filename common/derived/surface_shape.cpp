@@ -18,7 +18,7 @@ namespace {
 
 constexpr double near_centre = 0.3;        // of the radius of curvature
 constexpr double least_bend = 1e-6;        // of curvature times length
-constexpr double left_by_bending = 0.5;    // of a curved surface's heights, at most, once it is straightened
+constexpr double left_by_bending = 0.003;  // of a curved surface's heights, at most, once it is straightened
 constexpr double same_layer = 0.7;         // cosine of the angle between normals of one layer
 constexpr double nearby_weight = 0.1;      // of weights, as those of GradientFit
 constexpr double dependent_column = 1e-3;  // of the columns of a fit
@@ -331,7 +331,9 @@ SurfaceShapes::SurfaceShapes(const RecoveryCells& cells) : place_(cells.points.s
 
 void SurfaceShapes::fit_to_boundary(const RecoveryCells& cells, std::vector<std::vector<Point>>& flat_normals) {
   const auto dim = static_cast<int>(cells.axes.size());
-  const std::size_t enough = dim == 3 ? 8 : 5;  // the unknowns of a fit, the node itself, and two
+  // The unknowns of a fit, the node itself, and in space so many more that no irregular surface seems to have a shape:
+  // straightened by a wrong one, layers bend by more than they are thick.
+  const std::size_t enough = dim == 3 ? 24 : 5;
   const std::vector<OutsideFacet> facets = boundary_of(cells);
   std::vector<int> number(cells.points.size(), -1);
   for (const auto& members : smooth_surfaces(facets, dim)) {
@@ -344,7 +346,8 @@ void SurfaceShapes::fit_to_boundary(const RecoveryCells& cells, std::vector<std:
       patches.begin(static_cast<int>(a));
       for (int ring = 0; ring < most_surface_rings && (ring == 0 || patches.points().size() < enough); ++ring)
         patches.grow();
-      const auto shape = fitted(patches.points(), normal, cells.axes);
+      const auto shape =
+          dim == 3 && patches.points().size() < enough ? std::nullopt : fitted(patches.points(), normal, cells.axes);
       int& place = place_[surface.nodes[a]];
       if (!shape) {
         flat_normals[surface.nodes[a]].push_back(normal);

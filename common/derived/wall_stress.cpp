@@ -12,7 +12,6 @@
 #include "derived/recovery_mirrors.hpp"
 #include "fem/elements.hpp"
 #include "mesh/point_math.hpp"
-#include "parallel/whole_field.hpp"
 #include "wall/varying_hyperelastic.hpp"
 #include "wall/wall_problem.hpp"
 
@@ -78,6 +77,8 @@ struct StressLayer {
   bool has_fibres;
   std::vector<std::array<Vec3<double>, 2>> fibres;  ///< per entry of gradients.nodes(), unit length; or empty
   std::vector<LawConstants<double>> constants{};    ///< at the same nodes, of a law whose constants vary; or empty
+  std::vector<Mat3<double>>
+      to_unloaded{};  ///< (d unloaded / d mesh position)^-T at the same nodes; empty: no prestress
 };
 
 /// Calls visit(thread, index of the pack, point, lane, node, weight) for the nodes a of all elements at their
@@ -155,13 +156,13 @@ class WallStressOf : public WallStress<Element::components> {
     const auto& problem = static_cast<const WallProblem<Element>&>(*scene.wall);
     const PartRestriction* here = whole.wall_here.get();
     const auto& part = whole.wall ? *whole.wall : problem.part();
-    const std::vector<Point> unloaded = unloaded_nodes(scene, part);
+    const bool prestressed = scene.processes().any(!wall_.prestress().empty());
     share_.assign(static_cast<std::size_t>(node_count_), 0.0);
     fibre_share_ = share_;
     std::size_t index = 0;
     for (const auto& [name, data] : setup.structure->layers) {
       const WallLayer<Element>& layer = problem.layers()[index++];
-      RecoveryCells cells{unloaded,
+      RecoveryCells cells{part.nodes,
                           {},
                           Element::nodes,
                           Element::order,
@@ -200,6 +201,7 @@ class WallStressOf : public WallStress<Element::components> {
         if (stress.has_fibres) ++fibre_share_[place];
       }
       if (stress.has_fibres) stress.fibres = nodal_fibres(layer, stress.gradients.nodes(), node_count_);
+      if (prestressed) stress.to_unloaded = to_unloaded(stress.gradients);
       if (layer.varies()) stress.constants = nodal_constants(layer, stress.gradients.nodes(), node_count_);
       layers_.push_back(std::move(stress));
     }
@@ -266,15 +268,25 @@ class WallStressOf : public WallStress<Element::components> {
     return known->second;
   }
 
-  /// Positions of the whole wall's nodes without load, mm.
-  static std::vector<Point> unloaded_nodes(const Scene<n>& scene, const PartOf<Element>& whole) {
-    const auto& share = scene.wall->nodes().share;
-    if (!share) return scene.wall->unloaded_nodes(scene.axes);
-    std::vector<Point> unloaded = whole.nodes;
-    if (!scene.processes().any(!scene.wall->prestress().empty())) return unloaded;
-    const auto first = whole_field(*share, scene.wall->prestress(), n);
-    for (std::size_t i = 0; i < first.size(); ++i) unloaded[i / n][scene.axes[i % n]] -= first[i];
-    return unloaded;
+  /// Gradients are recovered on the mesh: nodes without load, which a discrete problem has found, are less even than those
+  /// of the mesh by as much as thin layers have between them.
+  std::vector<Mat3<double>> to_unloaded(const GradientRecovery& gradients) const {
+    const auto entries = static_cast<std::size_t>(node_count_) * Mixed::entries;
+    const std::vector<double> prestress = wall_.from_unloaded(std::vector<double>(entries, 0.0));
+    std::vector<double> buffer;
+    const auto& reached = gradients.template reach<Mixed>(prestress, buffer);
+    std::vector<Mat3<double>> found;
+    for (std::size_t i = 0; i < gradients.size(); ++i) {
+      Mat3<double> unloaded{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+      const Mat3<double> way = gradients.template gradient<Mixed>(i, reached);
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) unloaded(r, c) -= way(r, c);
+      const Mat3<double> cofactors = cofactor(unloaded);
+      double volume = 0;
+      for (int c = 0; c < 3; ++c) volume += unloaded(0, c) * cofactors(0, c);
+      found.push_back((1 / volume) * cofactors);
+    }
+    return found;
   }
 
   void update_ghosts(WallStresses& all) const {
@@ -320,7 +332,8 @@ class WallStressOf : public WallStress<Element::components> {
       for (std::size_t lane = 0; lane < pack_width; ++lane) {
         const std::size_t i = first + std::min(lane, filled - 1);
         const auto l = static_cast<int>(lane);
-        const auto h = layer.gradients.gradient<Mixed>(i, wall);
+        auto h = layer.gradients.gradient<Mixed>(i, wall);
+        if (!layer.to_unloaded.empty()) h = times_transposed(h, layer.to_unloaded[i]);
         for (int r = 0; r < 3; ++r)
           for (int c = 0; c < 3; ++c) {
             grad_d(r, c).set(l, h(r, c));

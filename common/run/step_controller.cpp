@@ -64,8 +64,10 @@ void StepController<n>::keep_scheme() {
   limits.first = std::max(limits.first, limits.smallest);
   limits.largest = std::max(limits.largest, limits.first);
   controller_.emplace(limits, terms.order);
-  const auto volumes = [](const auto& medium) { return medium ? medium->space().volumes() : std::vector<double>(); };
-  estimate_.emplace(volumes(scene_.fluid), volumes(scene_.wall), terms, swing);
+  const auto volumes = [](const auto& medium) {
+    return medium ? owned_volumes<n>(medium->space(), medium->nodes()) : std::vector<double>();
+  };
+  estimate_.emplace(volumes(scene_.fluid), volumes(scene_.wall), terms, swing, scene_.processes());
 }
 
 template <int n>

@@ -43,24 +43,29 @@ std::string StepErrors::text() const {
 
 template <int n>
 ErrorEstimate<n>::ErrorEstimate(std::vector<double> fluid_volumes, std::vector<double> wall_volumes,
-                                const ErrorTerms& terms, double scene_time)
+                                const ErrorTerms& terms, double scene_time, const Communicator& processes)
     : fluid_volumes_(std::move(fluid_volumes)),
       wall_volumes_(std::move(wall_volumes)),
       terms_(terms),
-      scene_time_(scene_time) {}
+      scene_time_(scene_time),
+      processes_(&processes),
+      has_fluid_(processes.any(!fluid_volumes_.empty())),
+      has_wall_(processes.any(!wall_volumes_.empty())) {}
 
 template <int n>
 template <class Value>
-double ErrorEstimate<n>::norm(const std::vector<double>& volumes, int entries, int first, int count, Value value) {
-  double sum = 0, volume = 0;
+double ErrorEstimate<n>::norm(const std::vector<double>& volumes, int entries, int first, int count,
+                              Value value) const {
+  double sums[2] = {0, 0};  // of squares, and of volumes
   for (std::size_t node = 0; node < volumes.size(); ++node) {
-    volume += volumes[node];
+    sums[1] += volumes[node];
     for (int k = 0; k < count; ++k) {
       const double x = value(node * entries + first + k);
-      sum += volumes[node] * x * x;
+      sums[0] += volumes[node] * x * x;
     }
   }
-  return volume > 0 ? std::sqrt(sum / volume) : 0;
+  processes_->sum(sums, 2);
+  return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0;
 }
 
 template <int n>
@@ -68,7 +73,6 @@ StepErrors ErrorEstimate<n>::of(const State& state, const StepData& data) {
   constexpr int entries = MixedLayout<n>::entries;
   const StepRates& rates = data.rates;
   const double dt = rates.step;
-  const bool has_fluid = !fluid_volumes_.empty(), has_wall = !wall_volumes_.empty();
   // Levels: the new one, carried from the balance to the step's end, and finished ones.
   const auto end = [&](const std::vector<double>& now, const std::vector<double>& old, std::size_t i) {
     return old[i] + (now[i] - old[i]) / rates.carry;
@@ -78,10 +82,10 @@ StepErrors ErrorEstimate<n>::of(const State& state, const StepData& data) {
     return norm(volumes, entries, 0, n, [&](std::size_t i) { return end(now, old, i); });
   };
   last_ = {};
-  if (has_wall) last_.displacement = norm_of(&Solution::wall, wall_volumes_);
-  if (has_fluid) last_.velocity = norm_of(&Solution::fluid, fluid_volumes_);
-  std::vector<double> Solution::*const medium = has_fluid ? &Solution::fluid : &Solution::wall;
-  const std::vector<double>& medium_volumes = has_fluid ? fluid_volumes_ : wall_volumes_;
+  if (has_wall_) last_.displacement = norm_of(&Solution::wall, wall_volumes_);
+  if (has_fluid_) last_.velocity = norm_of(&Solution::fluid, fluid_volumes_);
+  std::vector<double> Solution::*const medium = has_fluid_ ? &Solution::fluid : &Solution::wall;
+  const std::vector<double>& medium_volumes = has_fluid_ ? fluid_volumes_ : wall_volumes_;
   last_.pressure = norm(medium_volumes, entries, n, 1, [&](std::size_t i) { return (state.now.*medium)[i]; });
 
   StepErrors errors;
@@ -110,10 +114,10 @@ StepErrors ErrorEstimate<n>::of(const State& state, const StepData& data) {
     return dt * dt * dt * std::hypot(terms_.constant * change, shift * curvature);
   };
   const double swings = scene_time_ / dt;
-  if (has_wall)
+  if (has_wall_)
     errors.displacement =
         swings * relative(added(&Solution::wall, wall_volumes_), std::max(scale_.displacement, last_.displacement));
-  if (has_fluid)
+  if (has_fluid_)
     errors.velocity =
         swings * relative(added(&Solution::fluid, fluid_volumes_), std::max(scale_.velocity, last_.velocity));
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "parallel/communicator.hpp"
 #include "time/error_terms.hpp"
 #include "time/restart_archive.hpp"
 #include "time/state.hpp"
@@ -32,12 +33,14 @@ struct StepErrors {
 template <int n>
 class ErrorEstimate {
  public:
-  /// \param fluid_volumes, wall_volumes  of the nodes (fem/function_space.hpp), mm^3; empty: no such medium
+  /// \param fluid_volumes, wall_volumes  of the nodes (fem/function_space.hpp), mm^3; zero at those of other processes;
+  ///                                     empty: no such medium
   /// \param scene_time                   ms
+  /// \param processes                    that share the nodes, and find the same errors
   ErrorEstimate(std::vector<double> fluid_volumes, std::vector<double> wall_volumes, const ErrorTerms& terms,
-                double scene_time);
+                double scene_time, const Communicator& processes = Communicator::alone());
 
-  /// Of the solution in state.now of a step's last stage, before it is accepted.
+  /// Of the solution in state.now of a step's last stage, before it is accepted. By all processes together.
   StepErrors of(const State& state, const StepData& data);
   /// The step that of() last looked at was accepted.
   void accept(const StepData& data);
@@ -51,14 +54,16 @@ class ErrorEstimate {
   };
   /// Root of the mean over the volume of the squares of `value(i)`, summed over `count` entries of each node.
   template <class Value>
-  static double norm(const std::vector<double>& volumes, int entries, int first, int count, Value value);
+  double norm(const std::vector<double>& volumes, int entries, int first, int count, Value value) const;
 
   std::vector<double> fluid_volumes_, wall_volumes_;
   ErrorTerms terms_;
   double scene_time_;
-  int since_jump_ = 0;  ///< finished steps since the load last jumped
-  Norms scale_;         ///< of the solution
-  Norms last_;          ///< of the step that of() looked at
+  const Communicator* processes_;
+  bool has_fluid_, has_wall_;  ///< some process
+  int since_jump_ = 0;         ///< finished steps since the load last jumped
+  Norms scale_;                ///< of the solution
+  Norms last_;                 ///< of the step that of() looked at
 };
 
 extern template class ErrorEstimate<2>;

@@ -106,6 +106,31 @@ class SteadyPipe(FolderTest):
             self.assertAlmostEqual(rows["outlet"][-1, 4] / push, 0, delta=0.05)
 
 
+PRESTRESSED = """geometry = "axisymmetric"
+mesh.error = "3%"
+structure.density = 1.1
+structure.bulk_modulus = 1e4
+structure.layers.media = {material = "neo-hookean", c10 = 60.0}
+structure.layers.adventitia = {material = "neo-hookean", c10 = 60.0}
+prestress.pressure = 8.0
+load.pressure = 8.0
+static.load_steps = 2
+output.every = 1
+output.fields = ["von_mises_stress"]
+"""
+
+
+class Prestressed(FolderTest):
+    def test_the_stress_of_a_straight_tube_is_the_same_along_it(self):
+        case = self.base / "tube.toml"
+        case.write_text(PRESTRESSED)
+        stresses, points = fields(run(MONOLITHIC, case, self.base / "tube"), "wall", "von_mises_stress")
+        for radius in np.unique(points[:, 0].round(6)):
+            there = (np.abs(points[:, 0] - radius) < 1e-5) & (points[:, 2] > 4) & (points[:, 2] < 14)
+            found = stresses[-1][there]
+            self.assertLess(np.ptp(found), 0.03 * found.mean(), radius)
+
+
 class Coupled(FolderTest):
     def settings(self, case, element="p2p1", geometry="axisymmetric"):
         return (*scene(self.base, element, geometry), *forms(case), f"time.step={STEP}", *DERIVED)

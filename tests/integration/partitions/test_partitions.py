@@ -94,6 +94,21 @@ class Agreement(Processes):
                         if program == PARTITIONED and not method:
                             self.check_passes(folder, alone)
 
+    def test_adaptive_steps_are_those_of_one_process(self):
+        """Each process must find the same error of a step, and so take the same ones."""
+        steps = ("time.step=adaptive", "time.scheme=bdf2", "time.tolerance=0.3", "time.first_step=0.03", "time.end=2")
+        for program in DRIVERS:
+            with self.subTest(program=Path(program).name):
+                alone, folder = (
+                    self.march(program, NEO_HOOKEAN, ("p1", "axisymmetric"), n, *steps, name="adaptive")
+                    for n in (None, 2)
+                )
+                times, expected = (table(place, "iterations.csv")[:, 1] for place in (folder, alone))
+                self.assertEqual(len(times), len(expected))
+                self.assertGreater(len(np.unique(np.diff(times).round(6))), 3)
+                self.assertLess(np.abs(times - expected).max(), 1e-6)
+                self.assertLess(apart(folder, alone), 1e-5)
+
     def check_passes(self, folder, alone):
         """Sub-problems are solved as exactly as by one process, so that their coupling takes as many passes."""
         passes, expected = (table(place, "iterations.csv")[:, 2] for place in (folder, alone))

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,10 +15,12 @@
 #include "derived/surface_shape.hpp"
 #include "fem/elements.hpp"
 #include "fem/nodal_layout.hpp"
+#include "mesh/curved_cells.hpp"
 #include "mesh/point_math.hpp"
 #include "support/element_meshes.hpp"
 #include "support/orthogonal.hpp"
 #include "support/random.hpp"
+#include "support/vessels.hpp"
 
 namespace fsi::test {
 
@@ -191,6 +194,32 @@ TEST(ShapesOfBoundaries, AreCirclesOfARingAndNothingOfAPlate) {
         EXPECT_NEAR(dot(*straight, shape->normal), outward * (norm(y) - radius), 1e-9);
       }
     }
+  }
+}
+
+// Surfaces that were segmented leave more than a shape explains: layers straightened by it bend by more than they are thick.
+TEST(ShapesOfBoundaries, AreNoneOfARoughTube) {
+  for (const bool rough : {false, true}) {
+    auto mesh = with_curved_edges(tube_mesh(4, 3, 8), 1);
+    std::mt19937 numbers(5);
+    std::uniform_real_distribution<double> off(-0.02, 0.02);
+    for (Point& x : mesh.nodes) {
+      const double by = rough ? off(numbers) : 0;
+      x[0] *= 1 + by;
+      x[1] *= 1 + by;
+    }
+    RecoveryCells cells{mesh.nodes, {}, 10, 2, {0, 1, 2}};
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      if (mesh.regions[static_cast<std::size_t>(mesh.cell_region[c])] == "media")
+        cells.nodes.insert(cells.nodes.end(), mesh.cells[c].begin(), mesh.cells[c].end());
+    const SurfaceShapes shapes(cells);
+    int found = 0, nodes = 0;
+    for (int a = 0; a < static_cast<int>(mesh.nodes.size()); ++a) {
+      if (std::find(cells.nodes.begin(), cells.nodes.end(), a) == cells.nodes.end()) continue;
+      ++nodes;
+      if (shapes.at(a) != nullptr) ++found;
+    }
+    EXPECT_EQ(found, rough ? 0 : nodes);
   }
 }
 
