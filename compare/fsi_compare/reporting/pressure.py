@@ -23,6 +23,7 @@ Prints differences, peaks and peak speeds, and writes to OUTDIR:
   pressure_waves.csv         all runs at the selected times
   pressure_waves.png, .svg   one panel per time
   pressure_waves.json        the printed numbers in full precision
+Runs that end before 9 ms, or from 18 ms on, are compared at six times up to the end of the shortest.
 Runs whose meshes, time steps or lengths differ are compared with a warning.
 Of bent tubes the pressure is that along the centre line that was found, z being its arc length. Where a run
 has none, flows, points, lines and planes that all runs have are compared, in sample_differences.csv."""
@@ -52,6 +53,9 @@ def pressure(options: argparse.Namespace) -> int:
         return compare_samples(options.folders, labels, options.output, options.quiet)
     runs = [read_run(folder) for folder in options.folders]
     labels = labels or default_labels(runs)
+    end = min(float(run.pressure.times[-1]) for run in runs)
+    if options.times == PAPER_TIMES and not 9 <= end < 18:
+        times = [end * part / 6 for part in range(1, 7)]
     check_comparable(runs, times)
     title = title_of(options.title, [run.title for run in runs], "Pressure along the centre line")
     with together(options.output) as place:

@@ -119,7 +119,7 @@ class Surfaces:
     @property
     def openings(self) -> list[str]:
         """Names of the openings that were found on the fluid's boundary."""
-        return list(self._parts_of_fluid[1])
+        return list(self._parts_of_fluid[1]) if "fluid" in self.media else []
 
     def get(self, name: str) -> Surface:
         """The surface of this name. Raises InputError."""
@@ -174,25 +174,35 @@ class Surfaces:
 
     @cached_property
     def _wholes(self) -> dict[str, Boundary]:
-        """Boundary of each medium, without the axis of an axisymmetric scene."""
+        """Boundary of each medium, without the axis of an axisymmetric scene and faces between layers, which two have."""
         found = {}
         for name, medium in self.media.items():
             whole = boundary_of(medium.points, medium.cells, self.up)
             if self.geometry == "axisymmetric":
                 radius = np.abs(medium.points[whole.faces][:, :, 0])
                 whole = whole.some(~np.all(radius < 1e-9 * np.ptp(medium.points), axis=1))
-            found[name] = whole
+            found[name] = whole.some(_counts(np.sort(self._places[name][whole.faces], axis=1)) == 1)
         return found
 
     @cached_property
-    def _shared(self) -> dict[str, np.ndarray]:
-        """Whether each face of a medium is also one of the other. Nodes there have the same places, to the bit."""
+    def _places(self) -> dict[str, np.ndarray]:
+        """Numbers of the places of each medium's nodes. Nodes of two media or layers have the same ones, to the bit."""
         points = [medium.points for medium in self.media.values()]
         numbers = np.unique(np.concatenate(points), axis=0, return_inverse=True)[1]
-        places = dict(zip(self.media, np.split(numbers, np.cumsum([len(each) for each in points])[:-1])))
-        keys = [np.sort(places[name][whole.faces], axis=1) for name, whole in self._wholes.items()]
-        of, counts = np.unique(np.concatenate(keys), axis=0, return_inverse=True, return_counts=True)[1:]
-        return dict(zip(self.media, np.split(counts[of] == 2, np.cumsum([len(each) for each in keys])[:-1])))
+        return dict(zip(self.media, np.split(numbers, np.cumsum([len(each) for each in points])[:-1])))
+
+    @cached_property
+    def _shared(self) -> dict[str, np.ndarray]:
+        """Whether each face of a medium is also one of the other."""
+        keys = [np.sort(self._places[name][whole.faces], axis=1) for name, whole in self._wholes.items()]
+        counts = _counts(np.concatenate(keys))
+        return dict(zip(self.media, np.split(counts == 2, np.cumsum([len(each) for each in keys])[:-1])))
+
+
+def _counts(keys: np.ndarray) -> np.ndarray:
+    """How often each row is there."""
+    of, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)[1:]
+    return counts[of]
 
 
 def made(name: str, medium: MediumFields, parts: np.ndarray) -> Surface:

@@ -48,6 +48,13 @@ class CommandLine(FolderCase):
         self.assertEqual(out.count("speed between 4.5 and 9 ms: 0.6600 mm/ms"), 2)
         self.assertIn("49.5000", out)
 
+    def test_times_of_short_runs(self):
+        short = write_run(self.base / "short", parabola(0.5), times=np.arange(1, 31) / 10)
+        code, _, err = self.call("pressure", short, short, "-o", self.out, "-q")
+        self.assertEqual((code, err), (0, ""))
+        times = sorted({float(row["time_ms"]) for row in self.csv("pressure_waves.csv")})
+        self.assertEqual(times, [0.5, 1, 1.5, 2, 2.5, 3])
+
     def test_csv(self):
         self.call("pressure", self.one, self.two, "-o", self.out, "--times", "3,1.55", "--labels", "mono, part", "-q")
         rows = self.csv("pressure_waves.csv")
@@ -171,6 +178,8 @@ class CommandLine(FolderCase):
             short,
             "-o",
             self.out,
+            "--times",
+            "1.5,3,4.5",
         )
 
     def test_other_length(self):

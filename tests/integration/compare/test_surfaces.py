@@ -9,14 +9,16 @@ import numpy as np
 from folder_case import FolderCase
 from synthetic import write_run
 from synthetic_fields import (
+    boxes,
+    channel,
+    channel_fields,
+    displacement,
+    half_plane,
     LENGTH,
+    pressure,
     TIMES,
     WALL,
     WIDTH,
-    channel,
-    channel_fields,
-    half_plane,
-    pressure,
     write_fields,
     write_turned,
 )
@@ -109,6 +111,18 @@ class OfAChannel(FolderCase):
             InputError, "has no surface 'up'.* It has lumen, openings, down or up 1, down or up 2"
         ):
             run.surface("up")
+
+    def test_layers_have_nodes_of_their_own(self):
+        y, z = np.linspace(0, WIDTH, 3), np.linspace(0, LENGTH, 7)
+        inner, outer = (boxes(WIDTH + WALL * np.array(x), y, z) for x in ((0, 0.5), (0.5, 1)))
+        wall = np.concatenate([inner[0], outer[0]]), np.concatenate([inner[1], outer[1] + len(inner[0])])
+        for media in ({"fluid": channel()["fluid"], "wall": wall}, {"wall": wall}):
+            write_fields(self.folder, media, {name: {"displacement": ("mm", displacement)} for name in media})
+            run = open_run(self.folder)
+            self.assertEqual("inner" in run.meshes.names, "fluid" in media)
+            sides = 2 * WIDTH * WALL + 2 * WALL * LENGTH + WIDTH * LENGTH
+            self.assertAlmostEqual(area(run.surface("outer")), sides + (0 if "fluid" in media else WIDTH * LENGTH))
+        self.assertEqual(run.meshes.openings, [])
 
     def test_nothing_tells_openings_from_walls(self):
         write_fields(self.folder, factor=0.0)
