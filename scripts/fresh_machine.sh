@@ -10,6 +10,7 @@
 #   --short             packages, configuring, one program, and a run of it
 #   --package FILE.deb  not the sources: installs a Debian package and runs the commands of docs/guide/tutorial.md by its programs
 #   --container         not README's commands: the steps of containers/Containerfile, and the entry point of what they make
+#   --arm               beside --container: on 64-bit Arm, by qemu; the compiler's passes alone are a cross compiler's
 #   --suite NAME        which Debian: bookworm (12), trixie (13) or testing; otherwise bookworm
 #   --level v2|v3|v4    a lower processor level, x86-64-v3 for one: programs are compiled for it, and libraries that choose
 #                       by the processor (OpenBLAS, glibc, numpy) choose for it. This is no emulator: an instruction
@@ -31,7 +32,7 @@ fail() {
   exit 1
 }
 
-mode=clone tests=yes serial="" suite=bookworm level="" package="" debs="" cache="" keep=no folder="" log=$top/build/fresh_machine.log
+mode=clone tests=yes serial="" arm="" suite=bookworm level="" package="" debs="" cache="" keep=no folder="" log=$top/build/fresh_machine.log
 choose() {
   [ "$mode" = clone ] || fail "--$1 beside --$mode: these are different things to try; give one of them"
   mode=$1
@@ -45,6 +46,7 @@ while [ $# -gt 0 ]; do
     --help) sed -n '2,/^set /s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" && exit 0 ;;
     --no-tests) tests=no ;;
     --serial) serial=--serial ;;
+    --arm) arm=--arm ;;
     --short | --container) choose "${1#--}" ;;
     --package) choose package && package=$2 && shift ;;
     --suite) suite=$2 && shift ;;
@@ -66,6 +68,8 @@ case "$suite" in bookworm | trixie | testing) ;; *) fail "--suite $suite: the su
 [ "$mode" != container ] || [ "$suite" = bookworm ] || fail "--suite beside --container: the container file names its own Debian"
 case "$level" in "" | v2 | v3 | v4) ;; *) fail "--level $level: the levels are v2, v3 and v4" ;; esac
 [ -z "$serial" ] || [ "$mode" = clone ] || fail "--serial beside --$mode: it is for README's commands"
+[ -z "$arm" ] || [ "$mode" = container ] || fail "--arm beside --$mode: it is for --container"
+[ -z "$arm" ] || [ -z "$level" ] || fail "--level beside --arm: a level is one of x86-64"
 [ -z "$level" ] || /lib64/ld-linux-x86-64.so.2 --help | grep -q "x86-64-$level (supported" ||
   fail "--level $level: this machine's processor does not have it; a level can only be lowered"
 [ "$mode" != package ] || dpkg-deb --field "$package" Package >/dev/null 2>&1 ||
@@ -77,6 +81,10 @@ case "$level" in "" | v2 | v3 | v4) ;; *) fail "--level $level: the levels are v
 for needed in "mmdebstrap mmdebstrap" "git git"; do
   command -v "${needed%% *}" >/dev/null || fail "${needed%% *} is missing; install the Debian package ${needed##* }"
 done
+# shellcheck source=fresh_machine/arm.sh
+. "$here/fresh_machine/arm.sh"
+lacks=${arm:+$(arm_lacks)}
+[ -z "$lacks" ] || fail "--arm: $lacks"
 git -C "$top" rev-parse --verify --quiet HEAD >/dev/null || fail "$top is no git repository with a commit to clone"
 unshare --mount --pid --fork true 2>/dev/null ||
   fail "the kernel does not allow this user mount and process namespaces (within a container: start it privileged)"
@@ -110,7 +118,7 @@ remove_machine() {
 # In namespaces of their own: what is mounted goes, and what still runs is killed, with the first process there; and that
 # one with unshare, and that with this script, however it ends.
 run_stages() {
-  export fresh_mode=$mode fresh_tests=$tests fresh_serial=$serial fresh_suite=$suite fresh_level=$level
+  export fresh_mode=$mode fresh_tests=$tests fresh_serial=$serial fresh_arm=$arm fresh_suite=$suite fresh_level=$level
   export fresh_debs=${debs:+$(cd "$debs" && pwd)} fresh_log=$log
   export fresh_package=${package:+$(realpath "$package")} fresh_ccache=${cache:+$(cd "$cache" && pwd)} fresh_folder=$folder
   setpriv --pdeathsig KILL unshare --mount --propagation private --pid --mount-proc --fork --kill-child \

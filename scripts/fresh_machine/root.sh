@@ -29,8 +29,10 @@ make_root() {
       options+=(--setup-hook="mkdir -p \"\$1/etc/apt/trusted.gpg.d\"; cp $keys/* \"\$1/etc/apt/trusted.gpg.d\"")
   done
   [ -z "$ccache_folder" ] || options+=(--include=ccache)
+  [ -z "$fresh_arm" ] || options+=(--architectures=arm64)
   debian_sources | mmdebstrap --mode=root --variant=minbase --format=directory --dpkgopt=force-unsafe-io \
     "${options[@]}" "$suite" "$1" -
+  [ -z "$fresh_arm" ] || arm_compiler "$1"
   enter_root "$1"
 }
 

@@ -8,7 +8,7 @@ measured=$fresh_folder not_measured=ccache
 root=$fresh_folder/root
 clone=/home/user/fsi-duo # in there
 serial=(${fresh_serial:+"$fresh_serial"})
-for part in table level root container; do
+for part in table level arm root container; do
   # shellcheck disable=SC1090
   . "$here/$part.sh"
 done
@@ -98,7 +98,7 @@ try_package() {
 
 main() {
   local changed
-  say "fsi-duo $(git -C "$top" rev-parse --short HEAD) on a fresh Debian ($suite), processor level: ${level:-that of this machine}"
+  say "fsi-duo $(git -C "$top" rev-parse --short HEAD) on a fresh Debian ($suite), processor level: ${level:-that of this machine}${fresh_arm:+; 64-bit Arm by qemu}"
   changed=$(git -C "$top" status --porcelain | wc -l)
   [ "$changed" -eq 0 ] || say "$changed files of the sources differ from this commit; the machine has the commit's"
   stage "minimal Debian" make_root "$root"

@@ -65,6 +65,8 @@ class Arguments(ScratchTest):
         self.assertIn("--level v5: the levels are v2, v3 and v4", self.refused("--level", "v5"))
         self.assertIn("--container beside --short", self.refused("--short", "--container"))
         self.assertIn("--serial beside --short", self.refused("--short", "--serial"))
+        self.assertIn("--arm beside --short", self.refused("--short", "--arm"))
+        self.assertIn("--level beside --arm", self.refused("--container", "--arm", "--level", "v2"))
         self.assertIn("two folders, a and b", self.refused("a", "b"))
         self.assertIn("--debs nowhere: there is no such folder", self.refused("--debs", "nowhere"))
         self.assertIn("--ccache nowhere: there is no such folder", self.refused("--ccache", "nowhere"))
