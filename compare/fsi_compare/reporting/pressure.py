@@ -7,7 +7,7 @@ from typing import Sequence
 
 from ..base.errors import InputError, say_warning
 from ..base.files import together
-from ..base.options import Commands, add_command, add_folders, add_labels, add_output, add_times, add_usual
+from ..base.options import Commands, add_command, add_folders, add_labels, add_output, add_usual
 from ..runs.labels import default_labels, read_labels, title_of
 from ..runs.run_folder import ALONG_AXIS, Run, pressure_file, read_run
 from .layout import say_written
@@ -15,7 +15,7 @@ from .matplotlib_loader import load_matplotlib
 from .samples import compare_samples, without_centre_line
 
 MOST_TIMES = 60
-PAPER_TIMES = "1.5,3,4.5,6,7.5,9"
+PARTS, PAPER_END = 6, 9.0  # ms: the paper compares at six equal parts of it
 
 DESCRIPTION = """\
 Compares the pressure along the centre line. The first run is the reference.
@@ -23,7 +23,6 @@ Prints differences, peaks and peak speeds, and writes to OUTDIR:
   pressure_waves.csv         all runs at the selected times
   pressure_waves.png, .svg   one panel per time
   pressure_waves.json        the printed numbers in full precision
-Runs that end before 9 ms, or from 18 ms on, are compared at six times up to the end of the shortest.
 Runs whose meshes, time steps or lengths differ are compared with a warning.
 Of bent tubes the pressure is that along the centre line that was found, z being its arc length. Where a run
 has none, flows, points, lines and planes that all runs have are compared, in sample_differences.csv."""
@@ -39,7 +38,12 @@ def add_parser(commands: Commands, version: str) -> None:
     command = add_command(commands, "pressure", pressure, "pressure waves along the centre line", DESCRIPTION, EXAMPLES)
     add_folders(command)
     add_output(command, "results/compare")
-    add_times(command, PAPER_TIMES)
+    end = f"{PAPER_END:g} ms, or of the shortest run if it ends earlier or not before {2 * PAPER_END:g} ms"
+    command.add_argument(
+        "--times",
+        metavar="T,T,...",
+        help=f"times in ms; linear between time steps (default: {PARTS} equal parts of {end})",
+    )
     add_labels(command, "program, case or folder")
     command.add_argument("--title", help="heading of the picture (default: the runs' title)")
     add_usual(command, version, "accepted as by all programs; this comparison is quick on one thread")
@@ -53,9 +57,10 @@ def pressure(options: argparse.Namespace) -> int:
         return compare_samples(options.folders, labels, options.output, options.quiet)
     runs = [read_run(folder) for folder in options.folders]
     labels = labels or default_labels(runs)
-    end = min(float(run.pressure.times[-1]) for run in runs)
-    if options.times == PAPER_TIMES and not 9 <= end < 18:
-        times = [end * part / 6 for part in range(1, 7)]
+    if not times:
+        end = min(float(run.pressure.times[-1]) for run in runs)
+        end = PAPER_END if PAPER_END <= end < 2 * PAPER_END else end
+        times = [end * part / PARTS for part in range(1, PARTS + 1)]
     check_comparable(runs, times)
     title = title_of(options.title, [run.title for run in runs], "Pressure along the centre line")
     with together(options.output) as place:

@@ -50,6 +50,8 @@ class CommandLine(FolderCase):
 
     def test_times_of_short_runs(self):
         short = write_run(self.base / "short", parabola(0.5), times=np.arange(1, 31) / 10)
+        asked = "1.5,3,4.5,6,7.5,9"  # those of long runs, by name: refused, not replaced
+        self.assert_refused("4.5 ms is outside the run", "pressure", short, short, "-o", self.out, "--times", asked)
         code, _, err = self.call("pressure", short, short, "-o", self.out, "-q")
         self.assertEqual((code, err), (0, ""))
         times = sorted({float(row["time_ms"]) for row in self.csv("pressure_waves.csv")})
